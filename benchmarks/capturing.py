@@ -16,27 +16,27 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from measure import Measured, Sizes, median, that_count, timed
-from zlmreport.capture.events import Recorded
-from zlmreport.capture.follower import Follower
-from zlmreport.capture.journal import Journal, captured
-from zlmreport.capture.records import Header
-from zlmreport.capture.visits import Settings, start_of, visit_list
-from zlmreport.emulation.channels import PseudoTerminal, serve
-from zlmreport.emulation.emulator import Emulator, MovingAxis, Scene, Troubles
-from zlmreport.live.dialogue import Decoder
+from zlmreport.live.capture.events import Recorded
+from zlmreport.live.capture.follower import Follower
+from zlmreport.live.capture.journal import Journal, captured
+from zlmreport.live.capture.records import Header
+from zlmreport.live.capture.visits import Settings, start_of, visit_list
+from zlmreport.live.emulation.channels import PseudoTerminal, serve
+from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Scene, Troubles
+from zlmreport.live.ports.dialogue import Decoder
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.planning.methods import Method
-from zlmreport.planning.plan import Plan
-from zlmreport.plugins import find_plugins
-from zlmreport.simulation.description import Description
-from zlmreport.simulation.simulate import emulated_machine
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.planning.plan import Plan
+from zlmreport.model.simulation.description import Description
+from zlmreport.model.simulation.simulate import emulated_machine
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.instruments.text_readout import TextDecoder, TextReadoutOptions
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
 from zlmreport_plugins.instruments.umd.lines import MODELS
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
-from capture.bad_lines import LINES, on_a_bad_line
-from capture.wandering import trial
+from live.capture.bad_lines import LINES, on_a_bad_line
+from live.capture.wandering import trial
 
 #: 100 times the fastest device's 1000 samples a second: µs for each.
 _LONGEST = 10.0

@@ -18,16 +18,16 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 from zlmreport.cli import main as zlmreport
-from zlmreport.emulation.emulator import Scene
 from zlmreport.job.simulation import load_simulation
-from zlmreport.plugins import find_plugins
-from zlmreport.simulation.files import description_of
-from zlmreport.simulation.simulate import EmulatedMachine, emulated_machine
+from zlmreport.live.emulation.emulator import Scene
+from zlmreport.model.simulation.files import description_of
+from zlmreport.model.simulation.simulate import EmulatedMachine, emulated_machine
+from zlmreport.plugin.registry import find_plugins
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 sys.path.append(str(Path(__file__).parent))
 import on_linuxcnc
-from capture.virtual import PORT, World, inhabited
+from live.capture.virtual import PORT, World, inhabited
 
 _ROOT = Path(__file__).parents[1]
 EXAMPLE = _ROOT / "configs" / "closed-loop"

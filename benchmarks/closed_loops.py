@@ -12,22 +12,22 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from zlmreport.compensation.basis import FittedModel, basis_of_means, basis_of_model, with_table
-from zlmreport.compensation.confirmation import ConfirmationVerdict, confirm
-from zlmreport.compensation.curve import curve_of
-from zlmreport.compensation.forecast import figures
-from zlmreport.compensation.making import Made, make
 from zlmreport.errors import Place
+from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.fit import fit
-from zlmreport.model.observations import observations_of
-from zlmreport.planning.plan import Plan
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.arrays import read_only_floats
-from zlmreport.simulation.description import Description, Noise
-from zlmreport.simulation.simulate import simulate
+from zlmreport.model.compensation.basis import FittedModel, basis_of_means, basis_of_model, with_table
+from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
+from zlmreport.model.compensation.curve import curve_of
+from zlmreport.model.compensation.forecast import figures
+from zlmreport.model.compensation.making import Made, make
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.planning.plan import Plan
+from zlmreport.model.simulation.description import Description, Noise
+from zlmreport.model.simulation.simulate import simulate
+from zlmreport.plugin.registry import Registry, find_plugins
 
 _PLACE = Place("loop")
 _UM = 1e-6

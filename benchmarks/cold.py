@@ -14,7 +14,7 @@ from measure import Measured, Sizes, alternately, cost_of_command, cpu, median, 
 from sample import write_job
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 PLAIN_RECIPE = Path(__file__).with_name("plain.py")
 

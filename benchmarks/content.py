@@ -12,24 +12,23 @@ from html import escape
 from itertools import count
 from typing import Any
 
-from zlmreport.certificate.document import (
+from zlmreport.document.blocks import (
     Block,
     Cell,
-    Certificate,
     Explained,
     Facts,
     Formulas,
     Graph,
     Notice,
-    PageWords,
     Paragraph,
     Symbol,
     Table,
     Verdict,
 )
-from zlmreport.figures.figure import Figure, Panel
+from zlmreport.document.certificate.document import Certificate, PageWords
+from zlmreport.document.figures.figure import Figure, Panel
 from zlmreport.language import Language, Words
-from zlmreport.quantities.formatting import Span, plain, spans
+from zlmreport.language.formatting import Span, plain, spans
 
 Content = dict[str, Any]
 

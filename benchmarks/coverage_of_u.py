@@ -17,17 +17,17 @@ from functools import partial
 import numpy as np
 
 from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.uncertainty.axis_interval import axis_intervals
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution, effect_along
+from zlmreport.evaluation.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
+from zlmreport.evaluation.uncertainty.monte_carlo import propagate, single_draws
 from zlmreport.job.types import Options
 from zlmreport.language import same
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import simulated_test
-from zlmreport.uncertainty.axis_interval import axis_intervals
-from zlmreport.uncertainty.budget import Acts, Budget, Contribution, Distribution, effect_along
-from zlmreport.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
-from zlmreport.uncertainty.monte_carlo import propagate, single_draws
 
 _MICROMETRE = 1e-6
 #: Standard deviation of the readings, µm, and the full ranges of drift beside it.

@@ -24,7 +24,7 @@ from measure import Measured, own_process
 from sample import write_job
 from zlmreport.job.loading import load
 from zlmreport.pipeline import run
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 WORKERS = 2
 #: By then caches are full and libraries warm.

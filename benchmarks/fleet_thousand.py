@@ -23,9 +23,9 @@ from sample import write_job
 from zlmreport.fleet import workers
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.night import Order, spend
-from zlmreport.fleet.plan import Planned
-from zlmreport.fleet.records import Notice
+from zlmreport.fleet.night import Order, spend_night
+from zlmreport.fleet.plan import PlannedJob
+from zlmreport.fleet.records import NightNotice
 from zlmreport.job.fleet import load_fleet
 
 #: By then caches are full and libraries warm.
@@ -51,13 +51,13 @@ class _Watch:
         self.memory: list[float] = []
         self.failed: list[str] = []
 
-    def planned(self, jobs: Sequence[Planned]) -> None:
+    def planned(self, jobs: Sequence[PlannedJob]) -> None:
         """Nothing is noted of it."""
 
     def learned(self, file: Path) -> None:
         """Nothing is noted of it."""
 
-    def noticed(self, notice: Notice) -> None:
+    def noticed(self, notice: NightNotice) -> None:
         """Note it as a failure."""
         self.failed.append(notice.text)
 
@@ -101,7 +101,7 @@ def _measured(folder: Path, number: int, renderer: str) -> Iterator[Measured]:
         write_job(folder / "jobs", f"FULL-{index:05}")
     watch, begun = _Watch(), time.perf_counter()
     fleet = load_fleet(file)
-    spend(fleet, Order(), watch)
+    spend_night(fleet, Order(), watch)
     seconds = time.perf_counter() - begun
     if watch.failed:
         raise SystemExit("\n".join(watch.failed))

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from datetime import date, timedelta
 
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import Entry, RecordedParameter, State
+from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State
 from zlmreport.fleet.trend import Calibration, Series
 
 LIMIT = 20.0
@@ -26,7 +26,7 @@ CHANGED_AT = 7
 #: Of the fleet in which one parameter drifts.
 _AXES, _PARAMETERS = 25, 12
 _FIRST = date(2020, 1, 15)
-_ENTRY = Entry(job="", night="", state=State.MADE)
+_ENTRY = LedgerEntry(job="", night="", state=State.MADE)
 
 #: How the axes of a fleet scatter, by what the table calls it.
 SCATTERS: dict[str, Callable[[random.Random], float]] = {

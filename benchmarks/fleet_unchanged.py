@@ -25,7 +25,7 @@ from sqlalchemy.engine import Engine
 
 import report
 from measure import Measured
-from zlmreport.fleet.basis import KnownFile, Look, path_in, sha256_of
+from zlmreport.fleet.basis import FileStamp, KnownFile, path_in, sha256_of
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.job.fleet import load_fleet
 
@@ -130,7 +130,7 @@ def _seed(folder: Path, numbers: Iterable[int]) -> None:
 
 
 def _known(file: KnownFile, path: Path, folder: Path) -> KnownFile:
-    return KnownFile(file.role, path_in(folder, path), sha256_of(path), Look.at(path))
+    return KnownFile(file.role, path_in(folder, path), sha256_of(path), FileStamp.at(path))
 
 
 def _not_durable(connection: Any, _record: Any) -> None:

@@ -10,10 +10,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from zlmreport.capture.events import Missed, Recorded
+from zlmreport.live.capture.events import Missed, Recorded
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
-from capture.killing import killed_capture
+from live.capture.killing import killed_capture
 
 
 def main(arguments: Sequence[str]) -> None:

@@ -12,7 +12,7 @@ from measure import Measured, Sizes, own_process, resident_megabytes
 from sample import write_job
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose, run
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 #: By then caches are full and libraries warm.
 _SETTLED = 50

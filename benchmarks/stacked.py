@@ -13,9 +13,9 @@ from measure import Cost, Measured, Sizes, alternately, cpu, median, peak_megaby
 from sample import RUNS, TARGETS
 from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.plugin.protocols import Standard
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin.registry import find_plugins
 
 STANDARDS = (
     "iso230-2:1988",

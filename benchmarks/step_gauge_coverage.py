@@ -16,13 +16,7 @@ import numpy as np
 
 from zlmreport.errors import Place
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.job.types import Options
-from zlmreport.language import same
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import BoolArray
-from zlmreport.uncertainty.budget import (
+from zlmreport.evaluation.uncertainty.budget import (
     Acts,
     Budget,
     Contribution,
@@ -30,7 +24,13 @@ from zlmreport.uncertainty.budget import (
     from_range,
     temperature_range,
 )
-from zlmreport.uncertainty.expanded import mean_uncertainty
+from zlmreport.evaluation.uncertainty.expanded import mean_uncertainty
+from zlmreport.job.types import Options
+from zlmreport.language import same
+from zlmreport.measurement.arrays import BoolArray
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.calibration import read_calibration, section
 from zlmreport_step_gauge.deviations import deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge

@@ -30,7 +30,7 @@ from measure import (
 from sample import write_job
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose, render, run
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 WEASYPRINT, TYPST = "pdf", "pdf-typst"
 

@@ -15,7 +15,7 @@ from measure import Cost, Measured, Sizes, cpu, median, own_process, ratio, that
 from sample import write_job
 from zlmreport.job.loading import load
 from zlmreport.pipeline import run
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 #: For tagged PDF by WeasyPrint, graphs as vectors, and tables that are tables.
 _TARGET = 0.40
@@ -98,7 +98,7 @@ def _by_zlmreport(job: Path) -> _Product:
 def _by_zlmreport_through_svg(job: Path) -> _Product:
     from weasyprint.images import SVGImage  # noqa: PLC0415 - in this process only
 
-    from zlmreport.figures.draw import to_svg  # noqa: PLC0415 - in this process only
+    from zlmreport.document.figures.draw import to_svg  # noqa: PLC0415 - in this process only
     from zlmreport_plugins.renderers.pdf import press  # noqa: PLC0415 - in this process only
 
     class Svg(press.PageGraph):  # type: ignore[misc]

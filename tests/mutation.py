@@ -17,8 +17,8 @@ _ROOT = Path(__file__).parents[1]
 _ROOMS = {
     "decision": "zlmreport.evaluation.decision.",
     "evaluation": "zlmreport.evaluation.",
-    "uncertainty": "zlmreport.uncertainty.",
-    "place": "zlmreport.capture.place.",
+    "uncertainty": "zlmreport.evaluation.uncertainty.",
+    "place": "zlmreport.live.capture.place.",
     "ledger": "zlmreport.fleet.ledger.",
     "verification": "zlmreport.verification.",
 }

@@ -9,7 +9,7 @@ from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStand
 from testing.exemplary_effect import ExemplaryEffect
 from testing.exemplary_program import ExemplaryProgram
 from zlmreport.plugin import hookimpl
-from zlmreport.plugins import Plugin, Registry, collect
+from zlmreport.plugin.registry import Plugin, Registry, collect
 
 
 def offering(  # noqa: PLR0913, PLR0917 - one for each kind

@@ -19,6 +19,7 @@ EXCEPTIONS = {
     "src/zlmreport/fleet/database.py": "a lock, which holds who has it",
     "src/zlmreport/testing/sources.py": "damaged copies in a temporary folder",
     "src/zlmreport/verification/attached.py": "a temporary folder",
+    "src/zlmreport/verification/readers.py": "a temporary folder, for programs of the system",
 }
 
 

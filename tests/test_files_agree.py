@@ -7,9 +7,9 @@ from io import BytesIO
 import pypdf
 import pytest
 
-from certificate.documents import COMPLETE, job, registry
+from document.certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
-from zlmreport.quantities.formatting import fixed_number, rounded_pair
+from zlmreport.language.formatting import fixed_number, rounded_pair
 
 STANDARDS = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "vdi-vde-2617", "nmtba"]
 DECIMALS = 2  # those of the readings

@@ -7,8 +7,8 @@ from io import BytesIO
 import pikepdf
 import pytest
 
+from document.typesetting import samples
 from pdf_conformance import complaints
-from typesetting import samples
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 

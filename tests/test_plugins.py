@@ -20,7 +20,7 @@ from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.plugin import hookimpl
 from zlmreport.plugin.kinds import EFFECT, SOURCE, STANDARD
-from zlmreport.plugins import DISABLE, FILES, Plugin, Registry, collect, find_plugins
+from zlmreport.plugin.registry import DISABLE, FILES, Plugin, Registry, collect, find_plugins
 
 SOUND_PLUGIN = (Plugin("sound", "sound_module"), offering([ExemplaryStandard()]))
 
@@ -296,7 +296,8 @@ def test_plugin_can_be_switched_off(install: Any) -> None:
 
 
 def test_built_in_plugins_are_found_by_their_entry_points() -> None:
-    names = {point.name for point in distribution("zlmreport").entry_points if point.group == "zlmreport"}
+    points = distribution("zlmreport").entry_points
+    names = {point.name for point in points if point.group.startswith("zlmreport.")}
     registry = find_plugins({})
     found = {each.plugin.name for each in registry.offers() if each.plugin.distribution == "zlmreport"}
     assert registry.failed == ()

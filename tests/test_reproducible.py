@@ -12,7 +12,7 @@ import pytest
 
 from environments import ROOT
 from processes import PYTHON, run
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 JOB = """\
 schema: zlmreport/job/1

@@ -12,7 +12,7 @@ from pdf_conformance import complaints
 from verification.issued import with_page_content
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.verify import verify
 
 JOB = """\

@@ -11,7 +11,7 @@ from itertools import product
 import numpy as np
 
 from hidden_effects.strangers import STRANGERS
-from zlmreport.planning.methods import Method
+from zlmreport.model.planning.methods import Method
 from zlmreport_plugins.effects import zlmreport_effects
 
 SIZES = (0.6, 1.0, 2.0)

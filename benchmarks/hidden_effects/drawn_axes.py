@@ -11,11 +11,11 @@ import math
 import numpy as np
 
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
-from zlmreport.planning.methods import Method
-from zlmreport.planning.plan import Plan
-from zlmreport.planning.targets import target_positions
-from zlmreport.quantities.units import ZERO_CELSIUS
-from zlmreport.simulation.description import Course, Description
+from zlmreport.measurement.units import ZERO_CELSIUS
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.targets import target_positions
+from zlmreport.model.simulation.description import Course, Description
 
 _TABLE_ROWS = 21
 _ROUGHNESS = 0.15

@@ -19,16 +19,16 @@ from hidden_effects.judge import INSTALLED, named
 from hidden_effects.records import Record
 from hidden_effects.trial import OF_A_GAUGE, Measured, Trial, drawn_trial, measured, sum_of
 from hidden_effects.weather import wandering
-from zlmreport.model.axis_model import ModelError
-from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Verdict, diagnose
-from zlmreport.model.observations import observations_of
-from zlmreport.model.sessions import held_together, with_zeros
-from zlmreport.planning.deciding import question_of_tie
-from zlmreport.planning.experiment import Experiment, next_experiment
-from zlmreport.planning.plan import Expected, Plan
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.simulation.description import Noise, noise_of
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.fitting.sessions import held_together, with_zeros
+from zlmreport.model.planning.deciding import question_of_tie
+from zlmreport.model.planning.experiment import Experiment, next_experiment
+from zlmreport.model.planning.plan import Expected, Plan
+from zlmreport.model.simulation.description import Noise, noise_of
 
 #: Targets and runs of tests that leave ties.
 _TARGETS, _RUNS = (7, 9, 11, 15), (2, 3, 4)

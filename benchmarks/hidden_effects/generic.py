@@ -22,11 +22,11 @@ from hidden_effects.sizes import base_columns, beyond
 from hidden_effects.sparse import sparse
 from hidden_effects.stepwise import stepwise
 from hidden_effects.trial import Trial
-from zlmreport.correction.refractive_index import index_change
-from zlmreport.model.design import Design
-from zlmreport.model.observations import Observations
-from zlmreport.planning.methods import Method
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.refractive_index import index_change
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import Observations
+from zlmreport.model.planning.methods import Method
 
 #: Share of the visible hidden deviation that the leading term, sine and cosine together, must describe.
 _ROUGHLY = 0.6

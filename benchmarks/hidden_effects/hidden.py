@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hidden_effects.sizes import beyond
-from zlmreport.model.axis_model import Term
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Dimension, Effect, Parameter
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.axis_model import Term
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Dimension, Effect, Parameter
 
 #: A deviation of which a smaller share is left is imitated entirely.
 _INVISIBLE = 1e-6

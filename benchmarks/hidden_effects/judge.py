@@ -9,9 +9,10 @@ from typing import Any
 from hidden_effects import generic, prediction
 from hidden_effects.cases import Case, Kind
 from hidden_effects.trial import EFFECTS, Trial, drawn_trial
-from zlmreport.model.axis_model import AxisModel, ModelError
-from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
-from zlmreport.model.observations import Observations, observations_of
+from zlmreport.language import Language
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.fitting.observations import Observations, observations_of
 
 INSTALLED = tuple(EFFECTS.values())
 #: Effects that a user who believes the first candidate would add to find a pair, and one more.
@@ -87,7 +88,7 @@ def _said(diagnosis: Diagnosis) -> Mapping[str, Any]:
             for each in diagnosis.candidates
         ],
         "further": list(diagnosis.further),
-        "shape": diagnosis.unnamed.shape.en if diagnosis.unnamed else None,
+        "shape": diagnosis.remainder.shape.in_language(Language.ENGLISH) if diagnosis.remainder else None,
         "outliers": len(diagnosis.outliers),
     }
 

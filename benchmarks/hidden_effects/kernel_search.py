@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
 
 _DEPTH = 3
 

@@ -13,16 +13,15 @@ from hidden_effects.cases import Case, Kind, Scatter
 from hidden_effects.judge import INSTALLED, named
 from hidden_effects.records import Record
 from hidden_effects.tables.markdown import table
-from hidden_effects.tables.outcome import judged as of_judged
-from hidden_effects.tables.outcome import outcome
+from hidden_effects.tables.outcome import judged as of_judged, outcome
 from hidden_effects.tables.shares import Share
 from hidden_effects.trial import ROTARY, drawn_trial
-from zlmreport.model.axis_model import ModelError
-from zlmreport.model.diagnosis import diagnose
-from zlmreport.model.fit import Fit, fit
-from zlmreport.model.observations import observations_of
-from zlmreport.model.priors import Expected, Lesson, learned
-from zlmreport.planning.methods import Method
+from zlmreport.model.diagnosis.diagnosis import diagnose
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.fitting.fit import Fit, fit
+from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.fitting.priors import Expected, Lesson, learned
+from zlmreport.model.planning.methods import Method
 
 _EARLIER, _MACHINES = 10, 20
 #: Draws of earlier tests: no case has them.

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.design import Design
 
 _WAVES = 20
 _DIRECTED_WAVES = 10

@@ -14,11 +14,11 @@ from dataclasses import replace
 import numpy as np
 
 from hidden_effects.trial import Measured, Trial
-from zlmreport.model.axis_model import ModelError
-from zlmreport.model.diagnosis import Diagnosis, Verdict
-from zlmreport.model.effect import Effect
-from zlmreport.model.fit import Fit, fit
-from zlmreport.model.observations import Observations, observations_of
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.fitting.fit import Fit, fit
+from zlmreport.model.fitting.observations import Observations, observations_of
 
 
 def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:

@@ -17,8 +17,6 @@ Record: TypeAlias = dict[str, Any]
 _CODE = (
     Path(__file__).parent,
     Path(zlmreport.__file__).parent / "model",
-    Path(zlmreport.__file__).parent / "simulation",
-    Path(zlmreport.__file__).parent / "planning",
     Path(zlmreport_plugins.__path__[0]) / "effects",
 )
 

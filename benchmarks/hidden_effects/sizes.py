@@ -10,10 +10,10 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from zlmreport.model.axis_model import Term
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.axis_model import Term
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
 
 #: Directions of a base model shorter than this share of the longest are no directions of their own.
 _DEPENDENT = 1e-9

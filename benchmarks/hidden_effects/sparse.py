@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.quantities.arrays import BoolArray, FloatArray
+from zlmreport.measurement.arrays import BoolArray, FloatArray
 
 _RIDGE = 1e-3
 _THRESHOLDS = np.geomspace(0.02, 0.9, 25)

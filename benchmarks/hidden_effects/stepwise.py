@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
 
 _MOST_TERMS = 30
 

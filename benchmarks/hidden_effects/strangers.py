@@ -11,8 +11,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.design import Design
 
 Stranger: TypeAlias = Callable[[Design, np.random.Generator], FloatArray]
 

@@ -15,16 +15,16 @@ from hidden_effects.hidden import Imitation, drawn_effect, imitations, scale_to
 from hidden_effects.sizes import base_columns
 from hidden_effects.strangers import STRANGERS, Stranger
 from hidden_effects.weather import wandering
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
-from zlmreport.planning.methods import Method
-from zlmreport.planning.targets import target_positions
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.simulation.description import Description, Noise
-from zlmreport.simulation.simulate import design_of, deviation_by, observed
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.planning.targets import target_positions
+from zlmreport.model.simulation.description import Description, Noise
+from zlmreport.model.simulation.simulate import design_of, deviation_by, observed
 from zlmreport_plugins.effects import zlmreport_effects
 
 #: σ, the repeatability of a single reading, µm or ″.

@@ -12,8 +12,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from zlmreport.model.design import Design
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.model.effects.design import Design
 
 #: Standard deviation of the walk at the end of the test: K, Pa, 1.
 _WALKS: Mapping[str, float] = {

@@ -1,6 +1,6 @@
-"""Writes the generated parts of the pages, pictures of sequences, and the door's names for type checkers.
+"""Writes the generated parts of the pages, and pictures of sequences.
 
-Called as ``python docs/generate [FOLDER]``; the door's stub is written below the folder's parent.
+Called as ``python docs/generate [FOLDER]``.
 
 A part stands between two comments, ``<!-- generated: NAME -->`` and ``<!-- end: NAME -->``, in any page below
 the folder (this one's parent, if none is given). What is around it is written by hand and left alone.
@@ -14,6 +14,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import bill_of_materials
+import circle_effect_pages
 import command_texts
 import comparison
 import door
@@ -24,12 +25,14 @@ import least_numbers
 import manual
 import methods
 import probing_path
+import rooms
 import sequences
 import standard_pages
 
 _PART = re.compile(r"(<!-- generated: (?P<name>[a-z0-9-]+) -->\n).*?(<!-- end: (?P=name) -->)", re.DOTALL)
 
 PARTS: Mapping[str, Callable[[], str]] = {
+    "catalogue-keys": job_keys.catalogue_text,
     "commands": command_texts.text,
     "comparison": comparison.text,
     "door": door.text,
@@ -41,6 +44,8 @@ PARTS: Mapping[str, Callable[[], str]] = {
     "instrument-keys": job_keys.instruments_text,
     "job-keys": job_keys.job_text,
     "least-numbers": least_numbers.text,
+    "machine-keys": job_keys.machine_text,
+    "circle-effects": circle_effect_pages.text,
     "methods-drift": methods.drift_text,
     "methods-sight": methods.sight_text,
     "notifier-keys": job_keys.notifiers_text,
@@ -68,10 +73,7 @@ def generate(folder: Path) -> set[str]:
     (folder / "reference" / "job.schema.json").write_text(job_keys.schema_text(), encoding="utf-8")
     (folder / "reference" / "zlmreport.1").write_text(manual.text(), encoding="utf-8")
     (folder / "reference" / "zlmreport.cdx.json").write_text(bill_of_materials.text(), encoding="utf-8")
-    stub = folder.parent / "src/zlmreport/plugin/__init__.pyi"
-    stub.parent.mkdir(parents=True, exist_ok=True)
-    stub.write_text(door.stub(), encoding="utf-8")
-    for name, picture in {**sequences.pictures(), **probing_path.pictures()}.items():
+    for name, picture in {**sequences.pictures(), **probing_path.pictures(), **rooms.pictures()}.items():
         (folder / "images" / name).write_text(picture, encoding="utf-8")
     return used
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from markdown import symbol, table
 
+from zlmreport.document.writer import Writer
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.pipeline import compose
-from zlmreport.plugins import find_plugins
-from zlmreport.presenting.writer import Writer
+from zlmreport.plugin.registry import find_plugins
 
 _JOB = Path(__file__).parents[2] / "configs" / "linear-axis" / "certificate.yaml"
 

@@ -12,11 +12,12 @@ from markdown import code, symbol, table
 from zlmreport.job.types import keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect, Parameter, Shape, unit_of
-from zlmreport.model.observations import of_readings
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect, Parameter, Shape, unit_of
+from zlmreport.model.effects.sizes import usual_range
+from zlmreport.model.fitting.observations import of_readings
 from zlmreport.plugin.kinds import EFFECT
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import full_designs
 
 _EN, _DE = Language.ENGLISH, Language.GERMAN
@@ -59,9 +60,16 @@ def _section(effect: Effect) -> Iterator[str]:
     yield f"**Look.** {effect.look.in_language(_EN)}"
     if effect.remedy:
         yield f"**Remedy.** {effect.remedy.in_language(_EN)}"
-    yield table(("Parameter", "Printed", "Meaning", "Plausible", "Found"), _parameters(effect))
-    if any((each.smallest, each.largest) != (None, None) for each in (*effect.linear, *effect.searched)):
-        yield f"Plausible ranges: {effect.ranges_from.in_language(_EN)}."
+    yield table(("Parameter", "Printed", "Meaning", "Usual", "Range", "Found"), _parameters(effect))
+    if any((each.smallest, each.largest) != (None, None) for each in _all(effect)):
+        yield f"Ranges: {effect.ranges_from.in_language(_EN)}."
+    sizes = list(dict.fromkeys(_sizes(effect)))
+    if sizes:
+        yield "\n".join(f"- {each}" for each in sizes)
+    if effect.source:
+        yield f"**Known.** {effect.source.in_language(_EN)}."
+    if effect.several:
+        yield f"A model may hold several: the second is {code(f'{effect.identifier}-2')}."
     keys = keys_in(effect.options)
     if keys:
         yield "Its key in a job:"
@@ -81,34 +89,65 @@ def _section(effect: Effect) -> Iterator[str]:
 
 
 def _doc(effect: Effect) -> str:
-    """Return what the code says of the effect below the one line that names it."""
-    first, _, rest = (inspect.getdoc(effect.__class__) or "").partition("\n\n")
-    return f"{first}\n\n{rest}".strip()
+    """Return what happens, or what the code says of it."""
+    return effect.physics.in_language(_EN) if effect.physics else inspect.getdoc(effect.__class__) or ""
+
+
+def _all(effect: Effect) -> Iterator[Parameter]:
+    """Yield the parameters of an effect, those that only some of its forms have behind."""
+    found: dict[str, Parameter] = {}
+    for form in (effect, *effect.forms()):
+        for each in (*form.linear, *form.searched):
+            found.setdefault(each.name, each)
+    yield from found.values()
 
 
 def _parameters(effect: Effect) -> Iterator[tuple[str, ...]]:
-    for parameter in effect.linear:
-        yield (*_described(effect, parameter), "linear")
-    for parameter in effect.searched:
-        yield (*_described(effect, parameter), _how_found(effect))
+    linear = {each.name for form in effect.forms() for each in form.linear}
+    for parameter in _all(effect):
+        found = "linear" if parameter.name in linear else _how_found(effect)
+        yield (*_described(effect, parameter), found)
 
 
-def _described(effect: Effect, parameter: Parameter) -> tuple[str, str, str, str]:
-    ranges = dict.fromkeys(_range(parameter, kind) for kind in _kinds(effect))
+def _described(effect: Effect, parameter: Parameter) -> tuple[str, ...]:
+    usual = "; ".join(
+        dict.fromkeys(_range(parameter, kind, *usual_range(parameter, kind)) for kind in _kinds(effect))
+        if parameter.usual
+        else ()
+    )
+    ranges = dict.fromkeys(
+        _range(parameter, kind, parameter.smallest, parameter.largest) for kind in _kinds(effect)
+    )
     return (
         code(parameter.name),
         symbol(parameter.notation),
         parameter.description.in_language(_EN),
+        usual,
         "; ".join(ranges),
     )
 
 
-def _range(parameter: Parameter, kind: AxisKind) -> str:
+def _sizes(effect: Effect) -> Iterator[str]:
+    """Yield the names that values have, what is asked of others, and what physics excludes."""
+    kind = _kinds(effect)[0]
+    for each in _all(effect):
+        unit = unit_of(each.dimension, kind)
+        for named in each.named:
+            ends = " to ".join(_number(end * unit.per_si) for end in (named.low, named.high))
+            said = named.says.in_language(_EN)
+            yield f"{code(each.name)} of {f'{ends} {unit.symbol}'.strip()}: {said}."
+        for question in (each.question, each.question_below):
+            if question:
+                yield f"Asked: “{question.given(value='…', times='…').in_language(_EN)}”"
+    keys = getattr(effect, "keys", None)
+    for name, each in keys.parameters.items() if keys else ():
+        if each.possible:
+            yield f"{code(name)} is limited: {each.possible.because.in_language(_EN)}."
+
+
+def _range(parameter: Parameter, kind: AxisKind, smallest: float | None, largest: float | None) -> str:
     unit = unit_of(parameter.dimension, kind)
-    low, high = (
-        None if bound is None else _number(bound * unit.per_si)
-        for bound in (parameter.smallest, parameter.largest)
-    )
+    low, high = (None if bound is None else _number(bound * unit.per_si) for bound in (smallest, largest))
     if low is None and high is None:
         return f"any, {unit.symbol}" if unit.symbol else "any"
     span = f"{low} to {high}" if low and high else (f"from {low}" if low else f"up to {high}")
@@ -183,6 +222,7 @@ def _without_keys(full: Design) -> Iterator[Design]:
         replace(axis, screw_pitch=None),
         replace(axis, signal_period=None),
         replace(axis, scale_element=None),
+        replace(axis, pole_pitch=None),
         replace(axis, compensation_table=None),
         replace(axis, angular_errors=None),
         replace(axis, abbe_offset=None),

@@ -8,10 +8,11 @@ from collections.abc import Callable, Iterator
 
 from markdown import code, table
 
-from zlmreport.emulation.emulator import Emulator
-from zlmreport.live.reading import LiveReading
-from zlmreport.planning.programs import Motion, ProgramStop, Reading
-from zlmreport.plugin.extension import Command, CommandHost, CommandOption, ExtensionPlan, Happening, LiveRun
+from zlmreport.live.emulation.emulator import Emulator
+from zlmreport.live.ports.reading import LiveReading
+from zlmreport.model.planning.programs import Motion, ProgramStop, Reading
+from zlmreport.plugin import hooks
+from zlmreport.plugin.extending import Command, CommandHost, CommandOption, ExtensionPlan, Happening, LiveRun
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
 from zlmreport_step_gauge.paths.path import Probing, ProbingPath, Travel
@@ -40,7 +41,8 @@ _PROTOCOLS = (
 def hooks_text() -> str:
     """Return the hooks with their signatures."""
     rows = [
-        (code(f"{kind.hook}() -> Iterable[{kind.interface}]"), f"Return {kind.offers}.") for kind in KINDS
+        (code(f"{kind.hook}() -> Iterable[{kind.interface}]"), inspect.getdoc(getattr(hooks, kind.hook)))
+        for kind in KINDS
     ]
     return table(("Hook", "What it does"), rows)
 

@@ -12,12 +12,23 @@ from pydantic import BaseModel
 
 from zlmreport.job.choices import group_model
 from zlmreport.job.fleet import FleetKeys
+from zlmreport.job.formula_keys import (
+    FormKey,
+    FormulaKeys,
+    FormulaParameter,
+    Harmonics,
+    Instead,
+    Meaning,
+    Needs,
+    Possible,
+)
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import job_schema
 from zlmreport.job.types import Options, field_at
 from zlmreport.language import Language
+from zlmreport.machines.keys import MachineKeys
 from zlmreport.plugin.protocols import PartProgram
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.notifiers import zlmreport_notifiers
 from zlmreport_step_gauge.paths.path import ProbingPath
 
@@ -39,6 +50,33 @@ def schema_text() -> str:
 def fleet_text() -> str:
     """Return every key of a fleet file."""
     return _table(FleetKeys)
+
+
+def catalogue_text() -> str:
+    """Return the keys of an entry of a catalogue of effects."""
+    groups = {
+        "An entry": FormulaKeys,
+        "A parameter": FormulaParameter,
+        "`needs`": Needs,
+        "`harmonics`": Harmonics,
+        "An item of `keys`": FormKey,
+        "`possible`": Possible,
+        "An item of `meanings`": Meaning,
+        "`instead`": Instead,
+    }
+    return "\n\n".join(part for head, model in groups.items() for part in (f"### {head}", _own_table(model)))
+
+
+def _own_table(model: type[BaseModel]) -> str:
+    """Return the keys of a group, without those of the groups in it."""
+    schema = model.model_json_schema(by_alias=True)
+    rows = _rows(model, schema, schema.get("$defs", {}), ())
+    return table(_HEADING, (row for row in rows if "." not in row[0]))
+
+
+def machine_text() -> str:
+    """Return every key of a machine file."""
+    return _table(MachineKeys)
 
 
 def notifiers_text() -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from zlmreport.quantities.formatting import spans
+from zlmreport.language.formatting import spans
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

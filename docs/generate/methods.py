@@ -11,13 +11,13 @@ from markdown import code, table
 from zlmreport import pipeline
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.loading import load
+from zlmreport.language.formatting import fixed_number
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.planning.methods import Method
-from zlmreport.planning.planned_test import PlannedTest, planned_test
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import read_only_floats
-from zlmreport.quantities.formatting import fixed_number
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.planning.planned_test import PlannedTest, planned_test
+from zlmreport.plugin.registry import find_plugins
 
 _JOB = """\
 schema: zlmreport/job/1

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.foretold import path_svg
 from zlmreport_step_gauge.paths.plan import path_of_job
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from zlmreport.figures.draw import to_svg
-from zlmreport.figures.sequence import sequence
+from zlmreport.document.figures.draw import to_svg
+from zlmreport.document.figures.sequence import sequence
 from zlmreport.language import Language
-from zlmreport.planning.methods import Method
+from zlmreport.model.planning.methods import Method
 from zlmreport.testing import sample_motion
 
 _TARGETS = (18.0, 57.0, 103.0, 141.0, 182.0)

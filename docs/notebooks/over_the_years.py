@@ -6,6 +6,7 @@
 
 # %%
 import numpy as np
+import pandas as pd
 
 import zlmreport as z
 
@@ -22,7 +23,7 @@ tests = [
 ]
 history = [z.evaluate(each, "iso230-2:2014") for each in tests]
 reversal = np.array([each["B_mean"].value for each in history])
-z.Table(year=years, B_mean=reversal, A=np.array([each["A"].value for each in history]))
+pd.DataFrame({"year": years, "B_mean": reversal, "A": [each["A"].value for each in history]})
 
 # %% [markdown]
 # A straight line through the mean reversal value: how fast it grows, and when it reaches a limit.

@@ -14,7 +14,8 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
-from zlmreport.plugin import AccessError, Message, Notifier, Options, Place, TextLine, Words, hookimpl
+from zlmreport.plugin import AccessError, Options, Place, TextLine, Words, hookimpl
+from zlmreport.plugin.notifier import Message, Notifier
 
 #: For which a server may be silent, s.
 _PATIENCE = 30

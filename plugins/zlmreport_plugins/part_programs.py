@@ -1,5 +1,8 @@
 """Part programs for controls, one dialect beside the other: the motion is the same, and each has its words.
 
+A circle is run about the zero of a work offset, as ballbars are set up: no control moves along an arc in
+machine coordinates.
+
 LinuxCNC's words are those of its documentation, and its stand-alone interpreter runs the programs. All else
 here is (check): no such control has run a program of this kind yet.
 """
@@ -7,18 +10,21 @@ here is (check): no such control has run a program of this kind yet.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from pydantic import Field
 
-from zlmreport.plugin import (
+from zlmreport.plugin import Approach, Words, hookimpl
+from zlmreport.plugin.program import (
+    CirclePath,
     Motion,
     PartProgram,
+    PathBlock,
     ProgramOptions,
-    Words,
     axis_address,
-    hookimpl,
+    circle_heading,
     program_heading,
     program_number,
     reading_remark,
@@ -27,6 +33,9 @@ from zlmreport.plugin import (
 #: Names of axes of a SINUMERIK begin with the letter of a coordinate: X, X1, Z_2; its words do not fit.
 _ADDRESS = re.compile("[ABCUVWXYZ]([0-9][0-9A-Z_]{0,29}|_[0-9A-Z_]{0,29})?")
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]")
+#: Of ISO code: the plane of a circle, and the way from an arc's start to its centre.
+_PLANES = {"XY": "G17", "ZX": "G18", "YZ": "G19"}
+_TO_CENTRE = {"X": "I", "Y": "J", "Z": "K"}
 
 
 class _Dialect:
@@ -36,15 +45,68 @@ class _Dialect:
         """Return the program."""
         return "".join(f"{line}\n" for line in self.lines(motion, options))
 
+    def write_circle(self, path: CirclePath, options: Any) -> str:
+        """Return the program of a circular test."""
+        return "".join(f"{line}\n" for line in self.lines_of_circle(path, options))
+
     def lines(self, motion: Motion, options: Any) -> Iterator[str]:
         """Yield the lines of the program."""
         raise NotImplementedError
+
+    def lines_of_circle(self, path: CirclePath, options: Any) -> Iterator[str]:
+        """Yield the lines of the program of a circular test."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class _Iso:
+    """How a control with ISO code says the blocks of a circular test."""
+
+    exact: str  #: From here it stops at the end of every block.
+    runs_on: str  #: From here it does not.
+    stop: str  #: It waits for the operator.
+    rest: tuple[str, ...]  #: It rests between two turns.
+    remark: Callable[[str], str]  #: A remark behind a block.
+    digits: int = 1  #: Of the number of a G code, at least.
+    between: str = ""  #: A letter and its number.
+    omits_end: bool = False  #: Whether a full circle has no end.
+
+    def blocks(self, path: CirclePath, options: ProgramOptions) -> Iterator[str]:
+        """Yield the blocks from the first point to the last."""
+        mode = ""
+        for block in path.blocks(options.decimals):
+            if block.begins == "turn":
+                yield from (self.stop,) if options.wait == "runs" else self.rest if path.rest else ()
+            wanted = self.exact if block.stops else self.runs_on
+            if wanted != mode:
+                yield wanted
+                mode = wanted
+            remark = f" {self.remark(block.remark)}" if block.remark else ""
+            yield f"{self._code(block)} {' '.join(self._words(path, block, options.decimals))}{remark}"
+            if block.begins == "test" and options.wait != "never":
+                yield self.stop
+
+    def _code(self, block: PathBlock) -> str:
+        number = {None: 1, Approach.NEGATIVE: 2, Approach.POSITIVE: 3}[block.sense]
+        return f"G{number:0{self.digits}d}"
+
+    def _words(self, path: CirclePath, block: PathBlock, decimals: int) -> Iterator[str]:
+        """Yield the words to the end of a block, and of an arc to its centre."""
+        if block.end != block.start or not self.omits_end:
+            for axis, value in zip(path.circle.axes, block.end, strict=True):
+                yield f"{axis}{self.between}{value:.{decimals}f}"
+        if block.sense is not None:
+            for axis, value in zip(path.circle.axes, block.centre, strict=True):
+                yield f"{_TO_CENTRE[axis]}{self.between}{value:.{decimals}f}"
 
 
 class LinuxCncOptions(ProgramOptions):
     """The keys of ``linuxcnc``."""
 
     decimals: int = Field(4, ge=0, le=9, description="Digits after the decimal point of positions.")
+    work_offset: Literal["G54", "G55", "G56", "G57", "G58", "G59"] = Field(
+        "G54", description="Of a circle: the work offset whose zero is the centre."
+    )
 
 
 class LinuxCnc(_Dialect):
@@ -55,6 +117,9 @@ class LinuxCnc(_Dialect):
     - ``M0`` stops until the operator lets the program go on.
     - ``G4 P`` waits for so many seconds.
     - ``F`` is mm/min, and degrees/min where only a rotary axis moves.
+    - ``G2`` and ``G3`` run arcs in the plane of ``G17``, ``G18`` or ``G19``, and a full circle where an arc
+      ends at its start; ``G91.1`` takes I, J and K from there to the centre. ``G53`` takes no arcs.
+    - ``G64`` runs on from arc to arc, within 1 µm of the corner.
     """
 
     identifier = "linuxcnc"
@@ -78,6 +143,22 @@ class LinuxCnc(_Dialect):
                 yield f"G4 P{program_number(motion.dwell)}"
         yield "M2"
 
+    def lines_of_circle(self, path: CirclePath, options: LinuxCncOptions) -> Iterator[str]:
+        """Yield the lines."""
+        yield from (f"({text})" for text in circle_heading(path, options))
+        yield "G21 G90 G94 G40 G49 G80 G91.1 (mm, absolute, feed per minute, no offsets, arcs by I J K)"
+        yield f"{options.work_offset} {_PLANES[path.circle.plane]}"
+        yield f"F{program_number(path.feed)}"
+        words = _Iso(
+            "G61.1 (exact stop)",
+            "G64 P0.001 (no stop)",
+            "M0",
+            (f"G4 P{program_number(path.rest)}",),
+            "({})".format,
+        )
+        yield from words.blocks(path, options)
+        yield "M2"
+
 
 class FanucOptions(ProgramOptions):
     """The keys of ``fanuc``."""
@@ -90,7 +171,9 @@ class FanucOptions(ProgramOptions):
     )
     number: int = Field(7001, ge=1, le=9999, description="Program number, O0001 to O9999.")
     work_offset: Literal["G54", "G55", "G56", "G57", "G58", "G59"] = Field(
-        "G54", description="Work offset that is zero for the axis, for positions to be those of the machine."
+        "G54",
+        description="Work offset that is zero for the axis, for positions to be those of the machine; of a "
+        "circle, the one whose zero is the centre.",
     )
 
 
@@ -104,6 +187,8 @@ class Fanuc(_Dialect):
       in the systems B and C of G codes; a remark in the head says so.
     - ``G61`` stops exactly at the end of every block; ``G04 X`` waits for so many seconds.
     - The block of a reading has its number, so that the display tells what is being read.
+    - ``G02`` and ``G03`` run arcs in the plane of ``G17``, ``G18`` or ``G19``, with I, J and K from the start
+      to the centre, and a full circle where no end is programmed. ``G64`` runs on from arc to arc.
     """
 
     identifier = "fanuc"
@@ -132,6 +217,20 @@ class Fanuc(_Dialect):
         yield "M30"
         yield "%"
 
+    def lines_of_circle(self, path: CirclePath, options: FanucOptions) -> Iterator[str]:
+        """Yield the lines."""
+        yield "%"
+        yield f"O{options.number:04d}"
+        yield from (_remark(text) for text in circle_heading(path, options))
+        yield _remark("G codes of milling, on lathes those of system B or C")
+        yield f"G21 G90 G94 G40 G49 G80 {options.work_offset} {_PLANES[path.circle.plane]}"
+        yield f"F{_pointed(program_number(path.feed))}"
+        rest = f"G04 X{_pointed(program_number(path.rest))}"
+        words = _Iso("G61 (EXACT STOP)", "G64 (NO STOP)", "M00", (rest,), _remark, digits=2, omits_end=True)
+        yield from words.blocks(path, options)
+        yield "M30"
+        yield "%"
+
 
 class Siemens840dOptions(ProgramOptions):
     """The keys of ``siemens-840d``."""
@@ -140,6 +239,9 @@ class Siemens840dOptions(ProgramOptions):
         None, description="Name of the axis in the channel, where it is not that of the job.", examples=["X1"]
     )
     decimals: int = Field(4, ge=0, le=9, description="Digits after the decimal point of positions.")
+    work_offset: Literal["G54", "G55", "G56", "G57"] = Field(
+        "G54", description="Of a circle: the settable work offset whose zero is the centre."
+    )
 
 
 class Siemens840d(_Dialect):
@@ -150,6 +252,8 @@ class Siemens840d(_Dialect):
     - ``G60`` stops exactly at the end of every block.
     - ``STOPRE`` lets the control read no further ahead; ``G4 F`` waits for so many seconds, in its own block.
     - The block of a reading has its number, so that the display tells what is being read.
+    - ``G2`` and ``G3`` run arcs in the plane of ``G17``, ``G18`` or ``G19``, with I, J and K from the start
+      to the centre, and a full circle where an arc ends at its start. ``G64`` runs on from arc to arc.
     """
 
     identifier = "siemens-840d"
@@ -174,6 +278,18 @@ class Siemens840d(_Dialect):
                 yield f"N{stop.reading.number} G4 F{dwell} ; {reading_remark(stop.reading)}"
         yield "M30"
 
+    def lines_of_circle(self, path: CirclePath, options: Siemens840dOptions) -> Iterator[str]:
+        """Yield the lines."""
+        yield from (f"; {text}" for text in circle_heading(path, options))
+        yield "G710 G90 G94 G40 D0 ; mm, absolute, feed per minute, no offsets"
+        yield f"{options.work_offset} {_PLANES[path.circle.plane]}"
+        yield f"F{program_number(path.feed)}"
+        rest = ("STOPRE", f"G4 F{program_number(path.rest)}")
+        yield from _Iso("G60 ; exact stop", "G64 ; no stop", "M0", rest, "; {}".format, between="=").blocks(
+            path, options
+        )
+        yield "M30"
+
 
 class HeidenhainOptions(ProgramOptions):
     """The keys of ``heidenhain``."""
@@ -189,6 +305,8 @@ class Heidenhain(_Dialect):
     - ``STOP`` stops until the operator lets the program go on.
     - Cycle 9 waits for so many seconds, as soon as it is defined.
     - Blocks are numbered without a gap, from 0.
+    - ``C`` runs an arc about the centre of ``CC``, counter-clockwise with ``DR+``, and a full circle where it
+      ends at its start. It may lie in another plane than the working plane.
     """
 
     identifier = "heidenhain"
@@ -200,10 +318,39 @@ class Heidenhain(_Dialect):
         """Yield the lines: its blocks with their numbers."""
         yield from (f"{number} {block}" for number, block in enumerate(self._blocks(motion, options)))
 
+    def lines_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
+        """Yield the lines: its blocks with their numbers."""
+        blocks = self._blocks_of_circle(path, options)
+        yield from (f"{number} {block}" for number, block in enumerate(blocks))
+
+    def _blocks_of_circle(self, path: CirclePath, options: HeidenhainOptions) -> Iterator[str]:
+        name, feed = _NOT_IN_NAMES.sub("_", path.number), program_number(path.feed)
+        first, second = path.circle.axes
+        yield f"BEGIN PGM {name} MM"
+        yield from (f"; {text}" for text in circle_heading(path, options))
+        yield f"CC {first}+0 {second}+0"
+        for block in path.blocks(options.decimals):
+            if block.remark:
+                yield f"; {block.remark}"
+            if block.begins == "turn":
+                if options.wait == "runs":
+                    yield "STOP"
+                elif path.rest:
+                    yield from _dwell(path.rest)
+            ends = zip(path.circle.axes, block.end, strict=True)
+            words = " ".join(f"{axis}{value:+.{options.decimals}f}" for axis, value in ends)
+            if block.sense is None:
+                yield f"L {words} R0 F{feed}"
+            else:
+                yield f"C {words} DR{block.sense.sign}"
+            if block.begins == "test" and options.wait != "never":
+                yield "STOP"
+        yield f"END PGM {name} MM"
+
     def _blocks(self, motion: Motion, options: HeidenhainOptions) -> Iterator[str]:
         axis = axis_address(motion, options)
         name = _NOT_IN_NAMES.sub("_", motion.number)
-        feed, dwell = program_number(motion.feed), program_number(motion.dwell)
+        feed = program_number(motion.feed)
         yield f"BEGIN PGM {name} MM"
         yield from (f"; {text}" for text in program_heading(motion))
         for stop in motion.in_decimals(options.decimals).stops:
@@ -212,9 +359,15 @@ class Heidenhain(_Dialect):
                 yield "STOP"
             if stop.reading:
                 yield f"; reading {stop.reading.number}, {reading_remark(stop.reading)}"
-                yield "CYCL DEF 9.0 DWELL TIME"
-                yield f"CYCL DEF 9.1 DWELL {dwell if '.' in dwell else f'{dwell}.0'}"
+                yield from _dwell(motion.dwell)
         yield f"END PGM {name} MM"
+
+
+def _dwell(seconds: float) -> Iterator[str]:
+    """Yield the two blocks of cycle 9."""
+    text = program_number(seconds)
+    yield "CYCL DEF 9.0 DWELL TIME"
+    yield f"CYCL DEF 9.1 DWELL {text if '.' in text else f'{text}.0'}"
 
 
 def _remark(text: str) -> str:

@@ -12,12 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.plugin import (
-    DEGREE,
-    MILLIMETRE,
-    FloatArray,
-    Problem,
-)
+from zlmreport.plugin import DEGREE, MILLIMETRE, FloatArray, Problem
 from zlmreport_step_gauge.gauge import Face, StepGauge
 from zlmreport_step_gauge.initial_points import BLOCKS, InitialPoints
 

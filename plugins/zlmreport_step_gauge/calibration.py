@@ -16,21 +16,17 @@ from zlmreport.plugin import (
     MICROMETRE_PER_METRE_KELVIN,
     MILLIMETRE,
     Date,
-    FileFormat,
     Finite,
     InputError,
-    JobInstrument,
-    JobKeys,
     JobPart,
-    KeysFile,
     NotNegative,
     Place,
     Positive,
     Problem,
-    SourceFile,
     TextLine,
-    read_keys_file,
 )
+from zlmreport.plugin.extension import FileFormat, JobInstrument, JobKeys, KeysFile, read_keys_file
+from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 from zlmreport_step_gauge.tables import NamedColumns, Row, read_named_columns
 

@@ -9,15 +9,7 @@ from enum import Enum
 
 import numpy as np
 
-from zlmreport.plugin import (
-    MICROMETRE,
-    MILLIMETRE,
-    FloatArray,
-    InputError,
-    Place,
-    Problem,
-    read_only_floats,
-)
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, FloatArray, InputError, Place, Problem, read_only_floats
 from zlmreport_step_gauge import equations
 from zlmreport_step_gauge.gauge import Face
 from zlmreport_step_gauge.probed import Probed

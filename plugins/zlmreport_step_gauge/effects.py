@@ -6,16 +6,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from zlmreport.plugin import (
+from zlmreport.plugin import FloatArray, Words, hookimpl
+from zlmreport.plugin.effect import (
     Confusion,
     Design,
     Dimension,
     Effect,
-    FloatArray,
     Parameter,
     Shape,
-    Words,
-    hookimpl,
     needs_linear_axis,
     needs_logged,
 )

@@ -13,10 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from zlmreport.plugin import (
-    FloatArray,
-    position_statistics,
-)
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.standard import position_statistics
 
 
 def effective_radius(measured_size: FloatArray, actual_size: FloatArray) -> FloatArray:

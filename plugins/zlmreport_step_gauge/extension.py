@@ -11,30 +11,17 @@ from zlmreport.plugin import (
     MICRORADIAN,
     MILLIMETRE,
     AxisKind,
-    Band,
-    Contribution,
-    Curve,
-    DataSource,
-    Described,
-    Extension,
-    ExtensionPlan,
-    Fact,
     Figure,
-    Graph,
-    Job,
-    JobKeys,
-    KeyStep,
-    LiveRun,
     MeasurementSet,
-    Panel,
-    Role,
-    Standard,
     Words,
-    Writer,
     fixed_number,
     hookimpl,
     read_only_floats,
 )
+from zlmreport.plugin.extension import Contribution, Extension, ExtensionPlan, Job, JobKeys, KeyStep, LiveRun
+from zlmreport.plugin.renderer import Described, Fact, Graph, Writer
+from zlmreport.plugin.source import DataSource
+from zlmreport.plugin.standard import Band, Curve, Panel, Role, Standard
 from zlmreport_step_gauge.calibration import FORMAT, with_gauge_as_instrument
 from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.keys import StepGaugeKeys, contradictions

@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import IntEnum
 
-from zlmreport.plugin import (
-    Place,
-)
+from zlmreport.plugin import Place
 
 
 class Side(IntEnum):

@@ -24,15 +24,8 @@ from pathlib import Path
 
 import numpy as np
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    FloatArray,
-    InputError,
-    Place,
-    Problem,
-    SourceFile,
-    read_only_floats,
-)
+from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Place, Problem, read_only_floats
+from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.tables import Row, read_named_columns
 
 #: The names of the two blocks in files, in the order of the arrays.

@@ -11,16 +11,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from zlmreport.plugin import (
-    Finite,
-    JobPart,
-    JobPath,
-    NotNegative,
-    Options,
-    Positive,
-    ProgramKeys,
-    TextLine,
-)
+from zlmreport.plugin import Finite, JobPart, JobPath, NotNegative, Options, Positive, TextLine
+from zlmreport.plugin.extension import ProgramKeys
 
 #: Number of a block, from 1 at the beginning of the gauge.
 Block = Annotated[int, Field(ge=1, le=10_000)]

@@ -7,10 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.plugin import (
-    FloatArray,
-    InputError,
-)
+from zlmreport.plugin import FloatArray, InputError
 from zlmreport_step_gauge.blocks import (
     Block,
     angle_between,

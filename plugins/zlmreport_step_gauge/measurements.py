@@ -16,15 +16,11 @@ from zlmreport.plugin import (
     MILLIMETRE,
     Approach,
     Axis,
-    Correction,
     MeasurementSet,
     Place,
-    Provenance,
-    Reading,
-    SourceFile,
     Words,
-    collect_readings,
 )
+from zlmreport.plugin.source import Correction, Provenance, Reading, SourceFile, collect_readings
 from zlmreport_step_gauge.deviations import Deviations, EffectiveRadius, RadiusSource
 from zlmreport_step_gauge.gauge import Face, Side
 from zlmreport_step_gauge.location import Misalignment

@@ -15,10 +15,10 @@ from zlmreport.plugin import (
     InputError,
     Place,
     Problem,
-    SourceFile,
     did_you_mean,
     read_only_floats,
 )
+from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.gauge import Face, Side, StepGauge
 
 #: Problems of one file that are named one by one.

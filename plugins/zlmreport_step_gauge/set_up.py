@@ -10,11 +10,11 @@ from zlmreport.plugin import (
     MICROMETRE_PER_METRE_KELVIN,
     MILLIMETRE,
     InputError,
-    Job,
     Place,
-    SourceFile,
     above_reference_temperature,
 )
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.source import SourceFile
 from zlmreport_step_gauge.calibration import CalibratedGauge, read_calibration, section
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import read_initial_points

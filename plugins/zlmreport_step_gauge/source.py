@@ -19,13 +19,11 @@ from zlmreport.plugin import (
     Options,
     Place,
     Problem,
-    SourceContext,
-    TextFile,
     Words,
     quoted,
-    read_text,
     unit_named,
 )
+from zlmreport.plugin.source import SourceContext, TextFile, read_text
 from zlmreport_step_gauge.deviations import deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.keys import MachineKeys

@@ -6,28 +6,22 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from zlmreport.plugin import (
+from zlmreport.plugin import Approach, Evaluation, Figure, FloatArray, MeasurementSet, Options, Words
+from zlmreport.plugin.standard import (
     LIMIT_ROLES,
     MEAN_ROLES,
-    Approach,
     Arithmetic,
     Arrow,
     Band,
     Basis,
     Curve,
     Diagram,
-    Evaluation,
-    Figure,
     Finding,
-    FloatArray,
-    MeasurementSet,
-    Options,
     PositionQuantity,
     PositionStatistics,
     Quantity,
     QuantityGroup,
     Role,
-    Words,
     alternative_text,
     diagram_panel,
     graph_in_words,

@@ -6,18 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from zlmreport.plugin import (
-    InputError,
-    Place,
-    Problem,
-    SourceFile,
-    TextCell,
-    TextFile,
-    did_you_mean,
-    parse_number,
-    quoted,
-    read_text,
-)
+from zlmreport.plugin import InputError, Place, Problem, did_you_mean, quoted
+from zlmreport.plugin.source import SourceFile, TextCell, TextFile, parse_number, read_text
 
 #: In any unit of length: no machine is as long.
 _LARGEST = 1e9

@@ -10,13 +10,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    REFERENCE_TEMPERATURE,
-    InputError,
-    PartProgram,
-    Place,
-)
+from zlmreport.plugin import MILLIMETRE, REFERENCE_TEMPERATURE, InputError, Place
+from zlmreport.plugin.program import PartProgram
 from zlmreport.testing.expectations import check, expect, run_all
 from zlmreport.testing.part_programs import (
     expect_defaults,

@@ -14,18 +14,20 @@ from zlmreport.plugin import (
     MICROMETRE,
     MICROMETRE_PER_METRE_KELVIN,
     MICRORADIAN,
-    STATED_IN_THE_JOB,
-    USUAL_CONTRIBUTIONS,
-    Acts,
     Approach,
-    Contribution,
-    Distribution,
     FloatArray,
     MeasurementSet,
     Words,
-    calibration_in_words,
-    position_statistics,
 )
+from zlmreport.plugin.extension import (
+    STATED_IN_THE_JOB,
+    USUAL_CONTRIBUTIONS,
+    Acts,
+    Contribution,
+    Distribution,
+    calibration_in_words,
+)
+from zlmreport.plugin.standard import position_statistics
 from zlmreport_step_gauge.deviations import radius_uncertainty
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.set_up import GaugeSetUp

@@ -21,39 +21,53 @@ if TYPE_CHECKING:
         compensate,
         verify,
     )
+    from zlmreport.notebook.machines import BuiltMachine, DiagnosisOfMachine, Machine, machine
     from zlmreport.notebook.models import Diagnosis, Model, fit
-    from zlmreport.notebook.readings import Readings, Table, read, simulate
-    from zlmreport.notebook.readings import of_arrays as test
+    from zlmreport.notebook.offered import OfferedEffect, OfferedStandard, effects, standards
+    from zlmreport.notebook.plans import Plan, plan
+    from zlmreport.notebook.readings import Readings, of_arrays as test, read, simulate
     from zlmreport.notebook.results import Result, Value, evaluate
 
 __all__ = [
     "AccessError",
+    "BuiltMachine",
     "Certificate",
     "Compensation",
     "Diagnosis",
+    "DiagnosisOfMachine",
     "InputError",
+    "Machine",
     "Model",
+    "OfferedEffect",
+    "OfferedStandard",
+    "Plan",
     "Readings",
     "Result",
-    "Table",
     "Value",
     "Verification",
     "ZlmreportError",
     "__version__",
     "certificate",
     "compensate",
+    "effects",
     "evaluate",
     "fit",
+    "machine",
+    "plan",
     "read",
     "simulate",
+    "standards",
     "test",
     "verify",
 ]
 _ROOMS = {
     "errors": "AccessError InputError ZlmreportError",
     "notebook.documents": "Certificate Compensation Verification certificate compensate verify",
+    "notebook.machines": "BuiltMachine DiagnosisOfMachine Machine machine",
     "notebook.models": "Diagnosis Model fit",
-    "notebook.readings": "Readings Table read simulate test=of_arrays",
+    "notebook.offered": "OfferedEffect OfferedStandard effects standards",
+    "notebook.plans": "Plan plan",
+    "notebook.readings": "Readings read simulate test=of_arrays",
     "notebook.results": "Result Value evaluate",
 }
 _HOMES = {
@@ -69,8 +83,6 @@ if not TYPE_CHECKING:  # a type checker knows the names from above, and reports 
         if name not in _HOMES:
             message = f"module {__name__!r} has no attribute {name!r}"
             raise AttributeError(message)
-        if name == "certificate":  # a room has this name, and passes calls on
-            return import_module(f"{__name__}.{name}")
         room, own = _HOMES[name]
         value = globals()[name] = getattr(import_module(f"{__name__}.{room}"), own)
         return value

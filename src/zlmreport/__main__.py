@@ -2,6 +2,6 @@
 
 import sys
 
-from zlmreport.cli import main
+from zlmreport.cli import watched_main
 
-sys.exit(main())
+sys.exit(watched_main())

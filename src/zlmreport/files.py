@@ -15,11 +15,11 @@ import os
 import shutil
 import stat
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.values import dataclass
 
 #: Characters of a file's name that its hidden name repeats: a long name shall not become too long by that.
 _REPEATED = 40
@@ -405,7 +405,8 @@ def _made(folder: Path) -> set[Path]:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except (FileExistsError, NotADirectoryError) as error:
-        raise OSError(error.errno, f"{error.filename} is a file and no folder") from error
+        in_the_way = next((each for each in (folder, *folder.parents) if each.is_file()), error.filename)
+        raise OSError(error.errno, f"{in_the_way} is a file and no folder") from error
     return {folder, *(each.parent for each in missing)}
 
 

@@ -9,46 +9,54 @@ import contextlib
 import gc
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from zlmreport.certificate.attachments import Attachment, arranged, media_type, source_attachments
-from zlmreport.certificate.build import GENERATOR, build
-from zlmreport.certificate.clauses import missing_items
-from zlmreport.certificate.information import findings
-from zlmreport.certificate.results import Evaluated
-from zlmreport.correction.corrections import corrected, corrections_of, without_excluded
-from zlmreport.errors import InputError
+from zlmreport.document.certificate.attachments import Attachment, arranged, media_type, source_attachments
+from zlmreport.document.certificate.build import GENERATOR, build
+from zlmreport.document.certificate.clauses import missing_items
+from zlmreport.document.certificate.collection import collected
+from zlmreport.document.certificate.information import findings
+from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.results import Evaluated, Tested
+from zlmreport.document.subjects.doubts import doubts_of_runs
+from zlmreport.errors import InputError, Problem
+from zlmreport.evaluation import traceability
+from zlmreport.evaluation.correction.corrections import corrected, corrections_of, without_excluded
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
+from zlmreport.evaluation.likely_units import doubts
+from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+from zlmreport.evaluation.uncertainty.expanded import with_uncertainty
+from zlmreport.evaluation.uncertainty.job_budget import budget_of, refusals
+from zlmreport.evaluation.uncertainty.joined_budget import joined_budget
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import Document
 from zlmreport.language import Words
+from zlmreport.measurement.error_symbol import for_error
+from zlmreport.measurement.measurement_set import joined
 from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import (
     Renderer,
     SourceContext,
     Standard,
     carries_attachments,
+    contributions_of,
     information_asked_by,
     relationship_of,
 )
-from zlmreport.uncertainty.budget import Budget, NoBudget
-from zlmreport.uncertainty.expanded import with_uncertainty
-from zlmreport.uncertainty.job_budget import budget_of, refusals
-from zlmreport.uncertainty.monte_carlo import TRIALS
-from zlmreport.values import dataclass
 
 if TYPE_CHECKING:
-    from zlmreport.certificate.conditions import Described
-    from zlmreport.certificate.document import Certificate
-    from zlmreport.certificate.model_annex import Modelled
+    from zlmreport.document.certificate.conditions import Described
+    from zlmreport.document.certificate.document import Certificate
+    from zlmreport.document.signing.signer import Signer
+    from zlmreport.document.subjects.annex import Modelled
+    from zlmreport.document.writer import Writer
     from zlmreport.job.job import Job
     from zlmreport.measurement.measurement_set import MeasurementSet
-    from zlmreport.plugins import Registry
-    from zlmreport.presenting.writer import Writer
-    from zlmreport.signing.signer import Signer
+    from zlmreport.plugin.registry import Registry
 
 #: This program, and each plugin by its identifier, with their releases.
 Programs: TypeAlias = tuple[str, Mapping[str, str]]
@@ -76,11 +84,15 @@ def _unseen(_doing: str) -> AbstractContextManager[Callable[[float], object]]:
 
 def read(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names, correct them and set aside what it says."""
+    if job.tests:
+        return joined(job.axis, {name: read(each, registry) for name, each in job.tests.items()})
     return without_excluded(read_whole(job, registry), job)
 
 
 def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names and correct them; none is set aside."""
+    if job.tests:
+        return joined(job.axis, {name: read_whole(each, registry) for name, each in job.tests.items()})
     source = registry.source(job.source.identifier)
     set_ups = {
         choice.identifier: extension.set_up(job, choice.options)
@@ -99,28 +111,36 @@ def read_sessions(job: Job, registry: Registry) -> tuple[MeasurementSet, ...]:
     return tuple(read(each, registry) for each in job.sessions)
 
 
-def compose(
+def compose(  # noqa: PLR0913 - what a document is made of
     job: Job,
     registry: Registry,
     made_by: Programs | None = None,
     showing: Showing = _unseen,
     trials: int = TRIALS,
+    *,
+    is_part: bool = False,
 ) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered.
 
     `made_by` are the programs that the document names; those that make it if they are left out. `trials` are
-    the tests that are simulated for its uncertainties.
+    the tests that are simulated for its uncertainties. `is_part`: Whether it is one of several measurements
+    that make one document.
     """
-    missing = list(missing_items(job))
+    if job.measurements:
+        return _compose_parts(job, registry, made_by, showing, trials)
+    missing = [
+        *missing_items(job),
+        *(one for each in job.lines.values() for one in traceability.refusals(each)),
+    ]
     try:
         measurements = read(job, registry)
         for each, readings in ((job, measurements), (job.as_found, None)):
             if each:
-                missing += refusals(each, budget_of_job(each, readings or read(each, registry), registry))
+                missing += _refusals(each, budget_of_job(each, readings or read(each, registry), registry))
     except InputError as error:
         raise InputError([*missing, *error.problems]) from error
     if missing:
-        raise InputError(missing)
+        raise InputError(dict.fromkeys(missing))
     evaluations = evaluated(job, measurements, registry, trials)
     studied = modelled(job, measurements, registry, showing) if job.effects else None
     found = job.as_found
@@ -134,7 +154,61 @@ def compose(
         return [each for each in said if each]
 
     generator, plugins = made_by or programs(job, registry)
-    return build(job, evaluations, plugins, studied, as_found, describe, generator)
+    tests = tested(job, measurements, evaluations[0].budget, registry, trials)
+    lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
+    doubtful = tuple(
+        said_of_each(
+            (name, (*doubts(line, of_line, [each.evaluation for each in by]), *doubts_of_runs(of_line)))
+            for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
+        )
+    )
+    return build(
+        job, evaluations, plugins, doubtful, studied, as_found, describe, generator, tests, is_part=is_part
+    )
+
+
+def _compose_parts(
+    job: Job, registry: Registry, made_by: Programs | None, showing: Showing, trials: int
+) -> Certificate:
+    """Compose one document of several measurements; whatever is wrong with any of them is told at once."""
+    parts: dict[str, Certificate] = {}
+    problems: list[Problem] = []
+    for name, part in job.measurements.items():
+        try:
+            parts[name] = compose(part, registry, made_by, showing, trials, is_part=True)
+        except InputError as error:
+            problems.extend(error.problems)
+    if problems:
+        raise InputError(dict.fromkeys(problems))
+    generator, plugins = made_by or programs(job, registry)
+    return collected(job, parts, plugins, generator)
+
+
+def _refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
+    """Yield what a certificate must state of its uncertainty and does not; of several lines, of each too."""
+    yield from refusals(job, budget)
+    for name, of_line in budget.tests.items() if isinstance(budget, Budget) else ():
+        yield from refusals(job.tests[name], of_line)
+
+
+def tested(
+    job: Job,
+    measurements: MeasurementSet,
+    budget: Budget | NoBudget,
+    registry: Registry,
+    trials: int,
+) -> tuple[Tested, ...]:
+    """Evaluate each of several measured lines by those standards of the job that evaluate it alone.
+
+    `budget`: Of what follows from them together, with that of each line.
+    """
+    found = []
+    for name, line in job.tests.items():
+        of_line = budget.tests[name] if isinstance(budget, Budget) else budget
+        readings = measurements.tests[name]
+        evaluations = evaluated(line, readings, registry, trials, of_line)
+        found.append(Tested(name, line, readings, of_line, evaluations))
+    return tuple(found)
 
 
 def programs(job: Job, registry: Registry) -> Programs:
@@ -144,6 +218,16 @@ def programs(job: Job, registry: Registry) -> Programs:
 
 def budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:
     """Return the uncertainty budget of the set-up, with what its extensions contribute."""
+    if job.tests:
+        budgets = {
+            name: budget_of_job(each, measurements.tests[name], registry) for name, each in job.tests.items()
+        }
+        brought = [
+            contributions_of(standard, measurements, options)
+            for standard, options in standards(job, registry)
+        ]
+        negligible = [(str(key), said) for key, said in job.keys.uncertainty.negligible.items()]
+        return joined_budget(budgets, brought, job.axis.measurand.contributors, negligible)
     own = tuple(
         contribution
         for extension, choice in registry.extensions_of(job)
@@ -155,18 +239,27 @@ def budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) ->
 def parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluation, ...]:
     """Evaluate readings by every standard that the job names; uncertainties and decisions are left out."""
     return tuple(
-        evaluate(standard, measurements, options, choice.tolerances)
+        replace(
+            evaluate(standard, measurements, options, choice.tolerances), specification=choice.specification
+        )
         for (standard, options), choice in zip(standards(job, registry), job.standards, strict=True)
     )
 
 
 def evaluated(
-    job: Job, measurements: MeasurementSet, registry: Registry, trials: int = TRIALS
+    job: Job,
+    measurements: MeasurementSet,
+    registry: Registry,
+    trials: int = TRIALS,
+    budget: Budget | NoBudget | None = None,
 ) -> tuple[Evaluated, ...]:
-    """Evaluate readings by every standard that the job names, with uncertainties and decisions."""
+    """Evaluate readings by every standard that the job names, with uncertainties and decisions.
+
+    `budget`: Of the set-up; without it the job's own.
+    """
     stated = job.keys.decision_rule
     rule = decision_rule(stated.rule, stated.guard_band_factor)
-    budget = budget_of_job(job, measurements, registry)
+    budget = budget or budget_of_job(job, measurements, registry)
     chosen = standards(job, registry)
     bare = [
         (evaluation, partial(standard.arithmetic, options=options))
@@ -187,10 +280,10 @@ def modelled(
     job: Job, measurements: MeasurementSet, registry: Registry, showing: Showing = _unseen
 ) -> Modelled:
     """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
-    from zlmreport.certificate.forecast import forecasts  # noqa: PLC0415 - only for a job with a model
-    from zlmreport.certificate.model_annex import Modelled  # noqa: PLC0415
-    from zlmreport.model.study import Fitted, Study  # noqa: PLC0415
-    from zlmreport.planning.deciding import experiment_of_tie  # noqa: PLC0415
+    from zlmreport.document.subjects.annex import Modelled  # noqa: PLC0415
+    from zlmreport.document.subjects.forecast import forecasts  # noqa: PLC0415 - only for a job with a model
+    from zlmreport.model.diagnosis.study import Fitted, Study  # noqa: PLC0415
+    from zlmreport.model.planning.deciding import experiment_of_tie  # noqa: PLC0415
 
     study = Study.of(job, measurements, registry.effects, read_sessions(job, registry))
     with showing("diagnosing") as told:
@@ -201,7 +294,7 @@ def modelled(
     return Modelled(
         history,
         diagnosis,
-        forecasts(standards(job, registry), study, history),
+        forecasts(standards(job, registry), study, history) if job.axis.measurand.is_position else (),
         study.titles(registry.effects),
         study,
         experiment,
@@ -209,8 +302,11 @@ def modelled(
 
 
 def standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
-    """Return the standards that a job names, each with its own keys."""
-    return [(registry.standard(choice.identifier), choice.options) for choice in job.standards]
+    """Return the standards that a job names, as they evaluate what was measured, each with its own keys."""
+    stated = job.axis.error or job.axis.measurand.identifier
+    return [
+        (for_error(registry.standard(choice.identifier), stated), choice.options) for choice in job.standards
+    ]
 
 
 def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
@@ -228,8 +324,8 @@ def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Sho
                 if each.suffix == PDF
             }
         documents = tuple(
-            Document(job.directory / file_name(certificate, renderer), contents[renderer.identifier])
-            for renderer in renderers
+            Document(job.directory / name, contents[renderer.identifier])
+            for name, renderer in zip(file_names(certificate.number, renderers), renderers, strict=True)
         )
     return Outcome(certificate, documents)
 
@@ -249,13 +345,13 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     if carriers:
         attached = [
             Attachment(
-                file_name(certificate, each),
+                name,
                 contents[each.identifier],
-                media_type(file_name(certificate, each)),
+                media_type(name),
                 relationship,
                 each.title.in_language(certificate.language),
             )
-            for each in others
+            for name, each in zip(file_names(certificate.number, others), others, strict=True)
             if (relationship := relationship_of(each))
         ]
         attached += source_attachments(certificate.sources, certificate.language)
@@ -264,9 +360,17 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     return contents
 
 
-def file_name(certificate: Certificate, renderer: Renderer) -> str:
-    """Return the name of a certificate's file."""
-    return f"{certificate.number}{renderer.suffix}"
+def file_names(number: str, renderers: Sequence[Renderer]) -> tuple[str, ...]:
+    """Return the names of a certificate's files: ``CAL-1.pdf``.
+
+    Where several write files of one suffix, those after the first have their identifiers in their names:
+    ``CAL-1-pdf-typst.pdf``.
+    """
+    first = {each.suffix: each.identifier for each in reversed(renderers)}
+    return tuple(
+        f"{number}{'' if first[each.suffix] == each.identifier else f'-{each.identifier}'}{each.suffix}"
+        for each in renderers
+    )
 
 
 @contextlib.contextmanager

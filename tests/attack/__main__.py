@@ -22,8 +22,11 @@ os.environ["OPENBLAS_NUM_THREADS"] = "1"  # before any library is loaded: thread
 sys.path.insert(0, str(Path(__file__).parents[1]))  # for its neighbours, as pytest has them
 
 from attack.adversary import Input, answers, inputs, shown, shrunk, warm_up
+from attack.faces import attacked as attacked_faces, certificate
 from attack.targets import Target, targets
 
+#: What finds files that two readers show differently; it is no target among the others, for its corpus grows.
+FACES = "faces"
 #: Inputs of a process.
 _BATCH = 200
 #: A file system in memory, where there is one: half of an input is files made and removed.
@@ -50,6 +53,20 @@ def attacked(seed: int, wanted: int, until: float, only: str) -> int:
     return len(found)
 
 
+def faced(seed: int, wanted: int, until: float) -> int:
+    """Look for files of two faces until the time or the number is over; return the number of findings."""
+    done = held = found = 0
+    issued = [certificate(printed, layout="sheet") for printed in ("pdf", "pdf-typst")]
+    drawn = [attacked_faces(each, seed + number, wanted) for number, each in enumerate(issued)]
+    while done < wanted and time.monotonic() < until:
+        seeds, holds, told = next(drawn[done % len(drawn)])
+        done, held, found = done + 1, held + holds, found + bool(told)
+        if told:
+            print(f"\n{'; '.join(told)}: edits {seeds} of {('pdf', 'pdf-typst')[(done - 1) % 2]}", flush=True)
+    print(f"{done} files of a certificate taken apart, seed {seed}: {held} hold, {found} findings")
+    return found
+
+
 def _least(each: Input, known: Sequence[Target]) -> str:
     """Return what shows an input again, with the fewest edits."""
     least, complained = shrunk(each, known)
@@ -64,7 +81,9 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--minutes", type=float, default=5.0, help="how long; 5 without it")
     parser.add_argument("--inputs", type=int, default=sys.maxsize, help="how many at most")
     parser.add_argument("--seed", type=int, default=1, help="of all inputs; 1 without it")
-    parser.add_argument("--only", default="", help="targets whose name holds this")
+    parser.add_argument(
+        "--only", default="", help=f"targets whose name holds this; {FACES}: a certificate, byte by byte"
+    )
     return parser.parse_args(arguments)
 
 
@@ -74,6 +93,8 @@ if __name__ == "__main__":
     os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="zlmreport-attack-cache-")
     try:
         ends = time.monotonic() + 60 * chosen.minutes
+        if chosen.only == FACES:
+            sys.exit(1 if faced(chosen.seed, chosen.inputs, ends) else 0)
         sys.exit(1 if attacked(chosen.seed, chosen.inputs, ends, chosen.only) else 0)
     finally:
         shutil.rmtree(os.environ["XDG_CACHE_HOME"], ignore_errors=True)

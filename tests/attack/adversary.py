@@ -25,7 +25,7 @@ from pathlib import Path
 
 from attack.edits import spoiled
 from attack.targets import Target
-from zlmreport.plugins import candidate, find
+from zlmreport.plugin.registry import candidate, find
 
 #: Exit codes of a command that refuses.
 _REFUSED = (2, 3)
@@ -61,7 +61,7 @@ def warm_up(known: Sequence[Target]) -> None:
     The attacks are made on sound files in a child, for some start threads, which do not outlive a fork.
     """
     find.entry_points = cache(find.entry_points)  # type: ignore[assignment,attr-defined]
-    candidate._offers = cache(candidate._offers)
+    candidate._checked = cache(candidate._checked)
     reading, writing = os.pipe()
     if not (child := os.fork()):
         for number, target in enumerate(known):

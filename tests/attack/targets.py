@@ -20,9 +20,9 @@ from environments import ROOT
 from verification.issued import READINGS, content_of, with_attachment
 from zlmreport import pipeline
 from zlmreport.cli import main
-from zlmreport.model import null_distribution
-from zlmreport.plugins import find_plugins
-from zlmreport.uncertainty import expanded
+from zlmreport.evaluation.uncertainty import expanded
+from zlmreport.model.diagnosis import null_distribution
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.verification.attached import digital_findings
 from zlmreport.verification.carrier import Carried
 

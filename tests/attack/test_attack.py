@@ -11,9 +11,12 @@ import pytest
 
 from attack.adversary import Input, complaint
 from attack.edits import TEXT, spoiled
+from attack.faces import Corpus, Faces, attacked, certificate
 from attack.targets import Target
 from environments import ROOT
 from processes import PYTHON, run
+from verification.forgeries import plain
+from verification.raw_forgeries import boxed, together
 
 
 def test_a_seed_makes_the_same_file_again() -> None:
@@ -29,6 +32,34 @@ def test_nothing_is_found_in_a_short_attack() -> None:
     done = run(PYTHON, ROOT / "tests/attack", "--inputs", "38", "--seed", "20261120")
     assert done.returncode == 0, done.stdout + done.stderr
     assert "38 inputs, seed 20261120: 0 findings" in done.stdout
+
+
+@pytest.fixture(scope="module")
+def sheet() -> bytes:
+    return certificate("pdf-typst", layout="sheet")
+
+
+def test_no_file_that_holds_shows_two_readers_two_things(sheet: bytes) -> None:
+    drawn = list(attacked(sheet, seed=20261120, inputs=25))
+    assert [told for _, _, told in drawn if told] == []
+    assert any(holds for _, holds, _ in drawn)
+
+
+def test_what_readers_show_differently_is_told(sheet: bytes) -> None:
+    """A second copy of every object, all of them altered: as if `verify` said that it held."""
+    faces = Faces(sheet)
+    assert list(faces.differences(plain(sheet))) == []
+    told = list(faces.differences(together(plain(sheet), b"".join(boxed(sheet, 1).values()))))
+    assert any(each.startswith("qpdf shows something else") for each in told) or any(
+        "PDFium" in t for t in told
+    )
+
+
+def test_a_corpus_grows_by_what_is_answered_anew() -> None:
+    corpus = Corpus()
+    for seed, answer in enumerate(("object 1 is lost", "object 2 is lost", "it holds")):
+        corpus.learn((seed,), answer)
+    assert corpus.kept == [(), (0,), (2,)]
 
 
 def _refuses_and_writes(folder: Path) -> int:

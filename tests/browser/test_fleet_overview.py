@@ -15,7 +15,7 @@ from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import State
 from zlmreport.fleet.state import state_of
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import PastNight
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 MACHINES = 40
 BEGAN = datetime(2026, 10, 20, tzinfo=UTC)

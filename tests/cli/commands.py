@@ -11,7 +11,7 @@ import pytest
 
 from job.jobs import SOUND
 from zlmreport.cli import main
-from zlmreport.plugins import Registry
+from zlmreport.plugin.registry import Registry
 
 _COMMANDS = ("report", "plugins")
 READINGS = "1 2 3 -1 -2 -3"
@@ -68,3 +68,9 @@ def use(monkeypatch: pytest.MonkeyPatch, registry: Registry) -> None:
     """Let commands find these plugins."""
     for command in _COMMANDS:
         monkeypatch.setattr(f"zlmreport.cli.{command}.find_plugins", lambda **_: registry)
+
+
+def told(run: Run) -> Any:
+    """Return the JSON that a command printed."""
+    assert (run.code, run.messages) == (0, "")
+    return json.loads(run.output)

@@ -11,13 +11,13 @@ from typing import Self
 
 from pydantic import Field
 
-from capture.moves import Axis
+from live.capture.moves import Axis
 from processes import PATIENCE
-from zlmreport.emulation.emulator import Emulator, Scene
 from zlmreport.errors import AccessError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import same
-from zlmreport.live.reading import Fault, LiveReading
+from zlmreport.live.emulation.emulator import Emulator, Scene
+from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.plugin import hookimpl
 from zlmreport.plugin.protocols import Instrument
 
@@ -59,7 +59,7 @@ class Story:
         yield from self._axis.stand(20.0 if "slow" in moves else 2.0)
         for move in moves:
             if move == "lost":
-                yield from self._axis.stand(0.01, **_LOST)
+                yield from self._axis.stand(1.2, **_LOST)
             elif move == "interrupt":
                 raise KeyboardInterrupt
             elif move == "silent":

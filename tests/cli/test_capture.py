@@ -17,10 +17,11 @@ import pytest
 
 from cli.commands import Run
 from environments import ROOT
+from live.capture.virtual import InStep
 from processes import PATIENCE, ZLMREPORT, group
-from zlmreport.capture.events import Recorded
-from zlmreport.capture.journal import read_history
 from zlmreport.cli import main
+from zlmreport.live.capture.events import Recorded
+from zlmreport.live.capture.journal import read_history
 
 PLUGIN = Path(__file__).with_name("scripted.py")
 WHOLE = "0 20 t25 20 0 -5"
@@ -369,6 +370,9 @@ def keyboard(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         monkeypatch.setattr("sys.stdin", stdin)
         for module in ("capture", "capture_display"):
             monkeypatch.setattr(f"zlmreport.cli.{module}.is_watched", lambda: True)
+        monkeypatch.setattr(
+            "zlmreport.cli.capture.ReadAhead", InStep
+        )  # a story that is told waits for its keys
         before = termios.tcgetattr(stdin)
         yield
         assert termios.tcgetattr(stdin) == before

@@ -10,6 +10,7 @@ import pytest
 
 from cli.commands import Shop
 from processes import PYTHON, ZLMREPORT, run
+from zlmreport.cli import arguments
 from zlmreport.version import __version__
 
 COMMANDS = ["check", "init", "plugins", "schema"]
@@ -42,10 +43,18 @@ def test_help_fits_a_terminal(shop: Shop, monkeypatch: pytest.MonkeyPatch) -> No
         assert max(map(len, lines)) <= 92
 
 
+def test_without_a_word_it_says_what_one_can_do_and_every_line_of_it_is_a_command(shop: Shop) -> None:
+    done = shop.run()
+    first, *lines = done.messages.splitlines()
+    assert (done.code, first) == (2, "zlmreport: name a job, or say what you want:")
+    assert {line.split()[1] for line in lines} - {"JOB.yaml", "--help"} <= set(arguments.COMMANDS)
+    assert max(map(len, lines)) <= 80
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ([], "zlmreport: the following arguments are required: JOB.yaml (see zlmreport --help)"),
+        (["--quiet"], "zlmreport: the following arguments are required: JOB.yaml (see zlmreport --help)"),
         (["chek", "job.yaml"], "zlmreport: 'chek' is neither a file nor a command; did you mean 'check'?"),
         (["--quiet", "check"], "zlmreport: the command comes first: zlmreport check …"),
         (["job.yaml", "--formt", "pdf"], "zlmreport: unknown option '--formt'; did you mean '--format'?"),

@@ -19,6 +19,7 @@ argcomplete = pytest.importorskip("argcomplete")
         ("zlmreport fleet re", {"rebuild", "report"}),
         ("zlmreport model a", {"add"}),
         ("zlmreport model add x-axis.yaml backlash-g", {"backlash-gradient"}),
+        ("zlmreport new st", {"standard"}),
         ("zlmreport x-axis.yaml --format pdf,ht", {"pdf,html"}),
     ],
 )

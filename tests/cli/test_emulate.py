@@ -14,8 +14,8 @@ from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.arguments.parser import FAULTS
 from zlmreport.cli.emulate import axis_of
-from zlmreport.emulation.emulator import Trouble
-from zlmreport.plugins import find_plugins
+from zlmreport.live.emulation.emulator import Trouble
+from zlmreport.plugin.registry import find_plugins
 
 
 def _options(*arguments: str) -> Namespace:

@@ -12,10 +12,9 @@ from typing import Any
 import pytest
 
 from fleet.fleets import FLEET, Fleet, without_processes
-from processes import PYTHON
-from processes import run as run_program
+from processes import PYTHON, run as run_program
 from zlmreport.cli import main
-from zlmreport.cli.fleet import Progress, TextLog, bar
+from zlmreport.cli.fleet import NightProgress, TextLog, bar
 from zlmreport.fleet.issuing import Happened, What
 
 OTHER_READINGS = "2 2 3 -1 -2 -3"
@@ -200,7 +199,7 @@ class Terminal(StringIO):
 
 def test_a_terminal_shows_a_bar_that_goes_when_all_is_done() -> None:
     terminal = Terminal()
-    progress = Progress(terminal, 2)
+    progress = NightProgress(terminal, 2)
     progress.advance(failed=False)
     progress.hide()
     *_, last, gone = terminal.getvalue().split("\r")
@@ -210,7 +209,7 @@ def test_a_terminal_shows_a_bar_that_goes_when_all_is_done() -> None:
 
 def test_a_file_shows_no_bar() -> None:
     stream = StringIO()
-    Progress(stream, 2).advance(failed=False)
+    NightProgress(stream, 2).advance(failed=False)
     assert not stream.getvalue()
 
 

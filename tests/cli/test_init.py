@@ -12,7 +12,7 @@ from processes import ZLMREPORT, run
 from zlmreport.cli import main
 from zlmreport.job.loading import load
 from zlmreport.pipeline import compose
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 FILES = ["job.yaml", "laboratory.yaml", "x-axis.csv"]
 

@@ -9,7 +9,7 @@ import pytest
 from cli.commands import Shop, use
 from offers import exemplary_registry, offering
 from zlmreport.job.schema import job_schema
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugin.registry import Plugin, collect
 
 
 def test_plugins_are_listed_by_kind_with_title_and_distribution(shop: Shop) -> None:

@@ -13,9 +13,9 @@ from openpyxl import Workbook
 from cli.commands import Shop
 from environments import ROOT
 from zlmreport.cli import main
-from zlmreport.cli.init import looked_at
 from zlmreport.errors import ZlmreportError
-from zlmreport.plugins import find_plugins
+from zlmreport.looking import looked_at
+from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins({})
 LONG = "target,direction,run,deviation\n0,+,1,1.5\n100,+,1,2.5\n100,-,1,0.5\n0,-,1,-0.5\n"
@@ -51,8 +51,9 @@ TABLES: dict[str, tuple[bytes, dict[str, Any]]] = {
                 "run": "Messlauf",
                 "deviation": "Abweichung",
             },
+            "skip_rows": 3,
+            "ends_before": "Ende des Protokolls",
             "ignore": ["Bemerkung"],
-            "lines": [4, 8],
         },
     ),
     "UTF-16": (LONG.replace(",", "\t").encode("utf-16"), {"encoding": "utf-16"}),

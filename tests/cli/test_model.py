@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import sys
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from cli.commands import Run, Shop
+from cli.commands import Shop, told
 from cli.model_jobs import change, keep, opened
 from model.hidden_effect import LAST, example_diagnosis
-from zlmreport.cli import main, model_lines
-from zlmreport.model.study import Study
+from zlmreport.cli import main
+from zlmreport.model.diagnosis.study import Study
 
 GOLDEN = Path(__file__).with_name("golden")
 #: Numbers are held by the tests of the engine, and by the pages that show them.
@@ -28,12 +26,6 @@ EFFECTS = ["offset", "scale-error", "backlash"]
 @pytest.fixture
 def shop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Shop:
     return opened(tmp_path, monkeypatch, capsys)
-
-
-def told(run: Run) -> Any:
-    """Return the JSON that a command printed."""
-    assert (run.code, run.messages) == (0, "")
-    return json.loads(run.output)
 
 
 def effects(shop: Shop) -> list[str]:
@@ -198,13 +190,6 @@ def test_a_check_says_that_an_adequate_model_is_one(shop: Shop) -> None:
     run = shop.run("check", "job.yaml")
     assert "model  The model describes the readings" in run.output
     assert "see: zlmreport model" not in run.output
-
-
-def test_a_bar_is_drawn_in_signs_that_the_terminal_has(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert set(model_lines._bar(0.5)) == {"█"}
-    monkeypatch.setattr(model_lines, "_can_print", lambda _: False)
-    assert set(model_lines._bar(0.5)) == {"#"}
-    assert model_lines._bar(0.0) == ""
 
 
 def test_help_tells_every_action(capsys: pytest.CaptureFixture[str]) -> None:

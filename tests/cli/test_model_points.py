@@ -12,7 +12,7 @@ import pytest
 
 from model.halaj import PRINTED
 from zlmreport.cli import main
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugin.registry import Plugin, collect
 from zlmreport_plugins import effects
 from zlmreport_plugins.renderers import json_results
 from zlmreport_plugins.sources import laser_csv
@@ -162,7 +162,7 @@ def test_scatter_that_grows_is_said_to_be_weighted(job: Path, capsys: pytest.Cap
     ]
     (job.parent / "readings.csv").write_text("\n".join(["target,direction,run,deviation", *rows]) + "\n")
     assert main(["model", "fit", "job.yaml"]) == 0
-    assert "readings are weighted, for they scatter unequally: a single one by 0." in capsys.readouterr().out
+    assert "Readings are weighted, for they scatter unequally: a single one by 0." in capsys.readouterr().out
     assert main(["model", "fit", "job.yaml", "--json"]) == 0
     noise = json.loads(capsys.readouterr().out)["noise"]
     assert noise["least_repeatability"] < 0.6

@@ -16,7 +16,7 @@ import pytest
 from model.axis_tests import linear_test, noise
 from zlmreport.cli import main
 from zlmreport.cli.new import GUIDES
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import instruments
 
 ROOT = Path(__file__).parents[2]

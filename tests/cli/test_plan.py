@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from planning.planned import REGISTRY, WHOLE_PITCHES, job_text
+from model.planning.planned import REGISTRY, WHOLE_PITCHES, job_text
 from plugins.part_programs.controls import linuxcnc
 from zlmreport.cli import main
 
@@ -99,10 +99,10 @@ def test_json_has_the_requirements_of_each_standard(values: Callable[..., Any]) 
 
 def test_lines_say_what_is_hidden_why_and_what_to_change(lines: Callable[..., str]) -> None:
     text = " ".join(lines(("plan: {}", WHOLE_PITCHES)).split())
-    hidden = text.partition("what it cannot see")[2]
+    hidden = text.partition("What it cannot see")[2]
     reason, _, effects = hidden.partition("choose targets with a random fraction: ")
     assert reason.endswith("all targets lie at the same phase of the pitch of 10 mm; ")
-    assert re.search(r"screw-pitch 0 % visible, then \d\d % ", effects)
+    assert re.search(r"screw-pitch: 0 % visible, then \d\d % ", effects)
 
 
 def test_lines_warn_of_targets_at_half_pitches(lines: Callable[..., str]) -> None:
@@ -119,7 +119,7 @@ def test_lines_say_what_is_hidden_by_the_sequence(lines: Callable[..., str]) -> 
 
 
 def test_lines_name_the_columns_to_log(lines: Callable[..., str]) -> None:
-    logs = lines().partition("what to log beside the readings\n")[2]
+    logs = lines().partition("What to log beside the readings\n")[2]
     assert "  axis_temperature: to be able to tell " in logs
     assert "scale-expansion" in logs
     assert "face" not in logs

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from cli.commands import Shop
+from document.signing.keys import PASSWORD, pkcs12_file
 from environments import ROOT
 from pdf_conformance import complaints
 from processes import ZLMREPORT, run
-from signing.keys import PASSWORD, pkcs12_file
 from zlmreport.cli import main
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.signing.state import Integrity, signature_state
+from zlmreport.document.signing.state import Integrity, signature_state
 
 JOB = ROOT / "configs" / "german" / "messbericht.yaml"
 

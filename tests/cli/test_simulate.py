@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from simulation.files import SOUND, with_line
+from model.simulation.files import SOUND, with_line
 from zlmreport.cli import main
-from zlmreport.plugins import Plugin, Registry, collect
+from zlmreport.plugin.registry import Plugin, Registry, collect
 from zlmreport_plugins import effects
 from zlmreport_plugins.renderers import json_results
 from zlmreport_plugins.sources import laser_csv

@@ -12,7 +12,7 @@ from zlmreport.cli import main
 from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 SIMULATION = """\
 schema: zlmreport/simulation/1

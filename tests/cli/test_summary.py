@@ -29,6 +29,7 @@ def test_done_job(shop: Shop) -> None:
         "files": ["out/CAL-1.json"],
         "missing_readings": [],
         "doubts": [],
+        "evidence": [],
         "problems": [],
     }
     assert evaluation["standard"] == "exemplary:1"

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from zlmreport.cli import main
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugin.registry import Plugin, collect
 from zlmreport_plugins.renderers import json_results
 from zlmreport_plugins.sources import laser_csv
 from zlmreport_plugins.standards import iso230_2

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from verification.issued import LABORATORY, READINGS, issue, lay_out, with_attachment, with_results
-from zlmreport.certificate.build import GENERATOR
 from zlmreport.cli import main
+from zlmreport.document.certificate.build import GENERATOR
 
 Run = Callable[..., tuple[int, str, str]]
+DIGEST = re.compile(r"[0-9A-HJKMNP-TV-Z]{4}(-[0-9A-HJKMNP-TV-Z]{4}){3}")
 
 
 @pytest.fixture(scope="session")
@@ -42,7 +44,8 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     code, output, messages = run(report)
     assert (code, messages) == (0, "")
     head, identity, _, *others = output.splitlines()
-    assert head == "report.pdf  holds: consistent, origin unknown"
+    assert head.startswith("report.pdf  holds: consistent, origin unknown  ")
+    assert DIGEST.fullmatch(head.split()[-1])
     assert identity == f"  Measuring Report VERIFY-1, issued 2026-11-20, made by {GENERATOR}"
     assert others[0] == "  signature  not signed: nothing tells who made the file"
     assert others[1] == "  files      6 of 6 attached files as the certificate states"
@@ -55,7 +58,8 @@ def test_a_german_certificate_is_told_in_german(run: Run, tmp_path: Path) -> Non
     pdf = issue(lay_out(tmp_path / "de", laboratory=german))
     code, output, _ = run(pdf)
     head, identity, _, *others = output.splitlines()
-    assert (code, head) == (0, "report.pdf  bestätigt: in sich stimmig, Herkunft unbekannt")
+    assert code == 0
+    assert head.startswith("report.pdf  bestätigt: in sich stimmig, Herkunft unbekannt  ")
     assert identity.endswith(f", ausgestellt 2026-11-20, hergestellt von {GENERATOR}")
     assert others[0] == "  Signatur  nicht signiert: nichts sagt, wer die Datei hergestellt hat"
     assert others[1] == "  Dateien   6 von 6 angehängten Dateien wie im Schein angegeben"

@@ -9,8 +9,9 @@ from itertools import pairwise
 import numpy as np
 import pypdfium2
 
-from zlmreport.certificate.columns import table_layout, text_of
-from zlmreport.certificate.document import Certificate, Facts, Formulas, Notice, Paragraph, Symbol, Table
+from zlmreport.document.blocks import Facts, Formulas, Notice, Paragraph, Symbol, Table
+from zlmreport.document.certificate.columns import table_layout, text_of
+from zlmreport.document.certificate.document import Certificate
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0

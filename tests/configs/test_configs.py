@@ -14,19 +14,20 @@ import pytest
 from dcclib.validation.schematron import SchematronValidator
 
 from configs.pages import embarrassments
+from document.figures.samples import collisions
+from document.typesetting import samples
 from environments import ROOT
-from figures.samples import collisions
-from typesetting import samples
 from zlmreport import pipeline
-from zlmreport.certificate.build import build
-from zlmreport.certificate.document import Certificate, Notice, Paragraph, Section
 from zlmreport.cli import main
+from zlmreport.document.blocks import Notice, Paragraph, Section
+from zlmreport.document.certificate.build import build
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
 from zlmreport.files import write
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 CONFIGS = ROOT / "configs"
 #: The jobs of the fleet have tests of their own.

@@ -13,7 +13,7 @@ from environments import ROOT
 from processes import PYTHON, run
 from zlmreport.cli import main
 from zlmreport.job.loading import load
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 FLEET = ROOT / "configs" / "fleet"
 JOBS = sorted(FLEET.glob("*/*-20*.yaml"))

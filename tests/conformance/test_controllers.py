@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from zlmreport.plugin import Controller
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.controller import Controller
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import CONTROLLER_CHECKS
 
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from zlmreport.model.effect import Effect
-from zlmreport.plugins import find_plugins
+from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import EFFECT_CHECKS, full_designs
 
 EFFECTS = find_plugins().effects

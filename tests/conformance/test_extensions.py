@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from zlmreport.plugin import Command, CommandOption, Extension, Options, Words
-from zlmreport.plugins import find_plugins
-from zlmreport.testing import EXTENSION_CHECKS, check_extension
-from zlmreport.testing import extensions as kit
+from zlmreport.plugin import Options, Words
+from zlmreport.plugin.extension import Command, CommandOption, Extension
+from zlmreport.plugin.registry import find_plugins
+from zlmreport.testing import EXTENSION_CHECKS, check_extension, extensions as kit
 
 
 @pytest.mark.parametrize("extension", find_plugins().extensions, ids=lambda each: each.identifier)

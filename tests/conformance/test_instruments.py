@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from zlmreport.plugin.protocols import Instrument
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import INSTRUMENT_CHECKS
 
 

@@ -15,7 +15,7 @@ import pytest
 
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.kinds import NOTIFIER
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import NOTIFIER_CHECKS, NotifierTrial
 from zlmreport.testing.notifiers import SAMPLE
 from zlmreport_plugins.notifiers import Apprise, Mail

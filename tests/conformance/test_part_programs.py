@@ -8,7 +8,7 @@ import pytest
 
 from plugins.part_programs.controls import CONTROLS
 from zlmreport.plugin.protocols import PartProgram
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import PART_PROGRAM_CHECKS
 
 PROGRAMS = find_plugins().programs_for()

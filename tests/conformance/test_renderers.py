@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from zlmreport.plugin.protocols import Renderer
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import RENDERER_CHECKS
 
 RENDERERS = find_plugins().renderers

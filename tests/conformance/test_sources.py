@@ -11,8 +11,10 @@ import pytest
 from environments import ROOT
 from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.circle import NominalCircle
+from zlmreport.measurement.measurand import CIRCLE, STRAIGHTNESS
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import SOURCE_CHECKS, FileContents
 from zlmreport_step_gauge.calibration import read_calibration
 from zlmreport_step_gauge.set_up import GaugeSetUp
@@ -47,6 +49,7 @@ _Y_AXIS = FileContents(
 _ON_A_GAUGE = FileContents(
     20, ((20.0, "+", 1, -2.2314), (80.0, "+", 2, 2.4194), (30.0, "-", 1, -2.8904), (90.0, "-", 2, 1.4604))
 )
+ON_A_CIRCLE = Axis("XY", quantity=CIRCLE, circle=NominalCircle("XY", 0.15, 1 / 60))
 #: Files that a source reads without complaint: its identifier, its job keys, the axis, and what it holds.
 SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]] = [
     (
@@ -74,6 +77,18 @@ SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]]
             100,
             ((10.0, "+", 1, -20.52), (40.0, "+", 10, -3.6), (10.0, "-", 1, 111.6), (40.0, "-", 10, 115.92)),
         ),
+    ),
+    (
+        "laser-csv-reversal",
+        {"file": DATA / "straightness.csv", "reversed": DATA / "straightness-reversed.csv"},
+        Axis("X", quantity=STRAIGHTNESS, error="EYX"),
+        FileContents(6, ((0.0, "+", 1, 0.1), (200.0, "+", 1, 1.5), (0.0, "-", 1, 0.0), (100.0, "-", 1, 0.6))),
+    ),
+    (
+        "circle-csv",
+        {"file": CONFIGS / "machine" / "circle-xy.csv"},
+        ON_A_CIRCLE,
+        FileContents(720, ((0.5, "+", 1, 16.4), (0.5, "-", 1, 15.05), (90.5, "-", 1, -0.49))),
     ),
     ("dcc", {"file": DATA / "y-axis.xml"}, Axis("Y"), _Y_AXIS),
     ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y"), _Y_AXIS),

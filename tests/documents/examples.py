@@ -31,8 +31,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from documents.pages import DOCS, ROOT, Block, blocks
-from documents.shell import Shell
-from documents.shell import shell as opened
+from documents.shell import Shell, shell as opened
 from processes import PYTHON, run
 from zlmreport.errors import ZlmreportError
 
@@ -166,7 +165,7 @@ def _run_python(block: Block, folder: Path) -> None:
 
 def _load_part(block: Block, folder: Path) -> None:
     from zlmreport.job.loading import load
-    from zlmreport.plugins import find_plugins
+    from zlmreport.plugin.registry import find_plugins
 
     shutil.copy(_BASE, folder / "whole.yaml")
     part = folder / "part.yaml"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.certificate.clauses import MANDATORY_ITEMS, MandatoryItem
+from zlmreport.document.certificate.clauses import MANDATORY_ITEMS, MandatoryItem
 
 _ROWS = [
     line.split("|")

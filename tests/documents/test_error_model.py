@@ -7,7 +7,8 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.model import diagnosis, evidence, noise, null_distribution, repeats, steps
+from zlmreport.model.diagnosis import diagnosis, evidence, null_distribution, steps
+from zlmreport.model.fitting import noise, repeats
 
 _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8").split())
 

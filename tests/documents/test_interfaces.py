@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import inspect
 import re
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from documents.pages import DOCS
 from zlmreport import errors, plugin
-from zlmreport.emulation.emulator import Emulator
-from zlmreport.live.reading import LiveReading
+from zlmreport.live.emulation.emulator import Emulator
+from zlmreport.live.ports.reading import LiveReading
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.protocols import Connection, SourceContext
 
@@ -24,6 +25,7 @@ _GUIDES = [
     if guide.stem
     not in {"write-a-digital-certificate", "write-a-probing-program"}  # no plugin; of the step gauge
 ]
+_DOORS = [plugin, *(import_module(f"zlmreport.plugin.{name}") for name in plugin.DOORS)]
 _LIVE_HOOKS = [kind.hook for kind in KINDS]
 _MEMBERS = [
     f"{protocol.__name__}.{member}"
@@ -59,7 +61,10 @@ def test_the_page_lists_the_names_of_the_door_and_no_others() -> None:
     listed = re.findall(
         r"^\| `(\w+)(?:\([^`]*\))?` \| \S", _PAGE.partition("\n## The door\n")[2], re.MULTILINE
     )
-    assert sorted(name for name in listed if not name.startswith("check_")) == sorted(plugin.__all__)
+    offered = [name for door in _DOORS for name in door.__all__]
+    assert sorted({*listed, "DOORS"} - {name for name in listed if name.startswith("check_")}) == sorted(
+        offered
+    )
 
 
 @pytest.mark.parametrize("guide", _GUIDES, ids=lambda guide: guide.stem)
@@ -68,7 +73,7 @@ def test_a_plugin_that_follows_the_guide_imports_only_the_door(guide: Path) -> N
         r"^[+ ]?from (zlmreport(?:\.\w+)*) import", guide.read_text(encoding="utf-8"), re.MULTILINE
     )
     assert imported
-    assert set(imported) <= {"zlmreport.plugin", "zlmreport.testing"}
+    assert set(imported) <= {"zlmreport.testing", *(door.__name__ for door in _DOORS)}
 
 
 def test_every_exit_code_of_an_error_is_documented() -> None:

@@ -86,3 +86,14 @@ def test_the_page_on_the_architecture_has_every_room_in_the_order_of_the_floors(
     floors = [set(floor.split(" | ")) for floor in contracts[0]["layers"]]
     floor_of = [next(number for number, floor in enumerate(floors) if room in floor) for room in rooms]
     assert floor_of == sorted(floor_of)
+
+
+def test_every_place_that_the_page_on_the_architecture_sends_to_is_there() -> None:
+    text = (DOCS / "architecture.md").read_text("utf-8")
+    rows = re.findall(
+        r"^\| .* \|$", text.partition("## Where to look")[2].partition("\n## ")[0], re.MULTILINE
+    )[2:]
+    places = [re.findall(r"`([^`]+/[^`]*)`", row.rpartition(" | ")[2]) for row in rows]
+    assert len(rows) >= 20
+    assert all(places)
+    assert not [place for each in places for place in each if not (ROOT / place).exists()]

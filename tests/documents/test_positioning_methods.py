@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.planning.methods import Method
+from zlmreport.model.planning.methods import Method
 
 _PAGE = (DOCS / "explanation" / "positioning-methods.md").read_text(encoding="utf-8")
 

@@ -12,15 +12,15 @@ import pytest
 from job.jobs import SOUND
 from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.fleet import making, night
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.making import Failed, Made, Task
-from zlmreport.fleet.plan import Planned
-from zlmreport.fleet.records import Entry, Notice
+from zlmreport.fleet.making import Failed, MadeCertificate, Task
+from zlmreport.fleet.plan import PlannedJob
+from zlmreport.fleet.records import LedgerEntry, NightNotice
 from zlmreport.job.fleet import FleetFile, load_fleet
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugin.registry import Plugin, collect
 
 READINGS = "1 2 3 -1 -2 -3"
 FLEET = """\
@@ -51,11 +51,17 @@ class Sheet(Page):
     suffix = ".md"
 
 
+class Again(Page):
+    """The same by another program."""
+
+    identifier = "exemplary-again"
+
+
 REGISTRY = collect(
     [
         (
             Plugin("exemplary", "exemplary_module", "exemplary-plugins", "1.2"),
-            offering([ExemplaryStandard()], [ExemplarySource()], [Page(), Sheet()]),
+            offering([ExemplaryStandard()], [ExemplarySource()], [Page(), Sheet(), Again()]),
         )
     ]
 )
@@ -70,7 +76,7 @@ class Here:
     def __exit__(self, *_: object) -> None:
         pass
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             yield task, making.work(task)
 
@@ -79,18 +85,18 @@ class Here:
 class Witness:
     """Remembers a night."""
 
-    jobs: Sequence[Planned] = ()
+    jobs: Sequence[PlannedJob] = ()
     seen: list[Happened] = field(default_factory=list)
-    notices: list[Notice] = field(default_factory=list)
+    notices: list[NightNotice] = field(default_factory=list)
     priors: list[Path] = field(default_factory=list)
 
-    def planned(self, jobs: Sequence[Planned]) -> None:
+    def planned(self, jobs: Sequence[PlannedJob]) -> None:
         self.jobs = jobs
 
     def happened(self, happened: Happened) -> None:
         self.seen.append(happened)
 
-    def noticed(self, notice: Notice) -> None:
+    def noticed(self, notice: NightNotice) -> None:
         self.notices.append(notice)
 
     def learned(self, file: Path) -> None:
@@ -147,14 +153,14 @@ class Fleet:
     def spend(self) -> Witness:
         """Spend a night."""
         witness = Witness()
-        night.spend(self.file, night.Order(), witness)
+        night.spend_night(self.file, night.Order(), witness)
         return witness
 
-    def foretold(self) -> dict[str, Planned]:
+    def foretold(self) -> dict[str, PlannedJob]:
         """Return what a night would do about each job."""
         return {each.path.stem: each for each in night.foretell(self.file, ())}
 
-    def entries(self) -> list[Entry]:
+    def entries(self) -> list[LedgerEntry]:
         with Ledger.open(self.file.ledger, self.file.name) as ledger:
             return list(ledger.entries())
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from datetime import date, timedelta
 
-from zlmreport.fleet.records import Entry, RecordedParameter, State
+from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State
 
 FIRST = date(2025, 1, 15)
 
@@ -27,7 +27,7 @@ def parameter(value: float, **changes: object) -> RecordedParameter:
     return RecordedParameter(value=value, **{**known, **changes})  # type: ignore[arg-type]
 
 
-def entry(day: date, *parameters: RecordedParameter, **changes: object) -> Entry:
+def entry(day: date, *parameters: RecordedParameter, **changes: object) -> LedgerEntry:
     """Return the entry of a calibration of a day."""
     known: dict[str, object] = {
         "job": f"x/{day}.yaml",
@@ -41,10 +41,10 @@ def entry(day: date, *parameters: RecordedParameter, **changes: object) -> Entry
         "files": (f"x/CAL-{day}.json",),
         "parameters": parameters,
     }
-    return Entry(**{**known, **changes})  # type: ignore[arg-type]
+    return LedgerEntry(**{**known, **changes})  # type: ignore[arg-type]
 
 
-def history(values: Sequence[float], *, axis: str = "X", limit: float | None = 20.0) -> list[Entry]:
+def history(values: Sequence[float], *, axis: str = "X", limit: float | None = 20.0) -> list[LedgerEntry]:
     """Return quarterly calibrations of one axis that state A."""
     return [
         entry(day, parameter(value, limit=limit), axis=axis, job=f"{axis}/{day}.yaml")

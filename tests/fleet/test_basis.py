@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.fleet.basis import Basis, Disk, KnownFile, Look, changes
+from zlmreport.fleet.basis import CertificateBasis, Disk, FileStamp, KnownFile, changes
 
 CONTENT = b"readings"
-BASIS = Basis(
-    (KnownFile("job", "x.yaml", "a" * 64, Look(1, 2, 3)), KnownFile("readings", "x.csv", "b" * 64)),
+BASIS = CertificateBasis(
+    (KnownFile("job", "x.yaml", "a" * 64, FileStamp(1, 2, 3)), KnownFile("readings", "x.csv", "b" * 64)),
     {"zlmreport": "0.1.0 code", "acme": "1.0 code"},
     ("pdf", "json"),
     "d" * 64,
@@ -19,7 +19,7 @@ BASIS = Basis(
 
 
 def test_a_basis_comes_back_from_what_the_ledger_keeps() -> None:
-    assert Basis.from_json(BASIS.as_json()) == BASIS
+    assert CertificateBasis.from_json(BASIS.as_json()) == BASIS
 
 
 @pytest.mark.parametrize(
@@ -33,7 +33,7 @@ def test_a_basis_comes_back_from_what_the_ledger_keeps() -> None:
         replace(BASIS, defaults=""),
     ],
 )
-def test_everything_that_a_certificate_depends_on_is_in_its_digest(other: Basis) -> None:
+def test_everything_that_a_certificate_depends_on_is_in_its_digest(other: CertificateBasis) -> None:
     assert other.digest != BASIS.digest
 
 
@@ -45,14 +45,14 @@ def test_how_a_file_looks_is_not_in_the_digest() -> None:
 @pytest.mark.parametrize(("age", "settled"), [(1.0, False), (1.9, False), (2.1, True), (60.0, True)])
 def test_a_file_just_written_may_change_without_looking_different(age: float, *, settled: bool) -> None:
     begun = 1000.0
-    look = Look(1, round((begun - age) * 1e9), 2)
+    look = FileStamp(1, round((begun - age) * 1e9), 2)
     assert look.is_settled(begun) is settled
 
 
 def test_a_file_that_looks_the_same_is_not_read(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "x.csv"
     path.write_bytes(CONTENT)
-    file = KnownFile("readings", "x.csv", "of something else", Look.at(path))
+    file = KnownFile("readings", "x.csv", "of something else", FileStamp.at(path))
     monkeypatch.setattr(Disk, "digest", lambda *_: pytest.fail("the file is read"))
     assert Disk(tmp_path).still_has(file)
 
@@ -66,7 +66,7 @@ def test_a_file_without_a_look_is_read(tmp_path: Path) -> None:
 
 def test_each_change_is_said(tmp_path: Path) -> None:
     (tmp_path / "x.csv").write_bytes(CONTENT)
-    now = Basis((), {"zlmreport": "0.1.0 other code"}, ("pdf",), "")
+    now = CertificateBasis((), {"zlmreport": "0.1.0 other code"}, ("pdf",), "")
     assert list(changes(BASIS, Disk(tmp_path), now)) == [
         "job x.yaml is gone",
         "readings x.csv changed",

@@ -12,7 +12,7 @@ from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.exports import heartbeat, metrics
-from zlmreport.fleet.records import About, Entry, Notice, PastNight, State
+from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import same
 
@@ -24,7 +24,7 @@ DRIFT = history([8.0, 9.12, 10.18, 11.31, 12.4, 13.49])
 
 
 def told(
-    entries: Sequence[Entry], name: str = "Hall North", night: PastNight | None = NIGHT
+    entries: Sequence[LedgerEntry], name: str = "Hall North", night: PastNight | None = NIGHT
 ) -> dict[str, Family]:
     rules = Rules(interval=365)
     return parse(metrics(state_of(name, entries, [each.job for each in entries], night, rules)))
@@ -66,7 +66,7 @@ def test_jobs_are_counted_by_their_state() -> None:
 
 
 def test_what_concerns_the_whole_night_is_one_and_all_else_zero() -> None:
-    noticed = PastNight(NIGHT.began, NIGHT.ended, (Notice(About.FOLDER, same("the folder is empty")),))
+    noticed = PastNight(NIGHT.began, NIGHT.ended, (NightNotice(About.FOLDER, same("the folder is empty")),))
     samples = told(DRIFT, night=noticed)["zlmreport_fleet_notice"].samples
     assert {dict(labels)["about"]: value for labels, value in samples.items()} == {
         "jobs": 0,

@@ -14,16 +14,16 @@ from sqlalchemy import create_engine, text
 from fleet.fleets import FLEET, Fleet, without_processes
 from fleet.servers import server
 from zlmreport.errors import AccessError, InputError
-from zlmreport.fleet.basis import Basis, KnownFile, Look
+from zlmreport.fleet.basis import CertificateBasis, FileStamp, KnownFile
 from zlmreport.fleet.database import FORMAT
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Issued, Ledger, Night, NumberTakenError
 from zlmreport.fleet.records import (
     About,
-    Entry,
-    Kind,
+    LedgerEntry,
     News,
-    Notice,
+    NewsKind,
+    NightNotice,
     PastNight,
     RecordedParameter,
     State,
@@ -32,11 +32,11 @@ from zlmreport.fleet.records import (
 from zlmreport.language import Words
 
 NIGHTS = ("2026-11-20T02:00:00+00:00", "2026-11-21T02:00:00+00:00")
-BASIS = Basis(
-    (KnownFile("job", "x.yaml", "a" * 64, Look(10, 20, 30)),), {"zlmreport": "0.1.0 code"}, ("pdf",)
+BASIS = CertificateBasis(
+    (KnownFile("job", "x.yaml", "a" * 64, FileStamp(10, 20, 30)),), {"zlmreport": "0.1.0 code"}, ("pdf",)
 )
-FILES = (KnownFile(".pdf", "m/X/CAL-1.pdf", "b" * 64, Look(1, 2, 3)),)
-ENTRY = Entry(
+FILES = (KnownFile(".pdf", "m/X/CAL-1.pdf", "b" * 64, FileStamp(1, 2, 3)),)
+ENTRY = LedgerEntry(
     job="x.yaml",
     number="CAL-1",
     machine="HMC 500 17",
@@ -51,7 +51,7 @@ ENTRY = Entry(
         RecordedParameter("iso230-2:2014", "B_mean", -1.5, "um"),
     ),
 )
-FAILURE = Entry(job="y.yaml", night=NIGHTS[0], state=State.FAILED, message="y.yaml:3:1: is no job")
+FAILURE = LedgerEntry(job="y.yaml", night=NIGHTS[0], state=State.FAILED, message="y.yaml:3:1: is no job")
 
 
 @pytest.fixture(scope="module")
@@ -247,12 +247,12 @@ def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: 
     with night(address, NIGHTS[1]) as (ledger, at_work):
         assert list(ledger.entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
-        at_work.notice([Notice(About.CLOCK, Words("set back", "zurückgestellt"))])
+        at_work.notice([NightNotice(About.CLOCK, Words("set back", "zurückgestellt"))])
         at_work.issue(replace(ENTRY, number="CAL-2"), FILES, BASIS, {"kind": "linear"})
         assert [each.lesson for each in ledger.lessons()] == [{"kind": "linear"}]
         last = ledger.last_night()
         assert last is not None
-        assert last.notices == (Notice(About.CLOCK, Words("set back", "zurückgestellt")),)
+        assert last.notices == (NightNotice(About.CLOCK, Words("set back", "zurückgestellt")),)
 
 
 def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:
@@ -276,8 +276,8 @@ def north(tmp_path: Path) -> Iterator[tuple[Ledger, Night]]:
         yield opened
 
 
-FAILED = News(Kind.FAILED, "y.yaml", "y.yaml cannot be read")
-OVERDUE = News(Kind.OVERDUE, "x.yaml", "x.yaml is due")
+FAILED = News(NewsKind.FAILED, "y.yaml", "y.yaml cannot be read")
+OVERDUE = News(NewsKind.OVERDUE, "x.yaml", "x.yaml is due")
 
 
 def test_what_the_latest_certificate_of_a_job_states_is_found(north: tuple[Ledger, Night]) -> None:
@@ -363,7 +363,7 @@ def test_of_each_test_the_latest_certificate_teaches_in_the_order_of_measurement
 
 def test_the_last_night_is_that_of_the_fleet_with_what_became_of_it(north: tuple[Ledger, Night]) -> None:
     ledger, at_work = north
-    said = Notice(About.CLOCK, Words("set back", "zurückgestellt"))
+    said = NightNotice(About.CLOCK, Words("set back", "zurückgestellt"))
     at_work.notice([said])
     at_work.beat(NIGHTS[1])
     for entry in (FAILURE, FAILURE, replace(ENTRY, state=State.DRAFT)):

@@ -20,7 +20,7 @@ from fleet.test_news import NOTIFY, Post, on_a_day, post_office
 from zlmreport.fleet import issuing, making, night
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.making import Failed, Made, Task, late
+from zlmreport.fleet.making import Failed, MadeCertificate, Task, late
 from zlmreport.fleet.night import MissingError
 
 #: Axis 2 has a test that hangs, 3 gets another instrument, 4 another one and a step with it, 5 drifts.
@@ -65,7 +65,7 @@ class Hanging(Here):
 
     stem: str
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             hangs = task.job.stem == self.stem
             yield task, late(task) if hangs else making.work(task)
@@ -132,7 +132,7 @@ class Month:
         if trouble == "kill":
             self.measure([0, 1])
             with pytest.raises(KilledError):
-                night.spend(self.fleet.file, night.Order(), Deadly())
+                night.spend_night(self.fleet.file, night.Order(), Deadly())
         else:
             self.fleet.spend()
         if trouble == "document":

@@ -21,12 +21,13 @@ from zlmreport.fleet import news, night
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.news import digest, news_of
 from zlmreport.fleet.night import MissingError
-from zlmreport.fleet.plan import Planned
-from zlmreport.fleet.records import About, Notice, PastNight, State
+from zlmreport.fleet.plan import PlannedJob
+from zlmreport.fleet.records import About, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import Language, same
-from zlmreport.plugin import AccessError, Message, Occasion, Options, Place, Words, hookimpl
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugin import AccessError, Options, Place, Words, hookimpl
+from zlmreport.plugin.notifier import Message, Occasion
+from zlmreport.plugin.registry import Plugin, collect
 
 NOTIFY = "notify: [{plugin: post, to: Ada}]\n"
 
@@ -216,7 +217,7 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
     values = [6.0, 6.2, 5.9, 6.1, 6.0, 6.1, 16.4]
     entries = [*history(values), *history([5.0, 6.0, 7.1, 8.0, 9.1, 10.0, 11.1], axis="Y")]
     entries.append(entry(dt.date(2026, 8, 1), parameter(21.53, conforms=False), axis="Z", job="z.yaml"))
-    clock = Notice(About.CLOCK, same("die Uhr steht auf …"))
+    clock = NightNotice(About.CLOCK, same("die Uhr steht auf …"))
     last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
     state = state_of("Halle Nord", entries, [], last, Rules(365))
     keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language="de"))
@@ -239,11 +240,11 @@ def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
     seen: list[str] = []
 
     class Curious(Witness):
-        def planned(self, jobs: Sequence[Planned]) -> None:
+        def planned(self, jobs: Sequence[PlannedJob]) -> None:
             Witness.planned(self, jobs)
             seen.append(fleet.file.heartbeat.read_text())
 
-    night.spend(fleet.file, night.Order(), Curious())
+    night.spend_night(fleet.file, night.Order(), Curious())
     seen.append(fleet.file.heartbeat.read_text())
     began = dt.datetime(2026, 12, 1, 2, tzinfo=dt.UTC).timestamp()
     for text, is_at_work in zip(seen, (1.0, 0.0), strict=True):

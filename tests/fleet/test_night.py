@@ -12,8 +12,7 @@ import pytest
 
 from fleet.fleets import FLEET, REGISTRY, VERSIONS, Fleet, without_processes
 from zlmreport.errors import AccessError, InputError
-from zlmreport.fleet import making
-from zlmreport.fleet import night as nights
+from zlmreport.fleet import making, night as nights
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
@@ -227,8 +226,17 @@ def test_a_job_that_is_no_yaml_fails_alone(fleet: Fleet) -> None:
     assert fleet.spend().what == {"x": What.FAILED, "y": What.ISSUED}
 
 
+def test_a_job_with_two_files_of_one_suffix_is_refused_alone(fleet: Fleet) -> None:
+    fleet.job("x", ("[exemplary]", "[exemplary, exemplary-sheet, exemplary-again]"))
+    night = fleet.spend()
+    assert night.what == {"x": What.FAILED, "y": What.ISSUED}
+    assert night.of("x").problems[0].message == (
+        "a fleet keeps one .txt file of a certificate; choose exemplary or exemplary-again (output.formats)"
+    )
+
+
 def test_a_plugin_that_raises_fails_its_job_alone(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
-    def made(*arguments: object) -> making.Made:
+    def made(*arguments: object) -> making.MadeCertificate:
         if "x.yaml" in str(arguments[0]):
             raise ZeroDivisionError
         return whole(*arguments)

@@ -18,20 +18,20 @@ import pytest
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
-from zlmreport.fleet.records import MODEL, About, Entry, Notice, PastNight, State
+from zlmreport.fleet.records import MODEL, About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import state_of
 from zlmreport.language import Language, same
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 NIGHT = datetime(2026, 11, 21, 2, 0, tzinfo=UTC)
 LATEST = quarters(8)[-1]
 
 
-def of_night(one: Entry, **changes: Any) -> Entry:
+def of_night(one: LedgerEntry, **changes: Any) -> LedgerEntry:
     return replace(one, night=NIGHT.isoformat(), **changes)
 
 
-def page(*entries: Entry, language: Language = Language.ENGLISH, files: str = ".") -> str:
+def page(*entries: LedgerEntry, language: Language = Language.ENGLISH, files: str = ".") -> str:
     jobs = [each.job for each in entries]
     night = PastNight(NIGHT, NIGHT + timedelta(seconds=94)) if entries else None
     state = state_of("Hall North", entries, jobs, night)
@@ -48,7 +48,7 @@ def section(html: str, key: str) -> str:
     return html.partition(f'<section id="{key}"')[2].partition("</section>")[0]
 
 
-def needs(*entries: Entry, **options: Any) -> str:
+def needs(*entries: LedgerEntry, **options: Any) -> str:
     return text(section(page(*entries, **options), "needs"))
 
 
@@ -61,7 +61,7 @@ FAILURE = of_night(
 
 
 def test_what_concerns_the_whole_night_stands_first() -> None:
-    notices = (Notice(About.FOLDER, same("the folder is empty")),)
+    notices = (NightNotice(About.FOLDER, same("the folder is empty")),)
     state = state_of("Hall North", CALM, ["x"], PastNight(NIGHT, NIGHT, notices))
     html = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "Folder of certificates the folder is empty" in text(section(html, "needs"))
@@ -182,6 +182,55 @@ def test_a_value_has_the_sign_that_its_standard_prints() -> None:
     html = page(entry(LATEST, reversal))
     assert " 1.20 ± 0.10 µm" in text(section(html, "machines"))
     assert "the last 1.20 µm" in html
+
+
+def test_axes_stand_below_their_machine_each_with_what_was_measured() -> None:
+    straight = parameter(3.0, standard="iso230-1:2012", symbol="straightness")
+    other = [
+        entry(LATEST, straight, axis="EYX", job="eyx.yaml"),
+        entry(LATEST, parameter(4.0), machine="B 2"),
+    ]
+    shown = text(section(page(*CALM, *other), "machines"))
+    assert "Example Works MT 500, serial 1 2 axes EYX Straightness" in shown
+    assert "B 2 1 axis X A ISO 230-2:2014 4.0 ± 1.0 µm" in shown
+
+
+def test_a_small_graph_leads_to_the_trend_in_full() -> None:
+    html = page(*history([8.0, 9.1, 9.9, 11.0, 12.1, 12.9, 14.0, 15.1]))
+    (address,) = set(re.findall(r'<a class="to-trend" href="#([^"]+)" title="8 values of A', html))
+    trend = html.partition(f'<article class="trend" id="{address}"')[2].partition("</article>")[0]
+    said = text(f"<main>{trend}")
+    for part in (
+        "X of Example Works MT 500, serial 1",
+        "Drift +4.0",
+        "/year",
+        "2026-10-14 15.1 ± 1.0 µm 20 µm met",
+    ):
+        assert part in said
+    assert said.count("± 1.0 µm") == 8
+
+
+def test_a_trend_shows_the_effects_of_its_axis() -> None:
+    play = parameter(4.0, standard=MODEL, symbol="backlash.lost_motion", limit=None, conforms=None)
+    html = page(*(replace(each, parameters=(*each.parameters, play)) for each in CALM))
+    assert "Effects Parameters of this axis’s error model" in text(html.replace("article", "main"))
+    assert "backlash lost motion 4.0 ± 1.0 µm" in text(html.partition("<article")[2])
+
+
+def test_a_run_at_work_is_not_called_interrupted() -> None:
+    night = PastNight(NIGHT, None, came_to={State.MADE: 3}, beat=NIGHT + timedelta(minutes=9))
+    said = {}
+    for minutes in (10, 60):
+        state = state_of("Hall North", CALM, ["x"], night.seen_at(NIGHT + timedelta(minutes=minutes)))
+        said[minutes] = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
+    assert "at work: 3 jobs so far" in said[10]
+    assert "interrupted" not in said[10]
+    assert "interrupted" in said[60]
+
+
+def test_the_run_as_a_whole_is_no_number_where_there_is_nothing_to_say() -> None:
+    tiles = page(*CALM).partition('<ul class="tiles"')[2].partition("</ul>")[0]
+    assert "Notices on the run" not in tiles
 
 
 def test_links_lead_from_the_page_to_the_certificates() -> None:

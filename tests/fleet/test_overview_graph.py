@@ -9,25 +9,30 @@ from xml.etree import ElementTree as ET
 
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.drifts import trends
-from zlmreport.fleet.overview_cells import HEIGHT, WIDTH, Period, small_graph
-from zlmreport.fleet.records import Entry
+from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend import series_of, standing
+from zlmreport.fleet.trend_graph import LARGE, SMALL, GraphSize, Period, trend_graph
+from zlmreport.language.formatting import DecimalSign
 
 PERIOD = Period(quarters(8)[0], quarters(8)[-1])
 
 
-def drawn(entries: Sequence[Entry], period: Period = PERIOD) -> list[tuple[str, list[tuple[float, float]]]]:
+def drawn(
+    entries: Sequence[LedgerEntry], period: Period = PERIOD
+) -> list[tuple[str, list[tuple[float, float]]]]:
     """Return the class and the points of each outline."""
     (trend,) = trends(series_of(standing(entries)))
-    image = ET.fromstring(small_graph(trend, period, "words"))
+    image = ET.fromstring(trend_graph(trend, period, "words", DecimalSign.POINT))
     found = []
-    for path in image:
+    for path in image.iter("{http://www.w3.org/2000/svg}path"):
         numbers = list(map(float, re.findall(r"-?[\d.]+", path.attrib["d"])))
         found.append((path.attrib["class"], list(zip(numbers[::2], numbers[1::2], strict=True))))
     return found
 
 
-def outlines(kind: str, entries: Sequence[Entry], period: Period = PERIOD) -> list[list[tuple[float, float]]]:
+def outlines(
+    kind: str, entries: Sequence[LedgerEntry], period: Period = PERIOD
+) -> list[list[tuple[float, float]]]:
     return [points for name, points in drawn(entries, period) if name == kind]
 
 
@@ -90,4 +95,20 @@ def test_a_single_calibration_of_zero_stays_on_the_drawing() -> None:
     (day,) = quarters(1)
     single = [entry(day, parameter(0.0, expanded_uncertainty=None, limit=None, conforms=None))]
     points = [point for _, outline in drawn(single, Period(day, day)) for point in outline]
-    assert all(0 <= x <= WIDTH and -3 <= y <= HEIGHT + 3 for x, y in points)
+    assert all(0 <= x <= SMALL.width and -3 <= y <= SMALL.height + 3 for x, y in points)
+
+
+def lettering(entries: Sequence[LedgerEntry], size: GraphSize, sign: DecimalSign) -> list[str]:
+    (trend,) = trends(series_of(standing(entries)))
+    image = ET.fromstring(trend_graph(trend, PERIOD, "words", sign, size))
+    return ["".join(text.itertext()) for text in image.iter("{http://www.w3.org/2000/svg}text")]
+
+
+def test_a_small_graph_has_a_scale_of_values_and_of_time() -> None:
+    words = lettering(history([8.0, 8.2, 8.1]), SMALL, DecimalSign.POINT)
+    assert words == ["0", "20", "2025-01", "2026-10"]
+
+
+def test_a_large_graph_has_its_unit_and_a_line_for_each_year() -> None:
+    words = lettering(history([0.8, 0.82, 0.81], limit=1.2), LARGE, DecimalSign.COMMA)
+    assert words == ["0,0", "0,5", "1,0", "1,5 µm", "2026", "2027"]

@@ -9,7 +9,7 @@ import pytest
 from job.jobs import SOUND
 from zlmreport.fleet.basis import program_versions, programs_of
 from zlmreport.job.loading import load
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.version import __version__
 
 JOB = SOUND.replace("exemplary-text", "laser-csv").replace("exemplary:1", "nmtba").replace("E: 20", "P: 20")

@@ -8,8 +8,8 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from zlmreport.fleet.scatter import Scatter, learned
-from zlmreport.model.distributions import chi_square_tail, t_quantile
+from zlmreport.fleet.scatter import ScatterLikelihood, learned
+from zlmreport.model.fitting.distributions import chi_square_tail, t_quantile
 
 NORMAL = NormalDist()
 
@@ -23,7 +23,7 @@ def fleet_of(deviations: np.ndarray, seed: int = 7) -> list[tuple[float, int]]:
     return [(float(each), DEGREES) for each in deviations**2 * rng.chisquare(DEGREES, len(deviations))]
 
 
-def part_between(scatter: Scatter, low: float, high: float) -> float:
+def part_between(scatter: ScatterLikelihood, low: float, high: float) -> float:
     inside = (scatter.deviations >= low) & (scatter.deviations <= high)
     return float(scatter.weights[inside].sum())
 
@@ -71,13 +71,13 @@ def test_a_fleet_of_first_tests_knows_nothing() -> None:
 
 
 def test_the_sum_of_squares_of_a_known_scatter_is_that_of_chi_squared() -> None:
-    known = Scatter(np.array([0.1]), np.array([1.0]), 100)
+    known = ScatterLikelihood(np.array([0.1]), np.array([1.0]), 100)
     assert known.squares_exceed(0.05, 3) == pytest.approx(chi_square_tail(5, 3))
     assert known.exceeds(0.2) == pytest.approx(NORMAL.cdf(-2))
     assert known.quantile(0.01) == pytest.approx(-0.1 * NORMAL.inv_cdf(0.01), rel=1e-3)
 
 
 def test_the_evidence_of_two_scatters_is_their_mean() -> None:
-    known = Scatter(np.array([0.1, 0.2]), np.array([0.25, 0.75]), 9)
+    known = ScatterLikelihood(np.array([0.1, 0.2]), np.array([0.25, 0.75]), 9)
     likely = 0.25 * 0.1**-3 * math.exp(-0.02 / 0.02) + 0.75 * 0.2**-3 * math.exp(-0.02 / 0.08)
     assert known.evidence(0.02, 3) == pytest.approx(math.log(likely))

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.fleet.basis import KnownFile, Look, is_intact
+from zlmreport.fleet.basis import FileStamp, KnownFile, is_intact
 from zlmreport.fleet.issuing import laid, tidy
-from zlmreport.fleet.making import Finished
+from zlmreport.fleet.making import FinishedFile
 
-FILES = (Finished(".pdf", "m/X/CAL-1.pdf", b"pages"), Finished(".json", "m/X/CAL-1.json", b"{}"))
+FILES = (FinishedFile(".pdf", "m/X/CAL-1.pdf", b"pages"), FinishedFile(".json", "m/X/CAL-1.json", b"{}"))
 
 
 def names(folder: Path) -> set[str]:
@@ -45,7 +45,7 @@ def test_the_ledger_knows_the_files_as_they_lie_there(tmp_path: Path) -> None:
         files.name()
     for known, file in zip(files.known, FILES, strict=True):
         assert (known.path, known.sha256) == (file.path, file.sha256)
-        assert known.look == Look.at(tmp_path / file.path)
+        assert known.look == FileStamp.at(tmp_path / file.path)
 
 
 def test_files_that_the_ledger_took_over_get_their_names(tmp_path: Path) -> None:

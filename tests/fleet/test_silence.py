@@ -42,6 +42,14 @@ def test_a_job_that_is_gone_is_told_every_night_until_it_is_retired(fleet: Fleet
     assert "x" not in fleet.spend().what
 
 
+def test_a_file_where_the_folder_should_be_is_told(fleet: Fleet) -> None:
+    output = fleet.folder / "certificates"
+    shutil.rmtree(output)
+    output.touch()
+    with pytest.raises(MissingError, match="is no folder, and the certificates of the fleet belong into one"):
+        fleet.spend()
+
+
 def test_a_retired_job_is_left_alone_though_its_file_is_there(fleet: Fleet) -> None:
     fleet.write("fleet.yaml", f"{FLEET}retired: [jobs/x.yaml]\n")
     fleet.write("jobs/x.yaml", "no job any more")
@@ -130,7 +138,7 @@ def test_many_jobs_that_are_gone_at_once_are_told_as_one_thing_too(fleet: Fleet)
 def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
     fleet: Fleet, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(night, "_spend", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    monkeypatch.setattr(night, "_work_through", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
     with pytest.raises(KeyboardInterrupt):
         fleet.spend()
     monkeypatch.undo()

@@ -12,8 +12,8 @@ import pytest
 from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.causes import Cause, Shared, cause_of, shared
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import MODEL, Entry
-from zlmreport.fleet.scatter import Scatter, learned
+from zlmreport.fleet.records import MODEL, LedgerEntry
+from zlmreport.fleet.scatter import ScatterLikelihood, learned
 from zlmreport.fleet.steps import chances, course, level_of, squares_about_mean
 from zlmreport.fleet.trend import series_of, standing
 
@@ -21,7 +21,7 @@ LIMIT = 20.0
 CALM = [8.0, 8.4, 8.1, 8.3, 8.2, 8.0]
 
 
-def judged(entries: list[Entry]) -> tuple[Trend, ...]:
+def judged(entries: list[LedgerEntry]) -> tuple[Trend, ...]:
     return trends(series_of(standing(entries)))
 
 
@@ -129,7 +129,7 @@ def test_the_effect_and_the_instrument_that_changed_with_it_are_named() -> None:
 
 def of_type(
     values: list[float], kind: str = "Works MC 800", symbol: str = "backlash.lost_motion"
-) -> list[Entry]:
+) -> list[LedgerEntry]:
     """Return the latest test of machines of one type, each with a parameter of its error model."""
     return [
         entry(
@@ -144,7 +144,7 @@ def of_type(
     ]
 
 
-def shared_in(*entries: Entry) -> tuple[Shared, ...]:
+def shared_in(*entries: LedgerEntry) -> tuple[Shared, ...]:
     return shared(each for each in series_of(standing(entries)) if each.standard == MODEL)
 
 
@@ -188,7 +188,7 @@ def test_the_chances_are_those_of_integration_over_mean_effect_and_variance(valu
     sigma = np.geomspace(0.01, 1.0, 40)[:, None]
     prior = sigma**-6.0 * np.exp(-6.0 * 0.004 / (2 * sigma**2))
     prior /= prior.sum()
-    fleet = Scatter(sigma[:, 0], prior[:, 0], 6)
+    fleet = ScatterLikelihood(sigma[:, 0], prior[:, 0], 6)
     effects = np.linspace(-40, 40, 4001)[None, :]  # in scatters
 
     def evidence(shape: list[float] | None) -> float:
@@ -237,7 +237,7 @@ def nights(scatters: np.ndarray, tests: int, seed: int) -> list[np.ndarray]:
     return [0.5 + scatters[:, None] * rng.standard_normal((AXES, tests)) for _ in range(NIGHTS)]
 
 
-def known(values: np.ndarray) -> tuple[Scatter, ...]:
+def known(values: np.ndarray) -> tuple[ScatterLikelihood, ...]:
     """Return what each axis knows from the others, before the latest test."""
     return learned((squares_about_mean(row[:-1]), len(row) - 2) for row in values.tolist())
 

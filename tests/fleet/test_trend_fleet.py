@@ -16,7 +16,7 @@ from zlmreport.fleet.drifts import (
     named_in_families,
     trends,
 )
-from zlmreport.fleet.records import Entry
+from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend import line_through, series_of, standing
 
 #: The fifteen p-values of the paper of Benjamini and Hochberg (1995), section 4.
@@ -26,7 +26,7 @@ PUBLISHED = [
 ]
 
 
-def judged(entries: list[Entry]) -> tuple[Trend, ...]:
+def judged(entries: list[LedgerEntry]) -> tuple[Trend, ...]:
     return trends(series_of(standing(entries)))
 
 

@@ -12,8 +12,16 @@ import pytest
 
 from environments import ROOT
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.trend import DAYS_PER_YEAR, Line, Series, forecast, line_through, series_of, standing
-from zlmreport.model.distributions import t_quantile
+from zlmreport.fleet.trend import (
+    DAYS_PER_YEAR,
+    Series,
+    TrendLine,
+    forecast,
+    line_through,
+    series_of,
+    standing,
+)
+from zlmreport.model.fitting.distributions import t_quantile
 
 #: t(0.975; 4), from tables.
 T_OF_FOUR = 2.776
@@ -113,7 +121,7 @@ def test_a_line_without_scatter_is_no_accident() -> None:
 
 
 # Worked by hand: 10 µm at the mean date, which is day 10000; +2 µm a year; u(a) = 0.1, u(b) = 0.2.
-LINE = Line(10_000.0, 10.0, 2.0, 0.01, 0.04, 4)
+LINE = TrendLine(10_000.0, 10.0, 2.0, 0.01, 0.04, 4)
 LAST = date.fromordinal(10_365)
 
 
@@ -150,16 +158,16 @@ def test_the_interval_is_about_the_expected_date() -> None:
 
 
 def test_a_negative_value_that_falls_comes_to_the_negative_limit() -> None:
-    falling = Line(10_000.0, -10.0, -2.0, 0.01, 0.04, 4)
+    falling = TrendLine(10_000.0, -10.0, -2.0, 0.01, 0.04, 4)
     assert forecast(falling, 20.0, LAST) == forecast(LINE, 20.0, LAST)
 
 
 def test_an_amount_that_gets_smaller_comes_to_no_limit() -> None:
-    assert forecast(Line(10_000.0, 10.0, -2.0, 0.01, 0.04, 4), 20.0, LAST) is None
+    assert forecast(TrendLine(10_000.0, 10.0, -2.0, 0.01, 0.04, 4), 20.0, LAST) is None
 
 
 def test_a_slope_that_may_be_none_has_no_interval() -> None:
-    assert forecast(Line(10_000.0, 10.0, 2.0, 0.01, 1.0, 4), 20.0, LAST) is None
+    assert forecast(TrendLine(10_000.0, 10.0, 2.0, 0.01, 1.0, 4), 20.0, LAST) is None
 
 
 def test_a_limit_that_is_generations_away_is_no_forecast() -> None:
@@ -167,7 +175,7 @@ def test_a_limit_that_is_generations_away_is_no_forecast() -> None:
 
 
 def test_an_interval_that_reaches_beyond_sight_is_open() -> None:
-    found = forecast(Line(10_000.0, 10.0, 2.0, 0.01, 0.36, 4), 30.0, LAST)
+    found = forecast(TrendLine(10_000.0, 10.0, 2.0, 0.01, 0.36, 4), 30.0, LAST)
     assert found
     assert found.latest is None
 

@@ -66,7 +66,7 @@ def test_a_cluster_makes_the_certificates_and_loses_none_with_a_worker(
     fleet.write("fleet.yaml", f"{FLEET}executor: {{kind: dask, scheduler: '{scheduler}'}}\n")
     plugin = fleet.write("deadly.py", PLUGIN)
     witness = Witness()
-    night.spend(fleet.file, night.Order((plugin,)), witness)
+    night.spend_night(fleet.file, night.Order((plugin,)), witness)
     assert {stem for stem, what in witness.what.items() if what is What.FAILED} == {"killed"}
     assert "no worker lived to make this certificate" in witness.of("killed").problems[0].message
     pids = {fleet.certificate(f"a{number}", ".pid").read_text() for number in range(1, 5)}
@@ -82,13 +82,13 @@ def test_a_ledger_in_postgresql_has_all_that_a_cluster_with_a_killed_worker_made
     with server() as address:
         text = FLEET.replace("ledger.db", address)
         fleet.write("fleet.yaml", f"{text}executor: {{kind: dask, scheduler: '{scheduler}'}}\n")
-        night.spend(fleet.file, night.Order((plugin,)), Witness())
+        night.spend_night(fleet.file, night.Order((plugin,)), Witness())
         states = {Path(each.job).stem: each.state for each in fleet.entries()}
         assert {stem for stem, state in states.items() if state is State.MADE} == {"a1", "a2", "killed-once"}
         (fleet.folder / "jobs/killed.yaml").unlink()
         fleet.write("fleet.yaml", f"{fleet.file.content.decode()}retired: [jobs/killed.yaml]\n")
         witness = Witness()
-        night.spend(fleet.file, night.Order((plugin,)), witness)
+        night.spend_night(fleet.file, night.Order((plugin,)), witness)
         assert set(witness.what.values()) == {What.UNCHANGED}
 
 
@@ -104,11 +104,11 @@ def test_a_night_whose_scheduler_is_killed_says_so_and_the_next_makes_what_is_le
             fleet.write("jobs/scheduler", str(process))
             fleet.write("fleet.yaml", text % doomed)
             with pytest.raises(AccessError, match=r"fleet.yaml:6:.*the scheduler tcp://.* is gone"):
-                night.spend(fleet.file, order, Witness())
+                night.spend_night(fleet.file, order, Witness())
         fleet.write("fleet.yaml", text % scheduler)
         before = {each.number: each.files for each in fleet.entries()}
         assert before.keys() < {"CAL-A1", "CAL-SCHEDULER2", "CAL-Z3", "CAL-Z4"}
-        night.spend(fleet.file, order, Witness())
+        night.spend_night(fleet.file, order, Witness())
         after = fleet.entries()
         assert sorted(each.number for each in after) == ["CAL-A1", "CAL-SCHEDULER2", "CAL-Z3", "CAL-Z4"]
         assert {each.state for each in after} == {State.MADE}
@@ -122,4 +122,4 @@ def test_a_scheduler_that_is_not_there_is_named_with_its_place(
     fleet = Fleet.of(tmp_path, "x")
     fleet.write("fleet.yaml", f"{FLEET}executor:\n  kind: dask\n  scheduler: tcp://127.0.0.1:1\n")
     with pytest.raises(AccessError, match=r"fleet.yaml:8:14: no scheduler with workers answers at tcp://127"):
-        night.spend(fleet.file, night.Order(), Witness())
+        night.spend_night(fleet.file, night.Order(), Witness())

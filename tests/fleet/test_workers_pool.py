@@ -30,7 +30,7 @@ def spent(fleet: Fleet) -> Witness:
     witness = Witness()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(workers, "LIFE", 3)
-        night.spend(fleet.file, night.Order((fleet.folder / "deadly.py",), workers=2), witness)
+        night.spend_night(fleet.file, night.Order((fleet.folder / "deadly.py",), workers=2), witness)
     return witness
 
 
@@ -41,10 +41,10 @@ def test_a_killed_worker_fails_its_own_job_and_no_other(spent: Witness) -> None:
 
 def test_it_is_said_how_the_worker_ended(spent: Witness) -> None:
     (killed,) = spent.of("killed").problems
-    assert killed.message == (
-        "the worker process was killed by SIGKILL while it made this certificate, twice; the system may have "
-        "run out of memory"
+    assert killed.message.startswith(
+        "the worker process was killed by SIGKILL while this plugin was at work, twice: format 'exemplary'"
     )
+    assert killed.message.endswith("render; the system may have run out of memory")
 
 
 def test_a_job_whose_worker_was_killed_is_tried_once_more(spent: Witness) -> None:
@@ -77,7 +77,7 @@ def test_jobs_are_not_set_aside_for_workers_that_never_began(tmp_path: Path) -> 
     fleet = Fleet.of(tmp_path, "a")
     plugin = fleet.write("stillborn.py", STILLBORN)
     witness = Witness()
-    night.spend(fleet.file, night.Order((plugin,), workers=1), witness)
+    night.spend_night(fleet.file, night.Order((plugin,), workers=1), witness)
     assert witness.of("a").problems[0].message == (
         "the worker process ended with exit code 3 before it was ready, twice"
     )

@@ -12,7 +12,7 @@ from offers import offering
 from testing.exemplary import ExemplaryRenderer, ExemplarySource, ExemplaryStandard
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.plugins import Plugin, collect
+from zlmreport.plugin.registry import Plugin, collect
 
 # Line of the sound job that is replaced, the line it is replaced by, where the message points, what it says.
 WRONG_VALUES = {

@@ -11,7 +11,7 @@ import pytest
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.job.edit import Edit, edit_effects, named_effect
 from zlmreport.job.loading import load
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 HEAD = """\
 schema: zlmreport/job/1
@@ -43,7 +43,7 @@ def job(tmp_path: Path) -> Path:
 
 def edited(path: Path, add: str = "", *, remove: tuple[str, ...] = ()) -> Edit:
     """Return the change of a job that somebody asks for on the command line."""
-    named = named_effect(add, registry(), Place("command")) if add else None
+    named = [named_effect(add, registry(), Place("command"))] if add else []
     return edit_effects(path, load(path, registry()), registry(), add=named, remove=remove)
 
 

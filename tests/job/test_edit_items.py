@@ -11,7 +11,7 @@ from zlmreport.errors import InputError
 from zlmreport.job.edit_items import ParameterChoice, edit_parameter, exclude, include
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 HEAD = """\
 schema: zlmreport/job/1

@@ -12,7 +12,7 @@ from zlmreport.errors import InputError
 from zlmreport.job.edit import Edit
 from zlmreport.job.edit_items import edit_keys
 from zlmreport.job.loading import load
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 HEAD = "schema: zlmreport/job/1\ncertificate: {number: CAL-1, kind: report}  # a remark\n"
 PITCH = {"axis.screw_pitch": 10.0}

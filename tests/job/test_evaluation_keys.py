@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from certificate.documents import COMPLETE, job
+from document.certificate.documents import COMPLETE, job
 from zlmreport.errors import InputError
 
 ROTARY = {"name": "C", "kind": "rotary"}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from certificate.documents import registry
+from document.certificate.documents import registry
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.job.simulation import load_simulation

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from zlmreport.job.formula_keys import UNITS, Formula, FormulaKeys
+from zlmreport.job.formula import FormulaError, computed, parse_formula
+from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys
+from zlmreport.job.formula_parts import UNITS, Formula, refuse_unsound
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effect import Dimension, unit_of
-from zlmreport.quantities.formula import FormulaError, computed, parse_formula
+from zlmreport.model.effects.effect import Dimension, unit_of
 
 _UM: dict[str, Any] = {"unit": "um", "range": [-20, 20]}
 
@@ -73,8 +74,8 @@ def test_what_is_no_formula_is_refused(text: str, sentence: str) -> None:
 def test_formula_that_cannot_be_meant_is_refused(
     formula: str, parameters: dict[str, Any], sentence: str
 ) -> None:
-    with pytest.raises(ValidationError, match=sentence):
-        _keys(formula, **parameters)
+    with pytest.raises((ValidationError, FormulaError), match=sentence):
+        refuse_unsound(_keys(formula, **parameters))
 
 
 @pytest.mark.parametrize(
@@ -93,7 +94,6 @@ def test_effect_may_show_on_a_part_of_some_axes_only(formula: str, parameters: d
 @pytest.mark.parametrize(
     ("formula", "length", "place"),
     [
-        ("a*sin(P/L", {"unit": "mm", "range": [5, 50]}, ("formula",)),
         ("a*sin(P/L)", {"unit": "mmm", "range": [5, 50]}, ("parameters", "L", "unit")),
         ("a*sin(P/L)", {"unit": "mm", "range": [50, 5]}, ("parameters", "L", "range")),
     ],
@@ -140,3 +140,12 @@ def test_every_unit_is_one_that_results_print() -> None:
     for kind, units in UNITS.items():
         printed = {unit_of(each, kind).ascii: unit_of(each, kind).per_si for each in Dimension}
         assert {name: unit.per_si for name, unit in units.items()} == {name: printed[name] for name in units}
+
+
+def test_unit_on_a_linear_axis_has_its_like_on_a_rotary_one() -> None:
+    for linear, rotary in UNITS_OF_PARAMETERS.items():
+        like = {each for each in Dimension if unit_of(each, AxisKind.LINEAR).ascii == linear}
+        assert rotary in {unit_of(each, AxisKind.ROTARY).ascii for each in like}
+        assert (
+            UNITS[AxisKind.LINEAR][linear].extent == UNITS[AxisKind.ROTARY][rotary].extent or linear == "deg"
+        )

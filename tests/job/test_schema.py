@@ -17,7 +17,7 @@ from testing.exemplary import ExemplarySource
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.schema import job_schema
 from zlmreport.job.types import Options
-from zlmreport.plugins import Plugin, collect, find_plugins
+from zlmreport.plugin.registry import Plugin, collect, find_plugins
 
 
 class _Loader(yaml.SafeLoader):

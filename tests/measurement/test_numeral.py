@@ -7,11 +7,10 @@ import math
 import re
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
+from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.text_file import parse_number
-from zlmreport.quantities.formatting import DecimalSign
 
 COMMA = DecimalSign.COMMA
 

@@ -1,4 +1,4 @@
-"""A workbook is a measurement file when one of its sheets, and only one, holds something."""
+"""Of a workbook the sheet is read that the job names, or the only one that holds something."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 from openpyxl import Workbook
 
 from zlmreport.errors import InputError
-from zlmreport.measurement.text_file import read_text
+from zlmreport.measurement.text_file import read_text, sheets_of
 from zlmreport.measurement.workbook import sheet_lines
 
 _READINGS = [["target", "1+", "1-"], [0, 0.1, -1e-05], [100, "1,3", None]]
@@ -51,8 +51,8 @@ def test_the_workbook_itself_is_the_file_that_is_identified(tmp_path: Path) -> N
 def test_of_two_sheets_with_content_none_is_chosen(tmp_path: Path) -> None:
     path = _saved(tmp_path, {"Before": _READINGS, "After": _READINGS})
     assert _complaint(path) == (
-        "readings.xlsx: has 2 sheets with content: 'Before', 'After'; a measurement file has one: save the "
-        "sheet with the readings as a file of its own"
+        "readings.xlsx: has 2 sheets with content: 'Before', 'After'; say which one in the job, as in "
+        "'sheet: Before'"
     )
 
 
@@ -60,9 +60,26 @@ def test_a_workbook_without_content_is_refused(tmp_path: Path) -> None:
     assert "has no content" in _complaint(_saved(tmp_path, {"Readings": []}))
 
 
-def test_a_cell_with_a_line_break_has_its_place(tmp_path: Path) -> None:
-    path = _saved(tmp_path, {"Readings": [["target", "two\nlines"]]})
-    assert _complaint(path).startswith("readings.xlsx:1:2: the cell holds a line break")
+def test_the_sheet_that_is_named_is_read(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Before": _READINGS, "After": [["target"], [1]]})
+    assert read_text(path, sheet="After").lines == ("target", "1")
+    assert sheets_of(path) == ("Before", "After")
+
+
+def test_a_sheet_that_is_not_there_is_answered_with_its_name(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Before": _READINGS, "After": _READINGS})
+    with pytest.raises(InputError, match="did you mean 'Before'"):
+        read_text(path, sheet="before ")
+
+
+def test_a_line_break_in_a_cell_is_a_blank(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Readings": [["target", "Deviation\n[µm]\u00a0"]]})
+    assert read_text(path).lines == ("target\tDeviation [µm]",)
+
+
+def test_a_cell_with_a_control_character_has_its_place(tmp_path: Path) -> None:
+    path = _saved(tmp_path, {"Readings": [["target", "un\u200bseen"]]})
+    assert _complaint(path).startswith("readings.xlsx:1:2: the cell holds a control character")
 
 
 def test_a_damaged_workbook_is_refused(tmp_path: Path) -> None:

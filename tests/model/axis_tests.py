@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, PositionTable
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
-from zlmreport.model.observations import Observations
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.fitting.observations import Observations
 from zlmreport_plugins.effects import zlmreport_effects
-from zlmreport_plugins.effects.geometry import Polynomial
+from zlmreport_plugins.effects.polynomial import Polynomial
 
 EFFECTS: Mapping[str, Effect] = {effect.identifier: effect for effect in zlmreport_effects()}
 INSTALLED = tuple(EFFECTS.values())

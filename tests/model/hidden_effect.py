@@ -10,9 +10,9 @@ from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.model.study import Fitted, Study
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.study import Fitted, Study
+from zlmreport.plugin.registry import Registry, find_plugins
 
 CONFIG = ROOT / "configs" / "hidden-effect"
 #: The line of the job's last effect.

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from figures.model_samples import WAVE, WHOLE, fitted, linear_test
+from document.figures.model_samples import WAVE, WHOLE, fitted, linear_test
 from model.hidden_effect import study, written
-from zlmreport.model.study import waves
+from zlmreport.model.diagnosis.study import waves
 
 
 def test_the_wave_of_the_screw_has_its_amplitude_and_phase() -> None:

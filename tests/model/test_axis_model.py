@@ -13,10 +13,10 @@ from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.errors import Place
 from zlmreport.job.choices import EffectChoice
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.axis_model import AxisModel, ModelError, Term, chosen_terms
-from zlmreport.model.fit import fit
-from zlmreport.model.observations import of_readings
-from zlmreport_plugins.effects.geometry import Polynomial
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, chosen_terms
+from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.observations import of_readings
+from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(targets=7, runs=3)
 READINGS = known(DESIGN)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from model.hidden_effect import example, example_history, study, written
-from zlmreport.compensation.basis import FittedModel, compensated
 from zlmreport.language import Language
-from zlmreport.model.study import corrected, moves_with_time
+from zlmreport.model.compensation.basis import FittedModel, compensated
+from zlmreport.model.diagnosis.study import corrected, moves_with_time
 
 
 def test_what_is_left_is_the_residual() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.model.estimate import coverage_factor, coverage_factors
+from zlmreport.model.fitting.estimate import coverage_factor, coverage_factors
 
 
 @pytest.mark.parametrize("degrees", [[4.0], [4.0, 9.5, 1e6], np.geomspace(3.0, 1e6, 200).tolist()])

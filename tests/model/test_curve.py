@@ -11,15 +11,14 @@ import pytest
 from model.axis_tests import AXIS, EFFECTS, linear_test, model_of, noise
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.curve import curve_positions, effect_positions, waves_along
-from zlmreport.model.design import at_positions
-from zlmreport.model.effect import Effect
-from zlmreport.model.fit import Fit, fit
-from zlmreport.model.formula import FormulaEffect
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport_plugins.effects.periodic import HarmonicOptions, ScrewPitch
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.design import at_positions
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.model.fitting.curve import curve_positions, effect_positions, waves_along
+from zlmreport.model.fitting.fit import Fit, fit
 
 _PITCHES = [0.5, 0.01, 0.005]
 
@@ -86,6 +85,8 @@ def _formula(text: str, **parameters: Any) -> FormulaEffect:
     return FormulaEffect(FormulaKeys(name="own", formula=text, parameters=parameters), AxisKind.LINEAR)
 
 
+_PITCH = EFFECTS["screw-pitch"]
+_ONE_WAVE = _PITCH.with_settings(_PITCH.options(harmonics=(1,)))
 _METRE = linear_test(15, 2, axis=replace(AXIS, screw_pitch=0.005))
 _LONG = replace(_METRE, position=3 * _METRE.position, span=(0.0, 3 * _METRE.span[1]))
 _MM, _UM = {"unit": "mm", "range": [1, 3000]}, {"unit": "um", "range": [-50, 50]}
@@ -94,7 +95,7 @@ _MM, _UM = {"unit": "mm", "range": [1, 3000]}, {"unit": "um", "range": [-50, 50]
 @pytest.mark.parametrize(
     ("drawn", "searched"),
     [
-        (ScrewPitch(HarmonicOptions(harmonics=(1,))), [0.005]),
+        (_ONE_WAVE, [0.005]),
         (_formula("a*sin(2*pi*P/L)", a=_UM, L=_MM), [0.005]),
         (
             _formula("a*sin(2*pi*P/L + b*cos(4*pi*P/M))", a=_UM, L=_MM, b={"range": [0, 2]}, M=_MM),

@@ -26,12 +26,12 @@ from model.axis_tests import (
     realistic_noise,
 )
 from zlmreport.language import Language
-from zlmreport.model.axis_model import AxisModel, ModelError
-from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
-from zlmreport.model.observations import of_readings
-from zlmreport.model.report import report
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.report import report
+from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import of_readings
 
 DESIGN = linear_test()
 #: Air that changes so much that its effects have a plausible size.
@@ -139,7 +139,8 @@ def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -
     # Each is a false alarm with 5 %: of ten, three or more are with 1 %.
     assert [each.verdict for each in found].count(Verdict.ADEQUATE) >= 8
     quiet = found[2]
-    assert (quiet.verdict, quiet.candidates, quiet.further, quiet.unnamed) == (Verdict.ADEQUATE, (), (), None)
+    assert (quiet.verdict, quiet.candidates, quiet.together) == (Verdict.ADEQUATE, (), ())
+    assert quiet.remainder is None
 
 
 def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
@@ -149,29 +150,30 @@ def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     )
     found = _diagnosis(6e-6 * shape)
     assert found.verdict is Verdict.UNEXPLAINED
-    assert found.unnamed is not None
-    assert found.unnamed.size > SIGMA
+    assert found.remainder is not None
+    assert found.remainder.rms > 0.5 * SIGMA
 
 
 def test_what_is_left_without_a_name_is_described_by_its_shape() -> None:
     smooth = np.exp(-0.5 * ((DESIGN.time / DESIGN.duration - 0.6) / 0.06) ** 2)
     found = _diagnosis(5e-6 * smooth)
     assert found.verdict is Verdict.UNEXPLAINED
-    assert found.unnamed is not None
-    assert "time" in found.unnamed.shape.en
+    assert found.remainder is not None
+    assert "in time" in found.remainder.shape.in_language(Language.ENGLISH)
+    assert found.remainder.low < 0.6 * DESIGN.duration < found.remainder.high
 
 
-def test_two_missing_effects_are_found_one_after_another() -> None:
+def test_two_missing_effects_are_found_together_and_one_after_another() -> None:
     both = hidden(DESIGN, "screw-pitch", [0.01], size=1.5) + hidden(
         DESIGN, "thermal-drift", [300.0], size=1.5
     )
     first = _diagnosis(both)
     assert first.verdict is Verdict.MISSING
-    assert {first.candidates[0].identifier, *first.further} == {"screw-pitch", "thermal-drift"}
-    second = _diagnosis(both, model=USUAL.with_effect(first.candidates[0].effect))
+    assert {each.identifier for each in first.together} == {"screw-pitch", "thermal-drift"}
+    second = _diagnosis(both, model=USUAL.with_effect(first.together[0]))
     assert second.verdict is Verdict.MISSING
-    assert second.candidates[0].identifier == first.further[0]
-    third = _diagnosis(both, model=second.fit.model.with_effect(second.candidates[0].effect))
+    assert [each.identifier for each in second.together] == list(first.further)
+    third = _diagnosis(both, model=second.fit.model.with_effect(second.together[0]))
     assert third.verdict is Verdict.ADEQUATE
 
 
@@ -205,7 +207,8 @@ def test_effects_of_another_kind_of_axis_are_not_named_as_alike() -> None:
 def test_of_two_that_explain_as_much_the_one_that_assumes_less_leads() -> None:
     scatter = noise(DESIGN)
     # The temperature hardly changes, and by chance a little as the readings scatter.
-    design = replace(DESIGN, conditions={"axis_temperature": 291.15 - 0.001 * scatter / SIGMA})
+    change = 0.0002 * scatter / SIGMA + 0.001 * np.random.default_rng(9).standard_normal(len(scatter))
+    design = replace(DESIGN, conditions={"axis_temperature": 291.15 - change})
     effects = [EFFECTS["datum-temperature"], EFFECTS["offset"]]
     found = diagnose(model_of("scale-error", "backlash"), observations(design, scatter + 3e-6), effects)
     first, second = found.candidates

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from zlmreport.model.distributions import (
+from zlmreport.model.fitting.distributions import (
     chi_square_tail,
     f_tail,
     gamma_tail,

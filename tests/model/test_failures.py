@@ -20,14 +20,14 @@ from model.axis_tests import (
     pendulum_test,
 )
 from zlmreport.language import Language
-from zlmreport.model.axis_model import AxisModel
-from zlmreport.model.design import Design
-from zlmreport.model.fit import Assumptions, fit
-from zlmreport.model.observations import of_readings
-from zlmreport.model.repeats import outliers
-from zlmreport.model.residual_tests import failures, flagged, residual_tests
-from zlmreport.model.residuals import Failure, ResidualTest, residuals_of
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.residual_tests import failures, flagged, residual_tests
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest, residuals_of
+from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.fit import Assumptions, fit
+from zlmreport.model.fitting.observations import of_readings
 
 DESIGN = linear_test()
 

@@ -7,13 +7,20 @@ from dataclasses import replace
 import numpy as np
 
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
-from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Verdict, diagnose
-from zlmreport.model.faults import FaultKind, lagging_sensors, recorded_faults, run_faults
-from zlmreport.model.fit import fit
-from zlmreport.model.report import report
-from zlmreport.model.sessions import held_together, with_zeros
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.language import Language
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
+from zlmreport.model.diagnosis.faults import (
+    FaultKind,
+    gaps,
+    lagging_sensors,
+    recorded_faults,
+    run_faults,
+)
+from zlmreport.model.diagnosis.report import report
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.sessions import held_together, with_zeros
 
 _DESIGN = linear_test(11, 5)
 _MODEL = model_of("offset", "scale-error", "backlash")
@@ -138,7 +145,7 @@ def test_effect_of_reversed_shape_is_no_slip_of_a_run() -> None:
     design = linear_test(11, 3)
     shape = hidden(design, "air-index", size=4.0, model=_MODEL)
     found = diagnose(_MODEL, observations(design, noise(design) - shape), INSTALLED)
-    assert found.verdict is Verdict.UNEXPLAINED
+    assert [each.identifier for each in found.together] == ["air-index"]
     assert found.faults == ()
 
 
@@ -172,3 +179,34 @@ def test_a_lagging_sensor_is_known_by_the_clock_of_each_session() -> None:
     fitted = fit(with_zeros(model_of("offset", "scale-error"), both.design), both.design, both.deviation)
     (found,) = lagging_sensors(fitted, [fitted], INSTALLED)
     assert found.kind is FaultKind.LAGGING_SENSOR
+
+
+def test_a_night_between_two_runs_parts_two_sessions() -> None:
+    time = _DESIGN.time + 22 * 3600.0 * (_DESIGN.run > 3)
+    (said,) = gaps(replace(_DESIGN, time=time))
+    assert said.in_language(Language.ENGLISH).startswith("Between run 3 and run 4 lie 22 h")
+    assert not list(gaps(_DESIGN))
+
+
+def test_repeats_that_no_machine_has_are_asked_for_their_unit() -> None:
+    quiet = 1e-6 * _DESIGN.position + noise(_DESIGN, sigma=1e-9)
+    (fault,) = recorded_faults(_DESIGN, quiet)
+    assert (fault.kind, fault.run) == (FaultKind.WRONG_UNIT, None)
+    assert "millimetres" in fault.statement.in_language(Language.ENGLISH)
+
+
+def test_a_fault_that_the_rows_show_is_out_of_the_contest() -> None:
+    found = diagnose(_MODEL, observations(_swapped(), _TRUE), INSTALLED)
+    assert found.faults[0].comes_first
+    assert (found.together, found.candidates) == ((), ())
+
+
+def test_a_run_that_stands_off_from_all_others_is_no_noise() -> None:
+    design = linear_test()
+    sigma = 0.7e-6
+    deviation = noise(design, sigma=sigma) + 2 * sigma * (design.run == 3)
+    found = diagnose(_MODEL, observations(design, deviation), INSTALLED)
+    assert found.verdict is not Verdict.ADEQUATE
+    left = found.remainder
+    assert left is not None
+    assert "run 3" in f"{left.shape.in_language(Language.ENGLISH)} {left.where.in_language(Language.ENGLISH)}"

@@ -18,13 +18,13 @@ from model.axis_tests import (
     noise,
     realistic_noise,
 )
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.design import Design
-from zlmreport.model.estimate import InstrumentError, Plausibility
-from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.noise import noise_parts
-from zlmreport.model.observations import of_readings
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.estimate import InstrumentError, Plausibility
+from zlmreport.model.fitting.fit import Assumptions, Fit, fit
+from zlmreport.model.fitting.noise import noise_parts
+from zlmreport.model.fitting.observations import of_readings
 
 DESIGN = linear_test(targets=11)
 READINGS = known(DESIGN) + realistic_noise(DESIGN)

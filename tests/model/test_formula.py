@@ -11,9 +11,9 @@ from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise, o
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.diagnosis import diagnose
-from zlmreport.model.fit import fit
-from zlmreport.model.formula import FormulaEffect
+from zlmreport.model.diagnosis.diagnosis import diagnose
+from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.model.fitting.fit import fit
 
 _DESIGN = linear_test(11, 3)
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from zlmreport.model.harmonic import harmonic_columns, harmonic_parameters, harmonics
+from zlmreport.model.effects.harmonic import harmonic_columns, harmonic_parameters, harmonics
 
 PARAMETERS = harmonic_parameters([1, 3], 5e-6)
 

@@ -15,11 +15,11 @@ from model.axis_tests import (
     noise,
     observations,
 )
-from zlmreport.model.axis_model import AxisModel
-from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
-from zlmreport.model.effect import Effect
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport_plugins.effects.geometry import Polynomial
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.effects.effect import Effect
+from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(13, 4)
 MODEL = model_of(Polynomial(3), "backlash")

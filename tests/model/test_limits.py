@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -13,10 +14,10 @@ from zlmreport.cli.model_lines import fit_lines
 from zlmreport.errors import InputError
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.fit import fit
-from zlmreport.model.formula import FormulaEffect
-from zlmreport.model.report import report_model
+from zlmreport.model.diagnosis.report import report_model
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.model.fitting.fit import fit
 
 SLOPE = "    - scale-error\n"
 
@@ -52,7 +53,7 @@ def test_an_estimate_beyond_its_bound_is_held_there(tmp_path: Path) -> None:
     assert (estimate.value, estimate.at_bound, estimate.is_given) == (pytest.approx(-3e-6), "min", False)
     reported = report_model(within)["parameters"][-1]
     assert (reported["given"], reported["at_bound"]) == (False, "min")
-    assert "−3  µm (held at min)" in "\n".join(fit_lines(bounded.fitted(), bounded.job))
+    assert re.search(r"lost_motion +−3 +held at min +µm", "\n".join(fit_lines(bounded.fitted(), bounded.job)))
 
 
 def test_a_searched_parameter_stays_within_its_bounds() -> None:

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from model.axis_tests import SIGMA, USUAL, linear_test, noise, realistic_noise
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.contrasts import contrasts_of, restricted_estimate, whitener
-from zlmreport.model.design import Design
-from zlmreport.model.noise import Noise, NoiseSource, noise_parts, ratio_grid
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.contrasts import contrasts_of, restricted_estimate, whitener
+from zlmreport.model.fitting.noise import Noise, NoiseSource, noise_parts, ratio_grid
 
 DESIGN = linear_test(targets=9, runs=4)
 PARTS = noise_parts(DESIGN)

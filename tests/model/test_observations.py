@@ -10,8 +10,8 @@ import pytest
 from model.axis_tests import linear_test, observations
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.axis_model import ModelError
-from zlmreport.model.observations import MOST_TARGETS, observations_of, thinned
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.fitting.observations import MOST_TARGETS, observations_of, thinned
 from zlmreport.testing.measurements import poor_tests, simulated_test
 
 TEST = simulated_test()

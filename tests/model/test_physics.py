@@ -1,75 +1,79 @@
-"""What is physically impossible does not lead a diagnosis, and what is not needed does not either."""
+"""What is large is not impossible: it costs evidence and is asked for; what is not needed does not lead."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
+from model.axis_tests import EFFECTS, INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
-from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
-from zlmreport.model.fit import fit
-from zlmreport.model.report import report, verdict_statement
-from zlmreport.model.steps import is_impossible
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.diagnosis.report import report
 
 _DESIGN = linear_test(11, 3)
-#: So many runs that none of them is taken for a faulty one.
-_OFTEN = linear_test(11, 8)
-_MODEL = model_of("offset", "scale-error", "backlash")
+_MODEL = model_of("offset", "scale-error")
+
+
+def _diagnosed(deviation: FloatArray) -> Diagnosis:
+    return diagnose(_MODEL, observations(_DESIGN, deviation + noise(_DESIGN)), INSTALLED)
 
 
 @pytest.fixture(scope="module")
-def impossible() -> Diagnosis:
-    """A slope that follows the air, but the wrong way round and six times too strong."""
-    shape = hidden(_OFTEN, "air-index", size=4.0, model=_MODEL)
-    return diagnose(_MODEL, observations(_OFTEN, -shape + noise(_OFTEN)), INSTALLED)
+def belt() -> Diagnosis:
+    """A belt: 1.2 mm of lost motion."""
+    return _diagnosed(-600e-6 * _DESIGN.direction)
 
 
-def test_impossible_estimate_never_comes_first(impossible: Diagnosis) -> None:
-    assert all(each.identifier != "air-index" for each in impossible.candidates if each.is_plausible)
-    assert all(each.is_plausible for each in impossible.candidates[:1])
+def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
+    assert belt.verdict is Verdict.MISSING
+    assert [each.identifier for each in belt.together] == ["backlash"]
+    first = belt.candidates[0]
+    assert first.is_plausible
+    assert first.share == pytest.approx(1.0, abs=0.01)
+    assert belt.leaves_noise
 
 
-def test_impossible_estimate_is_shown_as_what_it_is(impossible: Diagnosis) -> None:
-    worse = replace(impossible.candidates[0], is_plausible=False)
-    listed = report(replace(impossible, candidates=(), implausible=(worse,)))
-    assert [(each["effect"], each["plausible"]) for each in listed["implausible"]] == [
-        (worse.identifier, False)
-    ]
-    assert not listed["candidates"]
+def test_what_is_large_is_asked_for(belt: Diagnosis) -> None:
+    first = belt.candidates[0]
+    assert first.is_large
+    assert first.question is not None
+    said = first.question.in_language(Language.ENGLISH)
+    assert "−1200" in said.replace("-", "−")
+    listed = report(belt)["candidates"][0]
+    assert (listed["large"], listed["plausible"], listed["question"]) == (True, True, said)
 
 
-def test_slope_that_follows_the_air_the_wrong_way_round_is_impossible() -> None:
-    shape = hidden(_OFTEN, "air-index", size=4.0, model=_MODEL)
-    fitted = fit(model_of("offset", "air-index"), _OFTEN, -6 * shape + noise(_OFTEN))
-    assert is_impossible(fitted, "air-index")
+def test_a_usual_size_is_not_asked_for() -> None:
+    first = _diagnosed(-3e-6 * _DESIGN.direction).candidates[0]
+    assert (first.identifier, first.is_large, first.question) == ("backlash", False, None)
 
 
-def test_plausible_estimate_is_not_impossible() -> None:
-    deviation = hidden(_DESIGN, "scale-expansion", size=1.0, model=_MODEL)
-    fitted = fit(model_of("offset", "scale-expansion"), _DESIGN, deviation + noise(_DESIGN))
-    assert not is_impossible(fitted, "scale-expansion")
-
-
-def test_only_impossible_candidates_leave_none(impossible: Diagnosis) -> None:
-    worse = replace(
-        impossible.candidates[0] if impossible.candidates else impossible.implausible[0], is_plausible=False
-    )
-    found = replace(impossible, verdict=Verdict.UNEXPLAINED, candidates=(), implausible=(worse,))
-    said = verdict_statement(found).in_language(Language.ENGLISH)
-    assert said.endswith(f"{worse.identifier} would explain it only with physically impossible values.")
-
-
-@pytest.mark.parametrize(
-    ("share", "words"), [(0.95, "explains the rest"), (0.24, "explains 24 % of what the repeats")]
-)
-def test_rest_is_explained_only_where_the_share_says_so(share: float, words: str) -> None:
+def test_of_two_with_the_same_column_the_one_leads_whose_sign_is_possible() -> None:
     found = diagnose(
-        _MODEL,
-        observations(_DESIGN, hidden(_DESIGN, "screw-pitch", [0.01], size=3.0) + noise(_DESIGN)),
-        INSTALLED,
+        model_of("offset", "backlash"),
+        observations(_DESIGN, noise(_DESIGN) + 12e-6 * _DESIGN.position),
+        [EFFECTS["cosine-error"], EFFECTS["scale-error"]],
     )
-    leading = replace(found.candidates[0], share=share)
-    said = verdict_statement(replace(found, candidates=(leading,)))
-    assert words in said.in_language(Language.ENGLISH)
+    assert [each.identifier for each in found.together] == ["scale-error"]
+    assert found.candidates[0].equals == ()
+
+
+def test_an_air_that_was_corrected_twice_is_named() -> None:
+    lively = 293.15 + 6.0 * np.sin(_DESIGN.time / 250.0)
+    design = replace(_DESIGN, conditions={**_DESIGN.conditions, "air_temperature": lively})
+    model = model_of("offset", "scale-error", "backlash")
+    twice = -0.95 * EFFECTS["air-index"].columns(design, np.empty(0))[:, 0]
+    found = diagnose(model, observations(design, twice + noise(design, sigma=0.3e-6)), INSTALLED)
+    assert found.together[0].identifier == "air-index"
+    assert found.candidates[0].is_large
+
+
+def test_what_explains_all_never_stands_behind_what_explains_little() -> None:
+    shape = hidden(_DESIGN, "backlash-bow", size=40.0, model=_MODEL)
+    found = _diagnosed(shape)
+    shares = [each.share or 0.0 for each in found.candidates]
+    assert shares[0] == pytest.approx(max(shares))
+    assert found.candidates[0].identifier == "backlash-bow"

@@ -9,14 +9,13 @@ import pytest
 
 from model.axis_tests import AXIS, EFFECTS, SIGMA, linear_test, model_of, noise
 from zlmreport.job.evaluation_keys import PriorsKeys
-from zlmreport.model.comparison import Comparison
-from zlmreport.model.design import Design
-from zlmreport.model.evidence import evidence_of
-from zlmreport.model.fit import Fit, fit
-from zlmreport.model.nameless import SIZES
-from zlmreport.model.noise import NoiseSource, noise_parts, ratio_grid
-from zlmreport.model.priors import Expected, Lesson, as_text, learned
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.contest import Contest
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.contrasts import contrasts_of
+from zlmreport.model.fitting.fit import Fit, fit
+from zlmreport.model.fitting.noise import NoiseSource, noise_parts, ratio_grid
+from zlmreport.model.fitting.priors import Expected, Lesson, as_text, learned
 
 _MODEL = model_of("offset", "scale-error", "backlash")
 _DESIGN = linear_test(targets=11, runs=3, seed=4)
@@ -43,56 +42,38 @@ def _fits(fixed: float, tests: int) -> list[Fit]:
     ]
 
 
-def _comparison(design: Design, *effects: str) -> Comparison:
+def _contest(design: Design, readings: FloatArray, expected: Expected, *effects: str) -> Contest:
     base = np.concatenate([term.effect.columns(design, np.empty(0)) for term in _MODEL.terms], axis=1)
-    return Comparison.of(design, base, [EFFECTS[each] for each in effects], np.ones(len(design.position)))
+    return Contest.of(design, base, [EFFECTS[each] for each in effects], readings, expected=expected)
 
 
-def test_one_who_expects_nothing_compares_as_before() -> None:
-    readings = _scattered(_DESIGN, 3, 0.3)
-    plain = _comparison(_DESIGN, "screw-pitch", "thermal-drift")
-    found = evidence_of(plain, _DESIGN, readings, 1e-6)
-    again = evidence_of(plain.expecting(Expected()), _DESIGN, readings, 1e-6)
-    np.testing.assert_array_equal(again.effects, found.effects)
-
-
-def test_the_posterior_is_the_restricted_likelihood_times_the_prior() -> None:
+def test_an_amplitude_that_was_seldom_costs_what_its_probability_says() -> None:
     readings = _scattered(_DESIGN, 3, 0.5)
     stated = np.array([[0.0, 0.03, 0.1, 0.25], [0.1, 0.2, 0.3, 0.4]])
-    comparison = _comparison(_DESIGN, "screw-pitch").expecting(Expected({NoiseSource.POSITION: stated}))
-    parts = noise_parts(_DESIGN)
-    base = np.concatenate([term.effect.columns(_DESIGN, np.empty(0)) for term in _MODEL.terms], axis=1)
-    place = [part.source for part in parts].index(NoiseSource.POSITION)
-    logarithms = []
-    for ratios in ratio_grid(parts):
-        covariance = np.eye(len(base))
-        for part, ratio in zip(parts, ratios, strict=True):
-            covariance += ratio * part.factor @ part.factor.T
-        inverse = np.linalg.inv(covariance)
-        gram = base.T @ inverse @ base
-        left = readings - base @ np.linalg.solve(gram, base.T @ inverse @ readings)
-        degrees = len(base) - base.shape[1]
-        restricted = np.linalg.slogdet(covariance)[1] + np.linalg.slogdet(gram)[1]
-        restricted += degrees * np.log(left @ inverse @ left)
-        prior = stated[1][np.searchsorted(stated[0], ratios[place])]
-        logarithms.append(np.log(prior) - 0.5 * restricted)
-    expected = np.exp(np.array(logarithms) - max(logarithms))
-    np.testing.assert_allclose(comparison.posterior(readings), expected / expected.sum(), rtol=1e-6)
+    plain = _contest(_DESIGN, readings, Expected())
+    knowing = _contest(_DESIGN, readings, Expected({NoiseSource.POSITION: stated}))
+    place = [part.source for part in plain.parts].index(NoiseSource.POSITION)
+    for level, probability in enumerate(stated[1]):
+        amplitudes = tuple(level * (number == place) for number in range(len(plain.parts)))
+        rise = knowing.criterion(amplitudes, []) - plain.criterion(amplitudes, [])
+        assert rise == pytest.approx(-2 * np.log(4 * probability), abs=1e-9)
 
 
 def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> None:
     fits = _fits(0.5, 3)
     found = _learned(fits).noise["position"]
     ratios, probabilities = np.array(found.ratios), np.array(found.probabilities)
-    keys = _learned(fits)
-    expected = Expected.of(keys, AXIS)
+    expected = Expected.of(_learned(fits), AXIS)
     counts = np.full(len(ratios), 1.0 / len(ratios))  # of the test that knows nothing
     for each in fits:
         parts = noise_parts(each.design)
-        comparison = Comparison.of(each.design, each.base(), [EFFECTS["screw-pitch"]], each.noise.weights)
-        posterior = comparison.expecting(expected).posterior(each.open_deviation)
-        column = comparison.grid[:, [part.source for part in parts].index(NoiseSource.POSITION)]
-        counts += [posterior[column == ratio].sum() for ratio in ratios]
+        space = contrasts_of(each.base(), parts, each.noise.weights)
+        criterion, grid = space.restricted(space.of(each.open_deviation)), ratio_grid(parts)
+        criteria = np.array([criterion(row)[0] for row in grid])
+        sources = [part.source for part in parts]
+        posterior = np.exp(-0.5 * (criteria - criteria.min())) * expected.probabilities(sources, grid)
+        column = grid[:, sources.index(NoiseSource.POSITION)]
+        counts += [posterior[column == ratio].sum() / posterior.sum() for ratio in ratios]
     np.testing.assert_allclose(probabilities, counts / counts.sum(), atol=2e-3)
 
 
@@ -118,13 +99,13 @@ def test_the_size_of_an_effect_is_what_the_rest_of_the_model_cannot_imitate() ->
 
 def test_an_effect_of_the_expected_size_has_more_evidence_than_one_of_another() -> None:
     readings = noise(_DESIGN, 5) + 5 * SIGMA * EFFECTS["first-run"].columns(_DESIGN, np.empty(0))[:, 0]
-    plain = _comparison(_DESIGN, "first-run")
     size = 5 * np.sqrt(np.mean(EFFECTS["first-run"].columns(_DESIGN, np.empty(0)) ** 2))
     known, wrong = (
-        evidence_of(plain.expecting(Expected(sizes={"first-run": each})), _DESIGN, readings, 1e-6)
+        contest.scan(contest.quiet, []).criterion[0]
         for each in (float(size), 300.0)
+        for contest in [_contest(_DESIGN, readings, Expected(sizes={"first-run": each}), "first-run")]
     )
-    assert known.effects[0] > wrong.effects[0] + 2
+    assert known < wrong - 2
     small = Expected(sizes={"first-run": 2e-6}).in_units_of(1e-6)
     assert small.square("first-run") == pytest.approx(4.0)
     assert small.square("backlash") == 1.0
@@ -136,19 +117,3 @@ def test_ratios_of_a_file_that_are_not_tried_count_for_the_nearest() -> None:
     found = expected.probabilities([part.source for part in parts], ratio_grid(parts))
     np.testing.assert_allclose(found, [0.25, 0.0, 0.0, 0.75], atol=2e-3)
     assert np.all(found > 0)
-
-
-def test_a_shape_without_a_name_gains_nothing_from_what_is_known_of_the_noise_but_that() -> None:
-    readings = _scattered(_DESIGN, 3, 0.5)
-    plain = _comparison(_DESIGN, "screw-pitch")
-    parts = noise_parts(_DESIGN)
-    # One φ, of those under which shapes are tried, is all but certain.
-    known = {part.source: part.ratios[1 if len(part.ratios) == 3 else 2] for part in parts}
-    ratios = {source: np.array([[ratio], [1.0]]) for source, ratio in known.items()}
-    row = int(np.argmin(np.abs(plain.grid - list(known.values())).sum(axis=1)))
-    criteria = plain.criteria(readings)
-    shapes = criteria.nameless.reshape(-1, len(SIZES), len(plain.nameless))
-    of_row = shapes[sorted(plain._nameless_modes).index(row)]
-    likelihoods = np.exp(-0.5 * (of_row - criteria.null[row])).mean(axis=0)
-    found = evidence_of(plain.expecting(Expected(ratios)), _DESIGN, readings, 1e-6).nameless
-    np.testing.assert_allclose(found, 2 * np.log(likelihoods), atol=0.15)

@@ -9,15 +9,15 @@ import pytest
 
 from model.axis_tests import USUAL, linear_test, model_of, noise
 from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model import profile
-from zlmreport.model.axis_model import AxisModel, Term
-from zlmreport.model.distributions import t_quantile
-from zlmreport.model.estimate import COVERAGE, InstrumentError
-from zlmreport.model.fit import Assumptions, Fit, fit
-from zlmreport.model.formula import FormulaEffect
-from zlmreport.model.profile import intervals
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.model.fitting import profile
+from zlmreport.model.fitting.distributions import t_quantile
+from zlmreport.model.fitting.estimate import COVERAGE, InstrumentError
+from zlmreport.model.fitting.fit import Assumptions, Fit, fit
+from zlmreport.model.fitting.profile import intervals
 
 _DESIGN = linear_test(15, 3)
 #: Readings that scatter alike and independently: what a plain sum of squares describes.

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations, pendulum_test
+from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Diagnosis, Verdict, diagnose
-from zlmreport.model.observations import Observations
-from zlmreport.model.repeats import resolution
-from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_integers
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import Observations
+from zlmreport.model.fitting.repeats import resolution
 
 _READINGS = Path(__file__).parents[1] / "data" / "controls" / "linuxcnc.csv"
 _NODES = 32

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from model.axis_tests import hidden, linear_test, model_of, noise
-from zlmreport.model.fit import fit
-from zlmreport.model.report import report_model, report_precision
+from zlmreport.model.diagnosis.report import report_model, report_precision
+from zlmreport.model.fitting.fit import fit
 
 _DESIGN = linear_test(11, 3)
 _DEVIATION = 2e-6 + hidden(_DESIGN, "thermal-growth", [300.0], size=8.0) + noise(_DESIGN)

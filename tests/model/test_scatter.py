@@ -6,15 +6,14 @@ import numpy as np
 import pytest
 
 from model.axis_tests import SIGMA, linear_test, noise, pendulum_test
-from zlmreport.model.repeats import (
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.fitting.repeats import (
     SpreadFactor,
     apart_in_time,
     noise_floor,
-    outliers,
     spread_tests,
     weights,
 )
-from zlmreport.quantities.arrays import FloatArray
 
 DESIGN = linear_test()
 PENDULUM = pendulum_test()
@@ -111,30 +110,3 @@ def test_where_it_scatters_most_is_named() -> None:
     by_run = next(each for each in found if each.factor is SpreadFactor.RUN)
     assert by_run.widest == 3
     assert by_run.p_value < 0.01
-
-
-def test_clean_readings_do_not_stand_off() -> None:
-    flagged = [len(outliers(DESIGN, noise(DESIGN, seed)).readings) for seed in range(20)]
-    assert sum(flagged) <= 4  # of 4200 normal readings
-
-
-def test_a_reading_far_off_is_flagged_and_no_other() -> None:
-    readings = noise(DESIGN)
-    readings[57] += 15 * SIGMA
-    found = outliers(DESIGN, readings)
-    assert found.readings.tolist() == [57]
-    assert found.p_value < 1e-10
-
-
-def test_a_first_run_that_stands_off_is_no_outlier() -> None:
-    readings = noise(DESIGN) + np.where(DESIGN.run == 1, 12 * SIGMA, 0.0)
-    assert not len(outliers(DESIGN, readings).readings)
-
-
-def test_targets_after_each_reversal_that_stand_off_are_no_outliers() -> None:
-    readings = noise(DESIGN) + 30 * SIGMA * DESIGN.direction * np.exp(-DESIGN.since_reversal / 0.02)
-    assert not len(outliers(DESIGN, readings).readings)
-
-
-def test_readings_without_any_scatter_have_no_outliers() -> None:
-    assert not len(outliers(DESIGN, np.zeros(len(DESIGN.position))).readings)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from model.axis_tests import linear_test, model_of
-from zlmreport.model.fit import Assumptions, fit
+from zlmreport.model.fitting.fit import Assumptions, fit
 
 
 def _kinks(seeds: int) -> list[float]:

@@ -9,14 +9,14 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
 from zlmreport.language import Language, same
-from zlmreport.model.axis_model import ModelError
-from zlmreport.model.design import Design
-from zlmreport.model.diagnosis import Diagnosis, diagnose
-from zlmreport.model.fit import fit
-from zlmreport.model.noise import NoiseSource, noise_parts
-from zlmreport.model.observations import Observations
-from zlmreport.model.sessions import held_together, of_the_job, with_zeros
-from zlmreport.quantities.arrays import FloatArray, read_only_integers
+from zlmreport.measurement.arrays import FloatArray, read_only_integers
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.fit import fit
+from zlmreport.model.fitting.noise import NoiseSource, noise_parts
+from zlmreport.model.fitting.observations import Observations
+from zlmreport.model.fitting.sessions import held_together, of_the_job, with_zeros
 
 _STRAIGHT = model_of("offset", "backlash")
 _LOG = "axis_temperature"

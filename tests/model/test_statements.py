@@ -2,14 +2,30 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
 
+from model.axis_tests import EFFECTS
 from model.hidden_effect import example_diagnosis
 from zlmreport.language import Language, Words, same
-from zlmreport.model.diagnosis import Unnamed, Verdict
-from zlmreport.model.report import listed, verdict_statement
+from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.diagnosis.report import listed, verdict_statement
+
+LEFT = Remainder(
+    rms=1.234e-6,
+    share=0.3,
+    where=same("about 250 mm"),
+    low=0.2,
+    high=0.3,
+    unit=MILLIMETRE,
+    shape=same("a bump"),
+    size=4e-6,
+    formula=None,
+)
 
 
 def said(**changes: object) -> str:
@@ -27,10 +43,37 @@ def test_effects_that_look_alike_are_named_together() -> None:
     )
 
 
-def test_effects_that_are_found_after_one_another_are_named_together() -> None:
-    assert said(further=("first-run", "abbe")) == (
+def test_effects_that_belong_together_are_named_together() -> None:
+    first = example_diagnosis().candidates[0]
+    others = [EFFECTS["first-run"], EFFECTS["abbe"]]
+    candidates = (first, *(replace(first, effect=each) for each in others))
+    assert said(together=(first.effect, *others), candidates=candidates) == (
         "Missing effects: screw-pitch, first-run and abbe, which together explain the rest."
     )
+
+
+def test_the_rest_is_explained_only_where_what_is_left_is_noise() -> None:
+    after = replace(example_diagnosis().error_after, rms=3e-6, noise_rms=0.7e-6, chi2_per_dof=18.0)
+    statement = said(error_after=after)
+    assert "explains the rest" not in statement
+    assert re.search(r"With it the error falls from .* µm to 3\.0 µm, over a noise of 0\.70 µm\.", statement)
+
+
+def test_what_is_left_beside_a_name_is_told_after_it() -> None:
+    statement = said(remainder=LEFT)
+    assert statement.startswith("Missing effect: screw-pitch.")
+    assert statement.endswith(
+        "Beside that something is left without a name: a bump, about 250 mm; root mean square 1.2 µm."
+    )
+
+
+def test_what_others_take_the_place_of_is_told_as_well() -> None:
+    assert said(makeshift=("periodic",)).endswith("Then no longer needed: periodic.")
+
+
+def test_what_is_large_is_asked_after_its_name() -> None:
+    first = replace(example_diagnosis().candidates[0], question=same("9 µm: is that so?"))
+    assert said(candidates=(first,)).endswith("which explains the rest. 9 µm: is that so?")
 
 
 def test_an_adequate_model_is_said_to_describe_the_readings() -> None:
@@ -38,16 +81,13 @@ def test_an_adequate_model_is_said_to_describe_the_readings() -> None:
 
 
 def test_what_has_no_name_is_told_by_shape_size_and_place() -> None:
-    unnamed = Unnamed(same("smooth in time"), same("250 mm"), 1.234e-6)
-    assert said(verdict=Verdict.UNEXPLAINED, unnamed=unnamed) == (
-        "Something is left that no installed effect explains: smooth in time; root mean square 1.2 µm, "
-        "largest "
-        "at 250 mm."
+    assert said(verdict=Verdict.UNEXPLAINED, remainder=LEFT) == (
+        "Something is left that no installed effect explains: a bump, about 250 mm; root mean square 1.2 µm."
     )
 
 
 def test_what_has_no_shape_either_is_still_said_to_be_there() -> None:
-    assert said(verdict=Verdict.UNEXPLAINED, unnamed=None).startswith("Something is left")
+    assert said(verdict=Verdict.UNEXPLAINED).startswith("Something is left")
 
 
 @pytest.mark.parametrize("verdict", Verdict)

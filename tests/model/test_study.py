@@ -9,7 +9,7 @@ import pytest
 
 from model.hidden_effect import LAST, example, example_diagnosis, example_history, study, written
 from zlmreport.errors import InputError
-from zlmreport.model.estimate import InstrumentError
+from zlmreport.model.fitting.estimate import InstrumentError
 
 
 def problem(path: Path) -> tuple[int, int, str]:

@@ -9,8 +9,9 @@ import pytest
 
 from model.axis_tests import AXIS, linear_test
 from zlmreport.language import Language
+from zlmreport.language.numbers import significant_words
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.model import wording
+from zlmreport.model.effects import wording
 
 DESIGN = linear_test()
 ROTARY = Axis("C", kind=AxisKind.ROTARY)
@@ -31,7 +32,7 @@ ROTARY = Axis("C", kind=AxisKind.ROTARY)
     ],
 )
 def test_a_number_has_three_significant_digits(value: float, text: str) -> None:
-    assert wording.significant(value).in_language(Language.ENGLISH) == text
+    assert significant_words(value).in_language(Language.ENGLISH) == text
 
 
 def test_a_period_that_rounding_errors_make_slightly_smaller_has_no_digit_more() -> None:

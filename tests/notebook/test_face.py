@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import doctest
+import html
 import json
+import pickle
 import subprocess
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
+import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import polars as pl
@@ -18,6 +23,8 @@ import pytest
 
 import zlmreport as z
 from environments import ROOT
+from zlmreport.notebook import frames
+from zlmreport.notebook.frames import Library
 from zlmreport.verification.findings import Verdict
 
 JOB = ROOT / "configs" / "linear-axis" / "certificate.yaml"
@@ -50,13 +57,13 @@ def test_the_face_loads_nothing_before_it_is_used() -> None:
     assert done.stdout.split() == ["zlmreport", "zlmreport.version"]
 
 
-@pytest.mark.parametrize("first", ["zlmreport.certificate.document", "zlmreport.notebook.documents"])
+@pytest.mark.parametrize("first", ["zlmreport.document.certificate.document", "zlmreport.notebook.documents"])
 def test_the_function_certificate_is_there_beside_the_room_of_its_name(first: str) -> None:
     import_module(first)
     assert z.certificate(JOB).number == "EXAMPLE-2026-0001"
 
 
-@pytest.mark.parametrize("module", ["results", "models"])
+@pytest.mark.parametrize("module", ["results", "models", "plans"])
 def test_the_examples_in_the_documentation_are_true(module: str) -> None:
     assert doctest.testmod(import_module(f"zlmreport.notebook.{module}")).failed == 0
 
@@ -135,6 +142,46 @@ def test_a_frame_goes_out_and_comes_in(frame: type) -> None:
     assert [each.value for each in again] == pytest.approx([each.value for each in stated])
 
 
+@pytest.mark.parametrize("library", ["pandas", "polars"])
+def test_a_frame_is_of_the_library_that_is_asked_for(library: Library) -> None:
+    frame = data().to_frame(library)
+    assert type(frame).__module__.partition(".")[0] == library
+    assert (len(frame), list(frame.columns)) == (12, ["target", "direction", "run", "deviation"])
+
+
+@pytest.mark.parametrize("frame", [pd.DataFrame, pl.DataFrame, pl.LazyFrame], ids=lambda each: each.__name__)
+def test_tables_are_of_the_library_that_the_readings_came_from(frame: Any) -> None:
+    found = z.read(frame({"target": [0, 5, 9], "direction": ["+"] * 3, "deviation": [0.5, 1, 2]}))
+    library = frame.__module__.partition(".")[0]
+    tables = (found.to_frame(), z.evaluate(found, "nmtba").positions, z.fit(found, ["offset"]).at([1]))
+    assert {type(each).__module__.partition(".")[0] for each in tables} == {library}
+
+
+def test_of_libraries_that_are_there_the_one_in_use_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delitem(sys.modules, "pandas")
+    assert isinstance(data().to_frame(), pl.DataFrame)
+
+
+def test_without_a_library_of_frames_a_table_is_a_structured_array(monkeypatch: pytest.MonkeyPatch) -> None:
+    for library in frames.LIBRARIES:
+        monkeypatch.delitem(sys.modules, library, raising=False)
+    monkeypatch.setattr(frames, "find_spec", lambda _: None)
+    table = z.fit(simulated(), ["offset", "backlash"]).at([10, 500])
+    assert isinstance(table, np.ndarray)
+    assert len(table) == 2
+    assert table.dtype.names == ("position", "up", "U_up", "down", "U_down")
+    assert table["position"].tolist() == pytest.approx([10, 500])
+
+
+def test_a_library_that_is_not_there_is_named() -> None:
+    with pytest.raises(z.InputError, match="did you mean 'pandas'"):
+        data().to_frame("panda")  # type: ignore[arg-type]  # what somebody mistyped
+
+
+def test_a_row_of_a_table_is_a_position() -> None:
+    assert len(z.fit(simulated(), ["offset", "backlash"]).at([10, 500, 900])) == 3
+
+
 def test_positions_of_a_frame_are_actual_positions() -> None:
     found = z.read({"target": [0, 1], "direction": [1, 1], "position": [0.001, 1.0]})
     np.testing.assert_allclose(found.up, [[1.0, 0.0]], atol=1e-9)
@@ -157,6 +204,95 @@ def test_conditions_of_a_frame_are_kept_in_their_units() -> None:
 def test_a_frame_that_lacks_something_is_refused(columns: dict[str, list[object]], message: str) -> None:
     with pytest.raises(z.InputError, match=message):
         z.read(columns)
+
+
+@pytest.mark.parametrize(
+    ("axis", "name"), [(None, "X"), ("Y", "Y"), ({"screw_pitch": 10}, "X"), ({"kind": "rotary"}, "C")]
+)
+def test_an_axis_needs_no_name(axis: Any, name: str) -> None:
+    assert z.test(TARGETS, UP, DOWN, axis=axis).measurements.axis.name == name
+
+
+def test_keys_of_the_axis_stand_instead_of_those_of_a_job(tmp_path: Path) -> None:
+    axis = z.read(small_job(tmp_path), axis={"screw_pitch": 2.5}).measurements.axis
+    assert (axis.name, axis.screw_pitch) == ("X", 0.0025)
+    with pytest.raises(z.InputError, match="the readings of the job are of a linear axis"):
+        z.read(small_job(tmp_path), axis={"kind": "rotary"})
+
+
+@pytest.mark.parametrize("source", [None, 3, [1, 2]])
+def test_what_is_neither_a_file_nor_columns_is_refused(source: Any) -> None:
+    with pytest.raises(z.InputError, match="no path of a file, and no frame"):
+        z.read(source)
+
+
+@pytest.mark.parametrize(
+    "work",
+    [
+        lambda given: z.evaluate(given, "nmtba"),
+        lambda given: z.fit(given, ["offset"]),
+        lambda given: z.compensate(given, "csv", active="none"),
+    ],
+)
+def test_what_is_no_readings_is_told_how_to_become_some(work: Callable[[Any], object]) -> None:
+    with pytest.raises(z.InputError, match=r"a list holds no readings of an axis; z\.test"):
+        work([1, 2])
+
+
+def test_arrays_of_other_things_than_numbers_are_refused() -> None:
+    with pytest.raises(z.InputError, match="up is no array of numbers"):
+        z.test([0, 1], [["a", "b"]])
+
+
+@pytest.mark.parametrize("side", [UP, DOWN])
+def test_a_single_run_one_way_is_compensated(side: list[list[float]]) -> None:
+    made = z.compensate(z.test(TARGETS, side[:1]), "linuxcnc", active="none")
+    assert made.after["E"] == pytest.approx(0, abs=1e-6)
+    assert "<table" in made._repr_html_()
+
+
+def test_results_models_and_compensations_can_be_pickled(tmp_path: Path) -> None:
+    found = data()
+    stated = z.certificate(small_job(tmp_path)).results[0]
+    model = z.fit(found, ["offset", "backlash"])
+    for each in (
+        *(found, z.evaluate(found, "iso230-2:2014", tolerances={"A": 9}), z.evaluate(found, "nmtba"), stated),
+        *(model, model.diagnose(), model.build(), z.compensate(found, "csv", active="none")),
+    ):
+        again = pickle.loads(pickle.dumps(each))
+        assert repr(again) == repr(each)
+        assert again._repr_html_() == each._repr_html_() if hasattr(each, "_repr_html_") else True
+    assert not pickle.loads(pickle.dumps(found)).measurements.deviation.flags.writeable
+
+
+def test_what_is_installed_is_listed_by_its_names() -> None:
+    standards, effects = z.standards(), z.effects()
+    assert standards["nmtba"].symbols == ("P", "Pa", "Ps_max", "Ps_mean", "O")
+    assert effects["backlash"].parameters == {"lost_motion": "um"}
+    assert "order" in effects["polynomial"].keys
+
+
+def test_a_plan_of_keys_is_that_of_a_job(tmp_path: Path) -> None:
+    keys = {"axis": {"name": "X", "travel": [0, 100]}, "plan": {"targets": {"count": 6}}}
+    job = tmp_path / "job.yaml"
+    source = {"source": {"plugin": "laser-csv", "file": "not-there.csv"}}
+    rest = {"schema": "zlmreport/job/1", "certificate": {"number": "plan", "kind": "report"}}
+    job.write_text(json.dumps({**rest, **keys, "measurement": source, "evaluate": ["iso230-2:2014"]}))
+    of_keys, of_job = z.plan(**keys), z.plan(job)
+    assert of_keys.to_dict() == of_job.to_dict()
+    assert of_keys.targets.tolist() == of_keys.to_frame()["target"][:6].to_list()
+    assert of_keys.minutes > 0
+    assert of_keys.hidden["screw-pitch"] == "the job does not state axis.screw_pitch"
+
+
+def test_a_plan_that_makes_no_sense_is_refused() -> None:
+    with pytest.raises(z.InputError, match="axis"):
+        z.plan(axis={"name": "X", "travel": [0, "far"]})
+
+
+def test_a_diagnosis_says_what_a_pitch_that_nobody_stated_would_decide() -> None:
+    asks = z.fit(simulated(), ["offset"]).diagnose().asks
+    assert any(each.startswith("Screw pitch (mm)") and "screw-pitch" in each for each in asks)
 
 
 def test_a_file_that_nobody_reads_by_its_suffix_needs_a_data_source() -> None:
@@ -240,6 +376,15 @@ def test_graphs_are_drawn_on_axes() -> None:
     assert z.fit(simulated(), ["offset"]).plot().get_ylabel() == "Deviation in µm"
 
 
+def test_all_graphs_that_a_standard_prescribes_are_drawn() -> None:
+    mpl.use("Agg")
+    result = z.evaluate(data(), "iso230-2:2014")
+    drawn = result.plots()
+    assert tuple(drawn) == result.graphs
+    assert all(axes.get_xlabel() or axes.get_ylabel() for panels in drawn.values() for axes in panels)
+    plt.close("all")
+
+
 def test_a_graph_that_there_is_not_is_answered_with_those_there_are() -> None:
     with pytest.raises(KeyError, match="has no graph 'x'"):
         z.evaluate(data(), "iso230-2:2014").plot(graph="x")
@@ -250,13 +395,21 @@ def test_each_result_shows_itself_in_a_notebook() -> None:
     result = z.evaluate(data(), "nmtba", tolerances={"P": 9})
     for each in (data(), result, model, model.diagnose(), model.residuals):
         page = each._repr_html_()
-        assert page.startswith("<table>")
+        assert "<table" in page
         assert "nan" not in page
 
 
+def test_a_diagnosis_says_in_a_notebook_what_it_says_elsewhere() -> None:
+    diagnosis = z.fit(simulated(), ["offset"]).diagnose()
+    page = diagnosis._repr_html_()
+    assert f"<h4>Verdict</h4><p>{html.escape(diagnosis.statement)}</p>" in page
+    for each in (*diagnosis.failures, *(candidate.explains for candidate in diagnosis.candidates[:1])):
+        assert html.escape(each) in page
+
+
 def test_texts_in_a_table_are_no_markup() -> None:
-    table = z.Table(name=np.array(["<b>"]))
-    assert "&lt;b&gt;" in table._repr_html_()
+    found = z.read({"target": [0], "direction": ["+"], "deviation": [1], "<b>": [2]})
+    assert "&lt;b&gt;" in found._repr_html_()
 
 
 def small_job(folder: Path) -> Path:

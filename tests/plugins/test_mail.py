@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 
-from signing.keys import certificate_of, elliptic
+from document.signing.keys import certificate_of, elliptic
 from zlmreport.errors import AccessError
-from zlmreport.plugin import Message, Occasion
+from zlmreport.plugin.notifier import Message, Occasion
 from zlmreport_plugins.notifiers import Mail, MailOptions
 
 _PATIENCE = 10.0

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
 
 ISO = [identifier for identifier in STANDARDS if identifier.startswith("iso230-2")]
 SINCE_1997 = ISO[1:]

@@ -30,7 +30,7 @@ from zlmreport.version import __version__
 RELEASES = ROOT / "releases.yaml"
 _VERSION = ROOT / "src" / "zlmreport" / "version.py"
 _CHANGES = ROOT / "CHANGELOG.md"
-_GOLDEN = ROOT / "tests" / "certificate" / "golden"
+_GOLDEN = ROOT / "tests" / "document" / "certificate" / "golden"
 _TEMPLATES = ROOT / "report_templates" / "zlmreport_templates"
 _OF_PAGES = ("A4.css", "Letter.css", "certificate.css", "paged.css", "tokens.css")
 _HEADING = "## Unreleased ({})"

@@ -22,7 +22,7 @@ NAMES = {
     ("output", "formats", "[]"),
 }
 #: The last part of others of that kind.
-IDENTIFIERS = {"controller", "plugin", "program", "standard"}
+IDENTIFIERS = {"controller", "error", "plugin", "program", "standard"}
 #: A short way to write a key that has a longer one, which is used here.
 SHORT = {("location",)}
 

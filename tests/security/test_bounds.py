@@ -9,7 +9,7 @@ import pytest
 from security.hostile import READINGS, job_with, text_keys
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()
 KEYS = text_keys()

@@ -16,7 +16,7 @@ from pypdf import PdfReader
 from pdf_conformance import complaints
 from processes import PYTHON, run
 from security.hostile import READINGS, job_with, text_keys
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 #: The formats, by the folder of their files: two of them write the same file.
 FORMATS = {

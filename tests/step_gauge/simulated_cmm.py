@@ -9,10 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    FloatArray,
-)
+from zlmreport.plugin import MILLIMETRE, FloatArray
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import BLOCKS
 

@@ -13,7 +13,7 @@ from step_gauge.emulated import on_a_port
 from step_gauge.jobs import write_job
 from zlmreport.cli import main
 from zlmreport.job.loading import load
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.machines.emulated import PRETRAVEL, machine_of_job
 from zlmreport_step_gauge.machines.server import DmeServer, PointFault
 from zlmreport_step_gauge.paths.plan import path_of_job

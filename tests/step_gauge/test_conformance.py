@@ -7,8 +7,8 @@ from collections.abc import Callable
 import pytest
 
 from step_gauge.languages import LANGUAGES
-from zlmreport.plugin import PartProgram
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.program import PartProgram
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import ProbingPath
 from zlmreport_step_gauge.testing import PROBING_PROGRAM_CHECKS
 

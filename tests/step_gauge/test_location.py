@@ -6,13 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from step_gauge.gauges import gauge
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError, Place
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import Located, direction_of, locate
 

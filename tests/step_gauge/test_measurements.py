@@ -12,7 +12,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.measurements import Sign, Targets, measurement_set
 from zlmreport_step_gauge.probed import ProbedPoint

@@ -21,7 +21,7 @@ from dataclasses import replace
 import pytest
 
 from step_gauge.paths import PLACE, SETTINGS, location, step_gauge
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.paths.path import PathKind, ProbingPath
 from zlmreport_step_gauge.paths.plan import plan_path
 

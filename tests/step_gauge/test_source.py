@@ -11,11 +11,11 @@ import pytest
 from environments import ROOT
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError, Place
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.calibration import read_calibration, section
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import InitialPoints

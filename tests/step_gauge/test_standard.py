@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin.registry import find_plugins
 
 STANDARD = find_plugins().standard("step-gauge")
 NAN = float("nan")

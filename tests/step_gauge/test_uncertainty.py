@@ -7,15 +7,14 @@ import sys
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from environments import ROOT
 from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import RADIUS
 from step_gauge.test_measurements import measured
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.uncertainty.budget import Acts
+from zlmreport.evaluation.uncertainty.budget import Acts
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
 from zlmreport_step_gauge.uncertainty import gauge_contributions, parted
 

@@ -11,11 +11,12 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from zlmreport.certificate.document import Certificate, Graph
+from zlmreport.document.blocks import Graph
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, Group, PositionQuantity, Quantity
 from zlmreport.evaluation.statistics import PositionStatistics, largest, smallest
-from zlmreport.figures.figure import Band, Bracket, Curve, Figure, Panel, Role
 from zlmreport.job.types import JobPath, Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet

@@ -9,10 +9,10 @@ from pydantic import Field
 
 from zlmreport.job.types import Options
 from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Confusion, Dimension, Effect, Parameter, Shape
 
 
 class ExemplaryOptions(Options):

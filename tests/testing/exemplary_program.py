@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from zlmreport.language import Words
-from zlmreport.planning.programs import Motion, ProgramOptions, heading
+from zlmreport.model.planning.programs import Motion, ProgramOptions, heading
 
 
 class ExemplaryProgram:

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from pydantic import Field
 
-from zlmreport.compensation.curve import CompensationTable
 from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.model.compensation.curve import CompensationTable
 from zlmreport.testing import CONTROLLER_CHECKS, check_controller, controllers
 
 COUNTER = itertools.count()

@@ -13,10 +13,13 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
+from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.job.formula_parts import Formula
 from zlmreport.job.types import Options
 from zlmreport.language import Words, same
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Confusion
 from zlmreport.testing import EFFECT_CHECKS, check_effect, effects, full_designs
 
 DESIGNS = full_designs()
@@ -48,6 +51,20 @@ def _raising(_self: object, _design: Design) -> Words | None:
 _ANSWERS = count(1)
 
 
+TOO_MANY = Formula.of(
+    FormulaKeys(
+        name="own",
+        formula="a*k",
+        parameters={"a": {"unit": "um"}, "k": {"range": [1, 2]}},  # type: ignore[dict-item]  # as a file has it
+    ),
+    AxisKind.LINEAR,
+)
+TOO_MANY = Formula.of(
+    FormulaKeys.model_validate(
+        {"name": "own", "formula": "a*k", "parameters": {"a": {"unit": "um"}, "k": {"range": [1, 2]}}}
+    ),
+    AxisKind.LINEAR,
+)
 SINS: list[tuple[str, dict[str, Any], str]] = [
     ("is_described", {"identifier": "Wave!"}, "identifier 'Wave!' must be lower-case"),
     ("is_described", {"title": same("")}, "title says nothing"),
@@ -115,6 +132,7 @@ SINS: list[tuple[str, dict[str, Any], str]] = [
         {"columns": lambda _, design, __: np.sin(design.position)[:, np.newaxis]},
         "parameter 'wavelength' changes no column on any test",
     ),
+    ("formula_determines_its_parameters", {"formula": TOO_MANY}, "no readings could tell a, k apart"),
     (
         "expected_values_are_of_parameters",
         {"expected": lambda *_: {"depth": 1.0}},

@@ -11,13 +11,13 @@ from typing import Any
 import pytest
 from pydantic import Field
 
-from zlmreport.emulation.emulator import Emulator, Scene, Trouble
 from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import Words
-from zlmreport.live.dialogue import streamed
-from zlmreport.live.port import Framing, LiveConnection, Port, PortOptions
-from zlmreport.live.reading import Fault, LiveReading
+from zlmreport.live.emulation.emulator import Emulator, Scene, Trouble
+from zlmreport.live.ports.dialogue import streamed
+from zlmreport.live.ports.port import Framing, LiveConnection, Port, PortOptions
+from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.testing import instruments
 
 

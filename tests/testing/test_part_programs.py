@@ -15,7 +15,7 @@ from testing.exemplary_program import ExemplaryProgram, run_steps
 from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.planning.programs import Motion, ProgramOptions
+from zlmreport.model.planning.programs import Motion, ProgramOptions
 from zlmreport.testing import PART_PROGRAM_CHECKS, check_part_program, part_programs
 
 COUNTER = itertools.count()

@@ -12,9 +12,9 @@ import pytest
 from pydantic import Field
 
 from testing.exemplary import ExemplaryOptions, ExemplaryStandard
+from zlmreport.document.figures.figure import Arrow, Figure, Level, Role
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, PositionQuantity
 from zlmreport.evaluation.statistics import PositionStatistics, largest
-from zlmreport.figures.figure import Arrow, Figure, Level, Role
 from zlmreport.job.types import Options
 from zlmreport.language import Words, same
 from zlmreport.testing import STANDARD_CHECKS, arithmetic, check_standard, standards

@@ -9,6 +9,7 @@ import json
 import re
 import zlib
 from collections.abc import Callable
+from hashlib import md5
 from io import BytesIO
 
 import pikepdf
@@ -1032,9 +1033,11 @@ def _(pdf: Pdf) -> None:
     stream = _results(pdf)
     tree = json.loads(stream.read_bytes())
     tree["provenance"]["generator"] = "zlmreport 0.0.9"
-    stream.write(json.dumps(tree).encode())
+    content = json.dumps(tree).encode()
+    stream.write(content)
+    stream.Params.Size = len(content)
     if "/CheckSum" in stream.Params:
-        del stream.Params.CheckSum
+        stream.Params.CheckSum = String(md5(content, usedforsecurity=False).digest())
     for page in pdf.pages:
         draw(pdf, page.obj, BOX)
 

@@ -13,11 +13,11 @@ from typing import Any
 
 from PIL import Image
 from pypdf import PdfReader, PdfWriter
-from pypdf.generic import ByteStringObject, EncodedStreamObject, NameObject
+from pypdf.generic import ByteStringObject, EncodedStreamObject, NameObject, NumberObject
 
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 NUMBER = "VERIFY-1"
 LABORATORY = f"""\
@@ -106,7 +106,7 @@ def content_of(pdf: bytes, name: str) -> bytes:
 
 
 def with_attachment(pdf: bytes, name: str, content: bytes) -> bytes:
-    """Return a PDF in which an attachment has another content, and the checksum that goes with it."""
+    """Return a PDF in which an attachment has another content, with the checksum and size that go with it."""
 
     def change(writer: PdfWriter) -> None:
         entry = specification(writer, name)
@@ -117,9 +117,8 @@ def with_attachment(pdf: bytes, name: str, content: bytes) -> bytes:
         new["/Params"][NameObject("/CheckSum")] = ByteStringObject(
             md5(content, usedforsecurity=False).digest()
         )
-        reference = writer._add_object(new)
-        for key in list(entry["/EF"]):
-            entry["/EF"][NameObject(key)] = reference
+        new["/Params"][NameObject("/Size")] = NumberObject(len(content))
+        writer._replace_object(entry["/EF"].raw_get("/F"), new)
 
     return altered(pdf, change)
 

@@ -7,7 +7,9 @@ from typing import Any
 
 import pytest
 
-from zlmreport.verification.attached import stated_by
+from zlmreport.verification.attached import compare, stated_by
+from zlmreport.verification.carrier import Carried
+from zlmreport.verification.findings import Verdict
 
 
 def carrier(content: bytes, name: str = "CAL-1.json", relationship: str = "Data") -> Any:
@@ -21,3 +23,29 @@ def test_a_number_that_no_certificate_can_state_is_no_result(number: str) -> Non
     """No comparison decides on it, and no JSON of ours could say so."""
     with pytest.raises(ValueError, match=r"^CAL-1.json: no JSON: \S+ is no finite number$"):
         stated_by(carrier(b'{"schema": "zlmreport/results/1", "limit": %s}' % number.encode()))
+
+
+def carried(content: bytes) -> dict[str, Carried]:
+    """One file that a renderer makes of the readings, as a PDF carries it."""
+    return {"CAL-1.xml": Carried("CAL-1.xml", content, "Alternative", "", "", "")}
+
+
+@pytest.mark.parametrize(
+    ("content", "same_processor", "verdict"),
+    [
+        (b"<value>1.25000000001</value>", True, Verdict.DIFFERS),
+        (b"<value>1.25000000001</value>", False, Verdict.HOLDS),
+        (b"<value>1.26</value>", False, Verdict.DIFFERS),
+        (b"<conformity>fail</conformity>", False, Verdict.DIFFERS),
+        (b"<note>A = 0.1 um, passed</note>", False, Verdict.DIFFERS),
+    ],
+)
+def test_what_is_made_of_the_readings_is_made_again(
+    content: bytes,
+    same_processor: bool,  # noqa: FBT001 - a column
+    verdict: Verdict,
+) -> None:
+    """Another processor rounds the last digit otherwise; the same one does not."""
+    again = carried(b"<value>1.25</value>")
+    (found,) = compare((), carried(content), again, same_processor=same_processor)
+    assert found.verdict is verdict

@@ -14,7 +14,7 @@ from verification.issued import (
 )
 from verification.test_verify import differing
 from zlmreport.plugin.protocols import made
-from zlmreport.plugins import DISABLE, find_plugins
+from zlmreport.plugin.registry import DISABLE, find_plugins
 from zlmreport.verification import verify as verifying
 from zlmreport.verification.findings import Verdict, Verification
 
@@ -52,6 +52,6 @@ def test_where_its_renderer_is_missing_nothing_of_its_drawing_is_said_to_hold(
 ) -> None:
     path = tmp_path / "certificate.pdf"
     path.write_bytes(by_typst)
-    found = verifying.verify(path, find_plugins({DISABLE: "pdf_typst"}))
+    found = verifying.verify(path, find_plugins({DISABLE: "pdf-typst"}))
     assert Verdict.HOLDS not in {each.verdict for each in found.pages}
     assert {each.verdict for each in found.values} == {Verdict.HOLDS}

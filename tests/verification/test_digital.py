@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from certificate.documents import certificate
+from document.certificate.documents import certificate
 from plugins.renderers.test_dcc import KEYS
 from zlmreport.errors import AccessError
 from zlmreport.verification.attached import digital_findings

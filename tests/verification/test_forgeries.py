@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from verification import carried_forgeries, raw_forgeries
 from verification.altering import Forgery, rewritten
 from verification.forgeries import FORGERIES, plain
 from verification.test_trust import signed
@@ -20,6 +21,7 @@ def test_forgeries_are_many_and_each_has_its_own_name() -> None:
     names = [each.name for each in FORGERIES]
     assert len(names) == len(set(names)) > 100
     assert all(each.seen for each in FORGERIES)
+    assert raw_forgeries.FORGERIES is carried_forgeries.FORGERIES is FORGERIES
 
 
 @pytest.mark.parametrize("forgery", FORGERIES, ids=lambda each: each.name)

@@ -12,16 +12,16 @@ from cryptography.hazmat.primitives.serialization import Encoding
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import ArrayObject, FloatObject, NameObject
 
-from signing.authority import authority
-from signing.keys import NAME, PASSWORD, pkcs12_file
+from document.signing.authority import authority
+from document.signing.keys import NAME, PASSWORD, pkcs12_file
 from verification.issued import LABORATORY, altered, lay_out, registry, with_digit
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
 from zlmreport.cli.report import signer_of
 from zlmreport.cli.terminal import said
+from zlmreport.document.signing.signer import open_signer
 from zlmreport.errors import Place
 from zlmreport.job.loading import load
-from zlmreport.signing.signer import open_signer
 from zlmreport.verification.findings import Verdict, Verification
 
 Verify = Callable[[bytes], Verification]

@@ -15,12 +15,12 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.serialization import Encoding
 from cryptography.x509.oid import NameOID
 
-from signing.keys import PASSWORD, certificate_of, elliptic, pkcs12_file
+from document.signing.keys import PASSWORD, certificate_of, elliptic, pkcs12_file
 from verification.issued import READINGS, issue, lay_out
 from zlmreport.cli import main
+from zlmreport.document.signing.signer import open_signer
+from zlmreport.document.signing.state import signature_state, trusted_by_user, trusted_certificates
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.signing.signer import open_signer
-from zlmreport.signing.state import signature_state, trusted_by_user, trusted_certificates
 
 PLACE = Place("zlmreport --trusted")
 Run = Callable[..., tuple[int, dict[str, Any]]]

@@ -29,8 +29,8 @@ from verification.issued import (
     with_source,
 )
 from zlmreport import pipeline
-from zlmreport.certificate.build import GENERATOR
 from zlmreport.cli.terminal import said
+from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.verification.findings import Finding, Outcome, Verdict, Verification
 
 Verify = Callable[[bytes], Verification]

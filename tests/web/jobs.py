@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 #: An axis whose model lacks the error of its screw.
 EXAMPLE = Path(__file__).parents[2] / "configs" / "hidden-effect"

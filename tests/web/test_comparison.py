@@ -16,7 +16,7 @@ from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.web.bench import Bench
-from zlmreport.web.comparison import Comparison
+from zlmreport.web.comparison import ComparedTests
 
 #: What the other test reads more at a target upwards and downwards, in µm.
 _MORE = {"+": 2.5, "-": -1.5}
@@ -49,7 +49,7 @@ def _shifted(path: Path) -> str:
 
 def _compared(*paths: Path) -> dict[str, Any]:
     bench, *others = (Bench(path, registry()) for path in paths)
-    return Comparison.of(bench, others).values(Language.ENGLISH)
+    return ComparedTests.of(bench, others).values(Language.ENGLISH)
 
 
 @pytest.fixture(scope="module")
@@ -127,14 +127,14 @@ def test_another_kind_of_axis_is_refused(folder: Path) -> None:
 
 
 @pytest.fixture
-def comparison(folder: Path, tmp_path: Path) -> Callable[[], tuple[Comparison, Path]]:
+def comparison(folder: Path, tmp_path: Path) -> Callable[[], tuple[ComparedTests, Path]]:
     shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
     bench, other = (Bench(tmp_path / name, registry()) for name in ("after.yaml", "before.yaml"))
-    return lambda: (Comparison.of(bench, [other]), tmp_path / "before.csv")
+    return lambda: (ComparedTests.of(bench, [other]), tmp_path / "before.csv")
 
 
 def test_a_test_that_cannot_be_read_is_named_and_is_there_again_when_it_can(
-    comparison: Callable[[], tuple[Comparison, Path]],
+    comparison: Callable[[], tuple[ComparedTests, Path]],
 ) -> None:
     made, readings = comparison()
     kept, stamp = readings.read_bytes(), made.stamp()
@@ -148,7 +148,7 @@ def test_a_test_that_cannot_be_read_is_named_and_is_there_again_when_it_can(
 
 
 def test_nothing_is_written_beside_the_other_tests(
-    comparison: Callable[[], tuple[Comparison, Path]],
+    comparison: Callable[[], tuple[ComparedTests, Path]],
 ) -> None:
     made, readings = comparison()
     before = {path: path.read_bytes() for path in readings.parent.iterdir()}

@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 
 from zlmreport.errors import AccessError
-from zlmreport.web.journal import Entry, Journal, entry, undoable
+from zlmreport.web.journal import Journal, JournalStep, entry, undoable
 
 CONTENTS = [b"a", b"b", b"c"]
 
 
-def made(first: int, action: str = "add", subject: str = "offset") -> Entry:
+def made(first: int, action: str = "add", subject: str = "offset") -> JournalStep:
     """Return the record of a step from one content to the next."""
     return entry(action, subject, (CONTENTS[first], CONTENTS[first + 1]), (2.0, 1.0))
 

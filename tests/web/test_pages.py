@@ -21,10 +21,10 @@ from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.design import at_positions
-from zlmreport.model.faults import Fault, FaultKind
-from zlmreport.model.residuals import Failure, ResidualTest
-from zlmreport.model.study import Fitted, Study
+from zlmreport.model.diagnosis.faults import Fault, FaultKind
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
+from zlmreport.model.diagnosis.study import Fitted, Study
+from zlmreport.model.effects.design import at_positions
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.app import Workbench
 from zlmreport.web.effect_page import sketch

@@ -12,7 +12,7 @@ from hidden_effects.records import Record
 from hidden_effects.tables.markdown import table
 from hidden_effects.tables.outcome import Outcome, judged, outcome
 from hidden_effects.tables.shares import Share
-from zlmreport.planning.methods import Method
+from zlmreport.model.planning.methods import Method
 
 #: Distance of the nearest other effect from which on it is told apart: see `Trial.nearest`.
 _SEPARATES = 16.0

@@ -11,7 +11,7 @@ from hidden_effects.records import Record
 from hidden_effects.tables.markdown import table
 from hidden_effects.tables.outcome import judged
 from hidden_effects.tables.shares import Share
-from zlmreport.planning.methods import Method
+from zlmreport.model.planning.methods import Method
 
 #: A shape of which every effect imitates less than this share, R², is like none of them.
 _UNLIKE = 0.8

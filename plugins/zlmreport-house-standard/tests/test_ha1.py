@@ -8,18 +8,10 @@ from functools import partial
 
 import pytest
 
-from zlmreport.plugin import (
-    Acts,
-    Budget,
-    Contribution,
-    Distribution,
-    MeasurementSet,
-    decided,
-    decision_rule,
-    evaluate,
-    same_in_all_languages,
-    with_uncertainty,
-)
+from zlmreport.plugin import MeasurementSet, same_in_all_languages
+from zlmreport.plugin.extension import Acts, Contribution, Distribution, with_uncertainty
+from zlmreport.plugin.renderer import Budget
+from zlmreport.plugin.standard import decided, decision_rule, evaluate
 from zlmreport.testing import STANDARD_CHECKS, bidirectional_test
 from zlmreport_house_standard.ha1 import HouseAcceptance, HouseAcceptanceOptions
 

@@ -17,15 +17,8 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from zlmreport.plugin import (
-    CompensationTable,
-    Controller,
-    InputError,
-    Options,
-    Words,
-    hookimpl,
-    read_only_floats,
-)
+from zlmreport.plugin import InputError, Options, Words, hookimpl, read_only_floats
+from zlmreport.plugin.controller import CompensationTable, Controller
 
 _MOST_ROWS = 256
 _ROW = re.compile(r"\s*([-+.\deE]+)\s+([-+.\deE]+)\s+([-+.\deE]+)")

@@ -15,16 +15,8 @@ from typing import Any
 import numpy as np
 from pydantic import Field
 
-from zlmreport.plugin import (
-    CompensationTable,
-    Controller,
-    FloatArray,
-    InputError,
-    Options,
-    Words,
-    hookimpl,
-    read_only_floats,
-)
+from zlmreport.plugin import FloatArray, InputError, Options, Words, hookimpl, read_only_floats
+from zlmreport.plugin.controller import CompensationTable, Controller
 
 _NUMBER = r"([-+]?\d+(?:\.\d+)?)"
 _NO_TRIAL = Words(

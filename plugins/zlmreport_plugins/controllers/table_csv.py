@@ -8,15 +8,8 @@ from itertools import pairwise
 
 from pydantic import Field
 
-from zlmreport.plugin import (
-    CompensationTable,
-    Controller,
-    InputError,
-    Options,
-    Words,
-    hookimpl,
-    read_only_floats,
-)
+from zlmreport.plugin import InputError, Options, Words, hookimpl, read_only_floats
+from zlmreport.plugin.controller import CompensationTable, Controller
 
 _END = "-compensation.csv"
 

@@ -1,81 +1,17 @@
-"""The effects that come with zlmreport: one page each."""
+"""The effects that come with zlmreport: catalogues by subject, and a polynomial, which no formula says."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
-from zlmreport.plugin import Effect, hookimpl
-from zlmreport_plugins.effects.compensation import CompensationShift, CompensationSign
-from zlmreport_plugins.effects.course import (
-    Backlash,
-    BacklashBow,
-    BacklashGradient,
-    DatumStep,
-    FirstRun,
-    ReversalRelaxation,
-    TimePeriodic,
-)
-from zlmreport_plugins.effects.geometry import (
-    Abbe,
-    CosineError,
-    Offset,
-    Polynomial,
-    ScaleError,
-    ScaleJoint,
-    ScaleKink,
-)
-from zlmreport_plugins.effects.periodic import (
-    DirectionalPitch,
-    Eccentricity,
-    Ellipticity,
-    EncoderInterpolation,
-    GearMesh,
-    Periodic,
-    ScrewPitch,
-)
-from zlmreport_plugins.effects.thermal import (
-    AirIndex,
-    DatumTemperature,
-    DeadPath,
-    ScaleExpansion,
-    ScrewExpansion,
-    ThermalDrift,
-    ThermalGrowth,
-)
+from zlmreport.plugin import hookimpl
+from zlmreport.plugin.effect import Effect
 
 
 @hookimpl
 def zlmreport_effects() -> Iterable[Effect]:
-    """Return all of them: of position, of direction, of time and temperature, of rotary axes."""
-    return (
-        Offset(),
-        ScaleError(),
-        Polynomial(),
-        CosineError(),
-        ScrewPitch(),
-        EncoderInterpolation(),
-        Periodic(),
-        ScaleJoint(),
-        ScaleKink(),
-        CompensationSign(),
-        CompensationShift(),
-        Abbe(),
-        Backlash(),
-        BacklashGradient(),
-        BacklashBow(),
-        ReversalRelaxation(),
-        DirectionalPitch(),
-        ScaleExpansion(),
-        ScrewExpansion(),
-        ThermalGrowth(),
-        ThermalDrift(),
-        DatumTemperature(),
-        AirIndex(),
-        DeadPath(),
-        TimePeriodic(),
-        DatumStep(),
-        FirstRun(),
-        Eccentricity(),
-        Ellipticity(),
-        GearMesh(),
-    )
+    """Return all of them: of position, of direction, of what repeats, of time and temperature."""
+    from zlmreport_plugins.effects import course, periodic, polynomial, position, reversal, thermal
+
+    subjects = (position, polynomial, reversal, periodic, thermal, course)
+    return tuple(effect for subject in subjects for effect in subject.zlmreport_effects())

@@ -11,28 +11,22 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from zlmreport.plugin import (
-    CELSIUS,
-    HECTOPASCAL,
+from zlmreport.plugin import CELSIUS, HECTOPASCAL, PERCENT, Options, ReadingScale, Words, hookimpl
+from zlmreport.plugin.instrument import (
     NO_CONDITIONS,
     NO_FAULT,
-    PERCENT,
     Emulator,
     Fault,
     Framing,
     Instrument,
     LiveConnection,
     LiveReading,
-    Options,
     Patience,
     PolledOptions,
     Port,
-    ReadingScale,
     Scene,
     Trouble,
-    Words,
     ask_instrument,
-    hookimpl,
     readings_at_rate,
     unreadable_reading,
 )

@@ -11,24 +11,20 @@ from typing import Literal
 
 from pydantic import Field
 
-from zlmreport.plugin import (
-    INCH,
-    MILLIMETRE,
+from zlmreport.plugin import INCH, MILLIMETRE, Options, Words, hookimpl
+from zlmreport.plugin.instrument import (
     Emulator,
     Fault,
     Framing,
     Instrument,
     LiveConnection,
     LiveReading,
-    Options,
     Patience,
     PolledOptions,
     Port,
     Scene,
     Trouble,
-    Words,
     ask_instrument,
-    hookimpl,
     readings_at_rate,
     unreadable_reading,
 )

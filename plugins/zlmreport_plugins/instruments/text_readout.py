@@ -9,28 +9,23 @@ from typing import Annotated, Literal, Self
 
 from pydantic import AfterValidator, Field, model_validator
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    POSITION_UNITS,
+from zlmreport.plugin import MILLIMETRE, POSITION_UNITS, Options, Words, hookimpl, unit_named
+from zlmreport.plugin.instrument import (
     Emulator,
     Fault,
     Framing,
     Instrument,
     LiveConnection,
     LiveReading,
-    Options,
     Patience,
     PolledOptions,
     Port,
     Scene,
     Trouble,
     WholeLines,
-    Words,
     ask_instrument,
-    hookimpl,
     readings_at_rate,
     streamed_readings,
-    unit_named,
     unreadable_reading,
 )
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 from base64 import b64encode
 from functools import lru_cache
 
-from zlmreport.plugin import Certificate, PageWords, Words, hookimpl
+from zlmreport.plugin import Words, hookimpl
+from zlmreport.plugin.renderer import Certificate, PageWords
 
 #: The drawings set their look in attributes, so styles inside the page are allowed.
 _ALLOWED = (
@@ -31,9 +32,8 @@ class HtmlRenderer:
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the page, UTF-8."""
-        from zlmreport.plugin import (  # noqa: PLC0415 (brings Jinja)
-            HtmlSetting,
-            compose_html,
+        from zlmreport.plugin.html import HtmlSetting, compose_html  # noqa: PLC0415 (brings Jinja)
+        from zlmreport.plugin.page import (  # noqa: PLC0415 (brings Jinja)
             figure_to_svg,
             linked_script,
             own_style,
@@ -59,7 +59,7 @@ class HtmlRenderer:
 
 @lru_cache(maxsize=8)
 def _style(paper: str, accent: str, *, with_linked: bool) -> str:
-    from zlmreport.plugin import (  # noqa: PLC0415 (brings Jinja)
+    from zlmreport.plugin.page import (  # noqa: PLC0415 (brings Jinja)
         font_face_rules,
         font_file,
         linked_style,

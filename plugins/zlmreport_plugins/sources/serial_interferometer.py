@@ -2,40 +2,39 @@
 
 from __future__ import annotations
 
+import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from zlmreport.plugin import (
-    AccessError,
-    Axis,
+from zlmreport.plugin import AccessError, Axis, InputError, MeasurementSet, Options, Place, Words, hookimpl
+from zlmreport.plugin.instrument import (
+    BeamHeld,
     CaptureEnded,
     CaptureOptions,
     CaptureResumed,
-    DataSource,
     DatumClosed,
     DatumHolds,
     DatumMoved,
     DatumTaken,
-    InputError,
     JournalEntry,
     JournalHeader,
     JournalHistory,
-    MeasurementSet,
     OperatorCommented,
     OperatorRetake,
     OperatorSkipped,
-    Options,
-    Place,
+    ReadingRecorded,
+    ScaleChanged,
+    VisitPresumed,
+    ZeroLost,
+    read_journal,
+)
+from zlmreport.plugin.source import (
+    DataSource,
     Provenance,
     Reading,
-    ReadingRecorded,
     SourceContext,
-    Words,
-    ZeroLost,
     collect_readings,
-    hookimpl,
-    read_journal,
 )
 
 _HELD = Words(
@@ -113,7 +112,22 @@ def remarks(
         tolerance=axis.position_unit.from_si(header.settings.tolerance),
         unit=axis.position_unit.symbol,
     )
+    if header.settings.settle:
+        yield Words(
+            en="The reading of a visit is the last standstill of at least {settle} s before the axis left.",
+            de="Der Messwert eines Messpunkts ist der letzte Stillstand von mindestens {settle} s, bevor die "
+            "Achse weiterfuhr.",
+        ).given(settle=header.settings.settle)
     yield _datum(header.datum, axis)
+    held = sum(isinstance(entry.event, BeamHeld) for entry in history.entries)
+    if held:
+        yield Words(
+            en="The beam was broken for a moment {held} times while the axis stood still; each time the "
+            "display showed afterwards what it had shown before.",
+            de="Der Strahl war {held}-mal kurz unterbrochen, während die Achse stillstand; jedes Mal zeigte "
+            "die Anzeige danach, was sie zuvor gezeigt hatte.",
+        ).given(held=held)
+    yield from _failed_displays(history)
     yield from _interruptions(history, axis)
     yield from _closure(history, axis)
     yield from _repetitions(parts)
@@ -129,6 +143,26 @@ def remarks(
             en="The operator closed the test before the plan was done.",
             de="Die Messung wurde beendet, bevor der Plan abgearbeitet war.",
         )
+
+
+def _failed_displays(history: JournalHistory) -> Iterator[Words]:
+    """Yield how often a display was switched, and how sure it was which visit a reading is."""
+    events = [entry.event for entry in history.entries]
+    switched = sum(isinstance(event, ScaleChanged) for event in events)
+    if switched:
+        yield Words(
+            en="The display was switched to another unit (times: {count}). What it showed then is not used.",
+            de="Die Anzeige wurde auf eine andere Einheit umgestellt (Anzahl: {count}). Was sie dann zeigte, "
+            "wird nicht verwendet.",
+        ).given(count=switched)
+    shares = [event.share for event in events if isinstance(event, VisitPresumed)]
+    if shares:
+        yield Words(
+            en="For {count} readings it was nearly certain which visit they are, by what went before; "
+            "the least certain was so to {share} %.",
+            de="Bei {count} Messwerten war nach dem vorherigen Weg der Achse nahezu sicher, zu welchem "
+            "Messpunkt sie gehören; beim unsichersten zu {share} %.",
+        ).given(count=len(shares), share=math.floor(1000 * min(shares)) / 10)
 
 
 def _datum(datum: float | None, axis: Axis) -> Words:

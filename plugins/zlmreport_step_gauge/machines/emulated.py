@@ -14,11 +14,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.plugin import (
-    FloatArray,
-    InputError,
-    Job,
-)
+from zlmreport.plugin import FloatArray, InputError
+from zlmreport.plugin.extension import Job
 from zlmreport_step_gauge.calibration import read_calibration
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.paths.plan import PlannedPath, path_of_job

@@ -10,17 +10,13 @@ from typing import Any
 from zlmreport.plugin import (
     MICROMETRE,
     MILLIMETRE,
-    Command,
-    CommandHost,
-    CommandOption,
-    Happening,
     InputError,
-    LiveRun,
     Place,
     did_you_mean,
     fixed_number,
     general_number,
 )
+from zlmreport.plugin.extension import Command, CommandHost, CommandOption, Happening, LiveRun
 from zlmreport_step_gauge.keys import STANDARD_PORT
 from zlmreport_step_gauge.machines.emulated import machine_of_job
 from zlmreport_step_gauge.machines.run import LiveProbing, run_probing

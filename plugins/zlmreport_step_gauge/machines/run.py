@@ -18,17 +18,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, Self
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    AccessError,
-    InputError,
-    Job,
-    JournalFile,
-    Place,
-    Problem,
-    take_names,
-    unwritable,
-)
+from zlmreport.plugin import MILLIMETRE, AccessError, InputError, Place, Problem
+from zlmreport.plugin.extension import Job, JournalFile, take_names, unwritable
 from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
 from zlmreport_step_gauge.machines.session import (
     Connection,

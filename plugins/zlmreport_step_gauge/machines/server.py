@@ -13,9 +13,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from zlmreport.plugin import (
-    FloatArray,
-)
+from zlmreport.plugin import FloatArray
 from zlmreport_step_gauge.machines.emulated import CoordinateMachine
 
 _NUMBER = r"[-+]?\d+(?:\.\d+)?"

@@ -15,11 +15,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import NoReturn, Self
 
-from zlmreport.plugin import (
-    AccessError,
-    Place,
-    Problem,
-)
+from zlmreport.plugin import AccessError, Place, Problem
 
 #: The tag of what the server sends unasked.
 UNASKED = "E0000"

@@ -11,32 +11,25 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.plugin import (
+from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Language, Words, fixed_number, general_number
+from zlmreport.plugin.extension import ExtensionPlan, Job
+from zlmreport.plugin.page import (
     GRAPH_TEXT_SIZE,
     GRAPH_WIDTH,
     INK_COLOUR,
-    MILLIMETRE,
     ROLE_STYLES,
     Canvas,
-    ExtensionPlan,
     Fill,
-    FloatArray,
     FontFace,
-    InputError,
-    Job,
-    Language,
-    Role,
     Segment,
     Stroke,
     SvgCanvas,
     TextLabel,
     TextRun,
-    Words,
-    fixed_number,
-    general_number,
     plain_label,
     round_ticks,
 )
+from zlmreport.plugin.standard import Role
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.keys import StepGaugeKeys
 from zlmreport_step_gauge.paths.path import PathKind, Point, Probing, ProbingPath

@@ -9,9 +9,7 @@ from enum import Enum
 from itertools import pairwise
 from typing import TypeAlias
 
-from zlmreport.plugin import (
-    Place,
-)
+from zlmreport.plugin import Place
 
 #: x, y, z in the coordinates of the machine, m; of a direction, 1.
 Point: TypeAlias = tuple[float, float, float]

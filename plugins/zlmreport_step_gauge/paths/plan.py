@@ -10,14 +10,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from zlmreport.plugin import (
-    MICROMETRE,
-    MILLIMETRE,
-    InputError,
-    Job,
-    Place,
-    Problem,
-)
+from zlmreport.plugin import MICROMETRE, MILLIMETRE, InputError, Place, Problem
+from zlmreport.plugin.extension import Job
 from zlmreport_step_gauge.calibration import read_calibration, section
 from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
 from zlmreport_step_gauge.initial_points import read_initial_points

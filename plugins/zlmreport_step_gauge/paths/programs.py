@@ -8,14 +8,8 @@ from typing import Any
 
 from pydantic import Field
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    InputError,
-    Options,
-    PartProgram,
-    Words,
-    hookimpl,
-)
+from zlmreport.plugin import MILLIMETRE, InputError, Options, Words, hookimpl
+from zlmreport.plugin.program import PartProgram
 from zlmreport_step_gauge.keys import TOOL
 from zlmreport_step_gauge.paths.path import Move, Point, Probing, ProbingPath, Travel
 

@@ -9,13 +9,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    FloatArray,
-    InputError,
-    Problem,
-    read_only_floats,
-)
+from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Problem, read_only_floats
 from zlmreport_step_gauge.gauge import Location, StepGauge
 from zlmreport_step_gauge.paths.path import Move, Point, Probing, ProbingPath
 

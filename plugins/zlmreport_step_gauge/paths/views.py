@@ -14,13 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.plugin import (
-    MILLIMETRE,
-    FloatArray,
-    Words,
-    read_only_floats,
-    same_in_all_languages,
-)
+from zlmreport.plugin import MILLIMETRE, FloatArray, Words, read_only_floats, same_in_all_languages
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.paths.path import PathKind, Point, Probing
 from zlmreport_step_gauge.paths.plan import PlannedPath

@@ -1,5 +1,6 @@
 "use strict";
-// Search, choice and order of the axes. Without this script the page shows all of them, machine by machine.
+// Search, choice and order of the axes, and the way back from a trend. Without this script the page shows all of
+// them, machine by machine, and a link leads back.
 const folded = (text) => text.toLowerCase().replace(/\s+/g, " ");
 const tools = document.getElementById("tools");
 const table = document.querySelector("table.machine");
@@ -7,10 +8,18 @@ const table = document.querySelector("table.machine");
 if (tools) {
   const [search, choice, order] = ["search", "choice", "order"].map((name) => tools.elements[name]);
   const found = tools.querySelector("output");
-  const groups = [...document.querySelectorAll("main tbody")].map((body, place) => ({
-    body, place, isAxis: body.parentNode === table, text: folded(body.textContent), ...body.dataset,
-  }));
-  const axes = groups.filter((each) => each.isAxis);
+  const others = [...document.querySelectorAll("main tbody")].filter((body) => body.parentNode !== table)
+    .map((body) => ({ body, text: folded(body.textContent) }));
+  const machines = [...table.tBodies].map((body, place) => {
+    const axes = new Map();
+    for (const row of [...body.rows].slice(1)) {
+      if (!axes.has(row.dataset.axis)) axes.set(row.dataset.axis, { ...row.dataset, rows: [], place: axes.size, text: "" });
+      const axis = axes.get(row.dataset.axis);
+      axis.rows.push(row);
+      axis.text += folded(`${body.rows[0].textContent} ${row.textContent} `);
+    }
+    return { body, place, axes: [...axes.values()] };
+  });
   const comparisons = {
     machine: (one, other) => one.place - other.place,
     used: (one, other) => Number(other.used || -1) - Number(one.used || -1),
@@ -20,19 +29,33 @@ if (tools) {
 
   const show = () => {
     const words = folded(search.value).split(" ");
-    for (const each of groups) {
-      const isMeant = choice.value === "" || !each.isAxis || each.marks.split(" ").includes(choice.value);
-      each.body.hidden = !(isMeant ? words.every((word) => each.text.includes(word)) : false);
+    const says = (each) => words.every((word) => each.text.includes(word));
+    for (const each of others) each.body.hidden = !says(each);
+    let shown = 0;
+    for (const machine of machines) {
+      let here = 0;
+      for (const axis of machine.axes) {
+        const isMeant = (choice.value === "" || axis.marks.split(" ").includes(choice.value)) && says(axis);
+        for (const row of axis.rows) row.hidden = !isMeant;
+        here += isMeant;
+      }
+      machine.body.hidden = here === 0;
+      shown += here;
     }
     for (const block of document.querySelectorAll("main .block")) {
       block.hidden = ![...block.querySelectorAll("tbody")].some((body) => !body.hidden);
     }
-    const shown = axes.filter((each) => !each.body.hidden).length;
-    found.textContent = found.dataset.text.replace("{shown}", shown).replace("{all}", axes.length);
+    found.textContent = found.dataset.text.replace("{shown}", shown).replace("{all}", machines.reduce((sum, each) => sum + each.axes.length, 0));
   };
+  // A machine stands where the first of its axes would, and its axes follow each other in the same order.
   const arrange = () => {
-    const arranged = [...axes].sort((one, other) => comparisons[order.value](one, other) || one.place - other.place);
-    table.append(...arranged.map((each) => each.body));
+    const compare = (one, other) => comparisons[order.value](one, other) || one.place - other.place;
+    for (const machine of machines) {
+      machine.axes.sort(compare);
+      machine.body.append(...machine.axes.flatMap((axis) => axis.rows));
+    }
+    const first = order.value === "machine" ? (one, other) => one.place - other.place : (one, other) => compare(one.axes[0], other.axes[0]) || one.place - other.place;
+    table.append(...[...machines].sort(first).map((each) => each.body));
   };
 
   tools.hidden = false;
@@ -42,3 +65,11 @@ if (tools) {
   order.addEventListener("change", arrange);
   show();
 }
+
+// A trend lies over the page: Escape, or a click beside it, leads back to where one was.
+const leave = () => { if (location.hash.startsWith("#trend-")) history.length > 1 ? history.back() : (location.hash = "axes"); };
+addEventListener("keydown", (event) => { if (event.key === "Escape") leave(); });
+for (const trend of document.querySelectorAll("article.trend")) {
+  trend.addEventListener("click", (event) => { if (event.target === trend) leave(); });
+}
+addEventListener("hashchange", () => document.querySelector("article.trend:target")?.focus());

@@ -307,7 +307,7 @@ export function compensation(texts, job, made, wanted, number, actions) {
     offered.jobs.length > 0 && second,
     ...progress(texts, confirmation, number, texts.holding),
     confirmation?.values?.verdict && h("p", { class: `verdict ${confirmation.values.verdict === "held" ? "adequate" : "unexplained"}` },
-      said(texts[CONFIRMED[confirmation.values.verdict]], { share: number(Math.round(1000 * confirmation.values.ratio) / 10) })),
+      `${texts[CONFIRMED[confirmation.values.verdict]]} ${said(texts.left, { share: number(Math.round(1000 * confirmation.values.ratio) / 10) })}`),
   ];
 }
 

@@ -16,6 +16,7 @@ from typing import TextIO
 
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.terminal import print_problems
+from zlmreport.cli.watch import watched
 from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.files import confined, reason
 
@@ -31,6 +32,19 @@ _TOGETHER = {
     "look": "init",
     "schema": "plugins",
 }
+
+
+def watched_main() -> int:
+    """Do what the command line says, watched by another process; return the exit code."""
+
+    def use(memory: memoryview) -> None:
+        from zlmreport.plugin.presence import PRESENCE  # slow to load, and not in the one that waits
+
+        PRESENCE.use(memory)
+
+    # who completes a line ends the process by himself, and loads no plugin of anybody
+    code = None if "_ARGCOMPLETE" in os.environ else watched(main, use)
+    return main() if code is None else code
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

@@ -13,10 +13,19 @@ from itertools import chain
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
-from zlmreport.capture.follower import Follower
-from zlmreport.capture.journal import History, Journal, captured, demand_nothing_captured, read_history
-from zlmreport.capture.of_job import (
+from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
+from zlmreport.cli.jobs import requirements
+from zlmreport.cli.terminal import Colour, shown_path, visible
+from zlmreport.document.certificate.clauses import demand_mandatory_items
+from zlmreport.document.writer import Writer
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.language import Language
+from zlmreport.live.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
+from zlmreport.live.capture.follower import Follower
+from zlmreport.live.capture.journal import History, Journal, captured, demand_nothing_captured, read_history
+from zlmreport.live.capture.of_job import (
     Assignment,
     assignment_of,
     demand_same_test,
@@ -24,26 +33,20 @@ from zlmreport.capture.of_job import (
     instrument_of,
     options_of,
 )
-from zlmreport.certificate.clauses import demand_mandatory_items
-from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
-from zlmreport.cli.jobs import requirements
-from zlmreport.cli.terminal import Colour, shown_path, visible
-from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.job.job import Job
-from zlmreport.job.loading import load
-from zlmreport.language import Language
-from zlmreport.live.reading import LiveReading
-from zlmreport.planning.plan import as_measured, propose
-from zlmreport.plugin.extension import Happening, LiveRun
+from zlmreport.live.ports.ahead import ReadAhead
+from zlmreport.live.ports.reading import LiveReading
+from zlmreport.model.planning.plan import as_measured, propose
+from zlmreport.plugin.extending import Happening, LiveRun
 from zlmreport.plugin.protocols import Connection
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.presenting.writer import Writer
+from zlmreport.plugin.registry import Registry, find_plugins
 
 _RETAKE = Place("--retake")
+#: Within so many seconds two clocks are read together; how often it is tried.
+_TOGETHER, _TRIES = 1e-3, 100
 
 
 @dataclass(frozen=True, slots=True)
-class Answers:
+class TypedAnswers:
     """What the operator says beforehand, empty for nothing."""
 
     answer: str = ""  #: To the question that the last sitting ended with: the number of a visit, or ``none``.
@@ -63,7 +66,7 @@ def run(options: Namespace) -> int:
     if options.answer and not options.resume:
         raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
     registry = find_plugins(files=options.plugin)
-    job = load(options.job, registry)
+    job = load(options.job, registry).line(options.test, Place("zlmreport capture --test"))
     for extension, choice in registry.extensions_of(job):
         live = extension.live(job, choice.options)
         if live:
@@ -77,7 +80,7 @@ def run(options: Namespace) -> int:
     shown = JsonLines if options.json else LiveDisplay if is_watched() else PlainLines
     display = shown(job, asked)
     resume = options.resume or bool(options.retake)
-    words = Answers(options.answer, options.retake)
+    words = TypedAnswers(options.answer, options.retake)
     capture(job, asked, registry, display, options.job, resume=resume, words=words)
     if not options.json:
         print(f"next: zlmreport {shown_path(options.job)}")
@@ -185,7 +188,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     path: Path,
     *,
     resume: bool,
-    words: Answers = Answers(),
+    words: TypedAnswers = TypedAnswers(),
 ) -> None:
     """Capture the test of a job to its end.
 
@@ -200,12 +203,12 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     choice = instrument_of(job)
     with registry.instrument(choice.identifier).open(choice.options) as connection:
         display.wait()
-        readings = connection.readings()
-        readings = chain([next(readings)], readings)  # an instrument that is not there leaves no journal
+        readings = ReadAhead(connection.readings())
+        first = next(readings)  # an instrument that is not there leaves no journal
         go_on = f"zlmreport capture {shown_path(path)} --resume"
         with _journal(job, assignment, resume=resume, words=words) as journal:
             try:
-                _sittings(readings, connection, assignment, journal, display)
+                _sittings(readings, first, connection, assignment, journal, display)
             except KeyboardInterrupt:
                 journal.append(Interrupted("ended by the user"), _elapsed_now(journal))
                 display.leave(f"ended; go on with: {go_on}")
@@ -216,7 +219,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
                 raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
 
 
-def demand_own_journal(job: Job, assignment: Assignment, words: Answers = Answers()) -> None:
+def demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = TypedAnswers()) -> None:
     """Refuse to go on with a journal of another job, or with a capture that is over and stays so."""
     path = assignment.options.journal
     history = read_history(path)
@@ -242,7 +245,7 @@ def demand_answer(assignment: Assignment, answer: str) -> None:
     visit_named(answer, history.progress, Place("--answer"))
 
 
-def _journal(job: Job, assignment: Assignment, *, resume: bool, words: Answers) -> Journal:
+def _journal(job: Job, assignment: Assignment, *, resume: bool, words: TypedAnswers) -> Journal:
     path = assignment.options.journal
     if not resume:
         return Journal.begun(path, header_of(job, assignment, dt.datetime.now(dt.UTC)))
@@ -258,8 +261,9 @@ def _journal(job: Job, assignment: Assignment, *, resume: bool, words: Answers) 
     return journal
 
 
-def _sittings(
-    readings: Iterator[LiveReading],
+def _sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and who is told
+    readings: ReadAhead,
+    first: LiveReading,
     connection: Connection,
     assignment: Assignment,
     journal: Journal,
@@ -273,8 +277,9 @@ def _sittings(
         show = partial(display.show, follower)
         event: Event | None = None
         with display.keys():
-            for event in captured(readings, follower, journal, clock, show=show):
+            for event in captured(chain([first], readings), follower, journal, clock, show=show):
                 display.tell(event)
+        readings.end()  # what comes while the operator sees to something is of no matter
         if journal.progress.is_over:
             if isinstance(event, ZeroLost | DatumMoved):
                 display.leave("the datum is gone; all visits were taken before, and their readings stay")
@@ -288,7 +293,8 @@ def _sittings(
         else:
             display.see_to(event, journal.progress.after(Resumed()))
         journal.append(Resumed(), _elapsed_now(journal))
-        readings = connection.readings()
+        readings = ReadAhead(connection.readings())
+        first = next(readings)
 
 
 def _last_visit(journal: Journal, clock: Callable[[float], float]) -> float | None:
@@ -302,8 +308,14 @@ def _clock(journal: Journal) -> Callable[[float], float]:
     """Return the way from the time of a reading to s from the start of the capture.
 
     Within a sitting it is the steady clock of the readings that counts: the clock of the computer may be set.
+    Both clocks are read together: where the computer did something else in between, once more.
     """
-    offset = _elapsed_now(journal) - time.monotonic()
+    for _ in range(_TRIES):
+        before = time.monotonic()
+        elapsed = _elapsed_now(journal)
+        if time.monotonic() - before < _TOGETHER:
+            break
+    offset = elapsed - before
     return lambda moment: moment + offset
 
 

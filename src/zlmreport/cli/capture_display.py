@@ -12,7 +12,11 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
-from zlmreport.capture.events import (
+from zlmreport.cli.capture_lines import SIDES, AxisWriter, duration, halted, line_on, what_to_do
+from zlmreport.cli.terminal import Colour, visible
+from zlmreport.errors import AccessError, InputError, Place
+from zlmreport.job.job import Job
+from zlmreport.live.capture.events import (
     Commented,
     Elsewhere,
     Event,
@@ -27,16 +31,12 @@ from zlmreport.capture.events import (
     Unclear,
     WrongDirection,
 )
-from zlmreport.capture.follower import Follower
-from zlmreport.capture.of_job import Assignment
-from zlmreport.capture.progress import Progress
-from zlmreport.capture.records import MOMENTARY, to_record
-from zlmreport.capture.visits import ListedVisit
-from zlmreport.cli.capture_lines import SIDES, AxisWriter, duration, halted, line_on, what_to_do
-from zlmreport.cli.terminal import Colour, visible
-from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.job.job import Job
-from zlmreport.live.reading import LiveReading
+from zlmreport.live.capture.follower import Follower
+from zlmreport.live.capture.of_job import Assignment
+from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.records import MOMENTARY, to_record
+from zlmreport.live.capture.visits import ListedVisit
+from zlmreport.live.ports.reading import LiveReading
 
 #: How often the present moment is shown, s: nobody reads it more often.
 _BEAT = 0.1

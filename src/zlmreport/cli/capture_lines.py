@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
-from zlmreport.capture.events import (
+from zlmreport.language.formatting import MINUS, fixed_number
+from zlmreport.live.capture.events import (
+    BeamHeld,
     Closed,
     Commented,
     DatumHolds,
@@ -21,9 +23,11 @@ from zlmreport.capture.events import (
     NotNext,
     Passed,
     Placed,
+    Presumed,
     Recorded,
     Repeated,
     Retake,
+    ScaleChanged,
     Skipped,
     TooSlow,
     TrackLost,
@@ -31,12 +35,11 @@ from zlmreport.capture.events import (
     WrongDirection,
     ZeroLost,
 )
-from zlmreport.capture.progress import Progress
-from zlmreport.capture.visits import ListedVisit
+from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis
-from zlmreport.quantities.formatting import MINUS, fixed_number
-from zlmreport.quantities.units import with_unit
+from zlmreport.measurement.units import with_unit
 
 #: Where an axis comes from, by its direction.
 SIDES = {Approach.POSITIVE: "from below", Approach.NEGATIVE: "from above"}
@@ -103,7 +106,7 @@ def _out_of_order(event: Event, writer: AxisWriter) -> str:
         case Missed(visit=visit):
             line = f"MISSED   {writer.visit(visit)}: the axis stands at a later one"
         case Repeated(visit=visit):
-            line = f"again    {writer.visit(visit)}: its earlier reading is nearer to the target, and stays"
+            line = f"again    {writer.visit(visit)}: the axis has gone on from its reading, which stays"
         case WrongDirection(visit=visit, approach=approach):
             came = f"it came {SIDES[approach]}" if approach else "no motion towards it was seen"
             line = f"WRONG    {writer.visit(visit)}: {came}; let it come {SIDES[visit.approach]}"
@@ -119,6 +122,8 @@ def _out_of_sight(event: Event, writer: AxisWriter) -> str:
     match event:
         case TrackLost(silence=silence):
             line = f"SILENT   no sound reading came for {silence:.1f} s; visits may have gone unseen"
+        case BeamHeld(message=message, seconds=seconds):
+            line = f"beam     back after {seconds:.2f} s, and the display shows what it showed: {message}"
         case Frozen(seconds=seconds):
             line = f"FROZEN   the display has shown the same for {seconds:.0f} s: {_FROZEN_HELP}"
         case Elsewhere(position=position, factor=None):
@@ -137,6 +142,8 @@ def _asked_and_told(event: Event, writer: AxisWriter) -> str:
             line = f"DOUBT    {writer.visit(visit)}: {_departs(event.position - expected, writer)}"
         case Unclear(target=target, approach=approach):
             line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
+        case Presumed(visit=visit, share=share):
+            line = f"likely   {writer.visit(visit)}: {100 * share:.1f} % sure, and taken for it"
         case Placed(visit=visit):
             line = f"placed   {writer.visit(visit) if visit else 'no visit'}"
         case Retake(first=first, last=last):
@@ -153,8 +160,8 @@ def _asked_and_told(event: Event, writer: AxisWriter) -> str:
 def halted(event: Event | None, writer: AxisWriter) -> str:
     """Return why nothing more is taken, and what that means for what was."""
     match event:
-        case ZeroLost(message=message, void=void):
-            return f"{message or 'the instrument lost its zero'}. {_void(void, writer)}"
+        case ZeroLost() | ScaleChanged():
+            return _fails(event, writer)
         case MovedBeforeDatum(position=position):
             return (
                 f"the axis moved before the reading at {writer.position(position)} was taken for its datum, "
@@ -175,6 +182,15 @@ def halted(event: Event | None, writer: AxisWriter) -> str:
             )
         case _:
             return "the readings ended"
+
+
+def _fails(event: ZeroLost | ScaleChanged, writer: AxisWriter) -> str:
+    if isinstance(event, ZeroLost):
+        return f"{event.message or 'the instrument lost its zero'}. {_void(event.void, writer)}"
+    again = (
+        f"; visit {event.visit.number} is taken again, for it may have been read so" if event.visit else ""
+    )
+    return f"{switched(event.factor)}, and nothing of it is taken{again}. Set it back: what was read stays"
 
 
 def _question(event: Unclear, writer: AxisWriter) -> str:
@@ -202,6 +218,16 @@ def misread(factor: float) -> str:
             return f"but {factor:g} times it is: the display's unit is another one; set it, or the key scale"
         case _:
             return f"but {factor:g} times it is: the optics' path is counted otherwise; set the key scale"
+
+
+def switched(factor: float) -> str:
+    """Say to which unit a display was switched, if its readings come right by a factor."""
+    inch = 25.4
+    if isclose(factor, inch):
+        return "the display was switched to inches"
+    if isclose(factor, 1 / inch):
+        return "the display was switched from inches to millimetres"
+    return f"the display was switched to another unit: {factor:g} times what it shows is right"
 
 
 def _departs(difference: float, writer: AxisWriter) -> str:

@@ -5,57 +5,50 @@ from __future__ import annotations
 import json
 import os
 from argparse import Namespace
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.certificate.compensation_sheet import (
+from zlmreport.cli.layout import section_lines
+from zlmreport.cli.terminal import Colour, print_json, said, shown_path
+from zlmreport.document.subjects.compensation import (
     Uncertainties,
     compensation_sheet,
-    remarks,
-    with_uncertainty,
+    confirmation,
+    forecast,
 )
-from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, wrapped
-from zlmreport.compensation.basis import (
-    Basis,
-    FittedModel,
-    basis_of_means,
-    basis_of_model,
-    with_table,
-)
-from zlmreport.compensation.confirmation import Confirmation, ConfirmationVerdict, confirm
-from zlmreport.compensation.curve import ErrorCurve, curve_of
-from zlmreport.compensation.forecast import Expected, Figures, figures
-from zlmreport.compensation.making import Made, make
+from zlmreport.document.writer import Writer
 from zlmreport.errors import InputError, Place
+from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.files import Document, write_new
 from zlmreport.job.choices import controller_choice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.tree import Entry, Keys, Scalar, keys_of
 from zlmreport.language import Language
+from zlmreport.measurement.axis import refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.compensation.basis import (
+    Basis,
+    FittedModel,
+    basis_of_means,
+    basis_of_model,
+    with_table,
+)
+from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
+from zlmreport.model.compensation.curve import ErrorCurve, curve_of
+from zlmreport.model.compensation.forecast import figures
+from zlmreport.model.compensation.making import Made, make
 from zlmreport.plugin.protocols import Controller
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.presenting.writer import NOTHING, Writer
-from zlmreport.quantities.formatting import fixed_number, general_number
-from zlmreport.quantities.units import Unit
-from zlmreport.uncertainty.budget import Budget
+from zlmreport.plugin.registry import Registry, find_plugins
 
 SCHEMA = "zlmreport/compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/confirmation/1"
 _COMMAND = Place("zlmreport compensate")
 _SHEET = "-compensation.pdf"
-_SAID = {
-    ConfirmationVerdict.HELD: "the second test holds the forecast",
-    ConfirmationVerdict.WRONG_SIGN: "the table acts with the wrong sign: turn it",
-    ConfirmationVerdict.HALF: "half of the table acts; look for a factor of two",
-    ConfirmationVerdict.SHIFTED: "the table acts at other positions; look at its start",
-    ConfirmationVerdict.OTHER: "the second test does not show this table; is it active?",
-}
 
 
 def run(options: Namespace) -> int:
@@ -80,8 +73,8 @@ def run(options: Namespace) -> int:
     if options.json:
         print_json(_values(job, made, uncertainties, written))
         return 0
-    print(*_lines(job, made, uncertainties, Writer.of(measurements, Language.ENGLISH)), sep="\n")
-    print()
+    section = forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
+    print(_heading(job, made), *section_lines([section]), "", sep="\n")
     for path in written:
         print(shown_path(path))
     if not options.output:
@@ -90,7 +83,17 @@ def run(options: Namespace) -> int:
     return 0
 
 
+def _heading(job: Job, made: Made) -> str:
+    control = f"{said(made.controller.title)}, {made.controller.confidence}"
+    return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
+
+
 def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, MeasurementSet]:
+    refuse_other_than_positions(
+        job.axis,
+        job.place_of("measurement.error"),
+        "a control's table moves the axis along itself, and takes away nothing else",
+    )
     place = job.place_of("axis.compensation_table")
     if job.keys.axis.compensation_table is None:
         raise InputError.at(
@@ -133,7 +136,7 @@ def _basis(
         )
     fitted = None
     if job.effects:
-        from zlmreport.model.study import Study  # noqa: PLC0415 - only for a job with a model
+        from zlmreport.model.diagnosis.study import Study  # noqa: PLC0415 - only for a job with a model
 
         study = Study.of(job, measurements, registry.effects, pipeline.read_sessions(job, registry))
         fitted = FittedModel(measurements, study.observed, study.fitted().fit)
@@ -165,7 +168,7 @@ def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Contr
 
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
-    made, _ = _made(before, registry, options)
+    made, measurements = _made(before, registry, options)
     curve = curve_of(pipeline.read(after, registry), after.source.place)
     found = confirm(made.basis, curve, made.decoded, after.source.place)
     shown = figures(np.stack([curve.forward, curve.reverse]), curve)
@@ -192,8 +195,10 @@ def _confirm(options: Namespace, registry: Registry) -> int:
             }
         )
     else:
-        print(*_confirmation_lines(before, found), sep="\n")
-        print(*_against_forecast(made, shown, unit), sep="\n")
+        writer = Writer.of(measurements, Language.ENGLISH)
+        print(
+            _heading(before, made), *section_lines([confirmation(found, made, shown, writer)]), "", sep="\n"
+        )
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
         how = f"zlmreport {shown_path(both)}" if both else "--output DIR writes the job"
         print(f"the certificate of both tests, as found and as left: {how}")
@@ -223,38 +228,6 @@ def _job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) 
         f"as_found: {json.dumps(found, default=told, ensure_ascii=False, indent=2)}\n"
     )
     return Document(folder / f"{after.keys.certificate.number}-as-left.yaml", text.encode())
-
-
-def _confirmation_lines(job: Job, found: Confirmation) -> Iterator[str]:
-    is_held = found.verdict is ConfirmationVerdict.HELD
-    yield f"{(Colour.BOLD if is_held else Colour.RED).of(found.verdict.value)}  {_SAID[found.verdict]}"
-    yield from wrapped(f"E after is {fixed_number(100 * found.ratio, 1)} % of E before")
-    yield from wrapped(f"{fixed_number(100 * found.applied, 0)} % of the table shows in the second test")
-    if found.shift:
-        unit = job.axis.position_unit
-        yield from wrapped(f"shifted by {general_number(round(unit.from_si(found.shift), 3))} {unit.symbol}")
-
-
-def _against_forecast(made: Made, shown: Figures, unit: Unit) -> Iterator[str]:
-    """Yield the table of what was, what was forecast, and what the second test shows."""
-    factor = unit.from_si(1.0)
-    before, after = made.forecast.before.in_unit(factor), shown.in_unit(factor)
-    rows = []
-    for symbol, value in after.items():
-        expected, where = made.forecast.second_test.get(symbol), ""
-        if expected is not None:
-            where = "within" if expected.low <= value / factor <= expected.high else "outside"
-        was = fixed_number(before[symbol], 2) if symbol in before else NOTHING
-        rows.append((symbol, was, _interval(expected, factor), fixed_number(value, 2), unit.symbol, where))
-    yield ""
-    yield from table([("", "before", "forecast, 95 %", "second test", "", ""), *rows], indent="  ")
-    yield ""
-
-
-def _interval(expected: Expected | None, factor: float) -> str:
-    if expected is None:
-        return NOTHING
-    return " to ".join(fixed_number(each * factor, 2) for each in (expected.low, expected.high))
 
 
 def _uncertainties(
@@ -314,22 +287,3 @@ def _values(job: Job, made: Made, uncertainties: Uncertainties, written: Sequenc
             "rounding": forecast.rounding * factor,
         },
     }
-
-
-def _lines(job: Job, made: Made, uncertainties: Uncertainties, writer: Writer) -> Iterator[str]:
-    unit, number = job.axis.deviation_unit, job.keys.certificate.number
-    title = writer.say(made.controller.title)
-    yield f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {title}, {made.controller.confidence}"
-    yield ""
-    factor = unit.from_si(1.0)
-    before, after = (each.in_unit(factor) for each in (made.forecast.before, made.forecast.after))
-    rows = []
-    for symbol, value in before.items():
-        second = _interval(made.forecast.second_test.get(symbol), factor)
-        both = with_uncertainty(symbol, (value, after[symbol]), uncertainties, writer)
-        rows.append((symbol, *both, second, unit.symbol))
-    yield from table([("", "before", "after", "a second test, 95 %", ""), *rows], indent="  ")
-    yield ""
-    for remark in remarks(made, writer):
-        yield from wrapped(writer.say(remark))
-    yield from wrapped("A forecast is no measurement: the axis with its table needs a test of its own.")

@@ -8,8 +8,9 @@ from typing import Any
 
 from zlmreport.cli.arguments import COMMANDS, parser_for
 from zlmreport.cli.arguments.documents import MODEL_ACTIONS
+from zlmreport.cli.new import GUIDES
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, INSTRUMENT, RENDERER, Kind
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 _LINE, _POINT = "COMP_LINE", "COMP_POINT"
 #: The plugins whose identifiers an argument takes.
@@ -32,8 +33,8 @@ def complete() -> None:
     for action in actions:
         if action.dest in _PLUGINS:
             action.completer = _identifiers(_PLUGINS[action.dest])
-        elif action.dest == "action":
-            action.choices = MODEL_ACTIONS
+        elif action.dest in {"action", "kind"}:
+            action.choices = MODEL_ACTIONS if action.dest == "action" else tuple(GUIDES)
         elif positional and action is positional[0] and action.choices is None:
             further = _further_words(command) if rest == rest[-1:] else ()
             action.completer = _files_or(further, FilesCompleter())

@@ -9,13 +9,13 @@ from types import FrameType
 from typing import NoReturn
 
 from zlmreport.cli.terminal import visible
-from zlmreport.emulation.channels import LocalSocket, PseudoTerminal, serve
-from zlmreport.emulation.emulator import Emulator, MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.formatting import general_number
-from zlmreport.quantities.units import MILLIMETRE
+from zlmreport.language.formatting import general_number
+from zlmreport.live.emulation.channels import LocalSocket, PseudoTerminal, serve
+from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.plugin.registry import find_plugins
 
 #: Standard deviation of what shakes the axis, m.
 _NOISE = 0.05e-6

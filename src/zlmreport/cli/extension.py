@@ -12,10 +12,10 @@ from typing import Any
 from zlmreport.cli.arguments.measuring import add_line
 from zlmreport.cli.arguments.parser import CommandParser
 from zlmreport.cli.emulate import put_on_line
-from zlmreport.emulation.emulator import Emulator
 from zlmreport.job.job import Job
-from zlmreport.plugin.extension import Command
-from zlmreport.plugins import find_plugins
+from zlmreport.live.emulation.emulator import Emulator
+from zlmreport.plugin.extending import Command
+from zlmreport.plugin.registry import find_plugins
 
 #: The first word of commands that put a device on a line.
 _EMULATE = "emulate"

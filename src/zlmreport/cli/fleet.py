@@ -21,11 +21,11 @@ from zlmreport.cli.terminal import print_json, problem_values, shown_path, visib
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import confined
 from zlmreport.fleet.issuing import Happened, What
-from zlmreport.fleet.night import Order, foretell, spend
-from zlmreport.fleet.plan import Due, Planned
-from zlmreport.fleet.records import Notice
+from zlmreport.fleet.night import Order, foretell, spend_night
+from zlmreport.fleet.plan import Due, PlannedJob
+from zlmreport.fleet.records import NightNotice
 from zlmreport.job.fleet import FleetFile, load_fleet
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.version import __version__
 
 SCHEMA = "zlmreport/night/1"
@@ -56,7 +56,7 @@ def _run(fleet: FleetFile, options: Namespace) -> int:
         watcher = _Watcher(fleet, logs, options)
         seconds = math.inf if options.max_time is None else _MINUTE * options.max_time
         with _told_to_end(), watcher:
-            spend(fleet, Order(plugins, options.workers, seconds), watcher)
+            spend_night(fleet, Order(plugins, options.workers, seconds), watcher)
     if options.json:
         print_json(_summary(fleet, watcher, watcher.exit_code))
     return watcher.exit_code
@@ -87,15 +87,15 @@ class _Watcher:
         self._logs = logs
         self._options = options
         self._begun = time.monotonic()
-        self.notices: list[Notice] = []
-        self._progress = Progress(sys.stderr, 0)
+        self.notices: list[NightNotice] = []
+        self._progress = NightProgress(sys.stderr, 0)
 
     @property
     def exit_code(self) -> int:
         """What the shell is told."""
         return _FAILED if self.notices or any(self.counts[what] for what in _NOT_DONE) else 0
 
-    def noticed(self, notice: Notice) -> None:
+    def noticed(self, notice: NightNotice) -> None:
         self.notices.append(notice)
         self._progress.hide()
         for log in self._logs:
@@ -109,12 +109,12 @@ class _Watcher:
         for log in self._logs:
             log.learned(shown_path(file))
 
-    def planned(self, jobs: Sequence[Planned]) -> None:
+    def planned(self, jobs: Sequence[PlannedJob]) -> None:
         due = sum(each.due is not Due.NOTHING for each in jobs)
         for log in self._logs:
             log.begun(self._fleet.name, due, len(jobs))
         if not self._options.quiet:
-            self._progress = Progress(sys.stderr, due)
+            self._progress = NightProgress(sys.stderr, due)
 
     def happened(self, happened: Happened) -> None:
         self.counts[happened.what] += 1
@@ -246,7 +246,7 @@ class TextLog:
         for problem in happened.problems:
             self._line(f"{'':{_WORD}}   {problem}")
 
-    def noticed(self, notice: Notice) -> None:
+    def noticed(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
         self._line(notice.english)
 
@@ -281,7 +281,7 @@ class JsonLog:
         if happened.what is not What.UNCHANGED:
             self._line({"event": happened.what.value, **of_job(happened)})
 
-    def noticed(self, notice: Notice) -> None:
+    def noticed(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
         self._line({"event": "noticed", "about": notice.about.value, "message": notice.english})
 
@@ -337,7 +337,7 @@ def duration(seconds: float) -> str:
     return f"{minutes}:{rest:02} min" if minutes < 60 else f"{minutes // 60}:{minutes % 60:02} h"
 
 
-class Progress:
+class NightProgress:
     """A bar in the last line of a terminal; on any other stream there is none."""
 
     def __init__(self, stream: TextIO, total: int) -> None:

@@ -20,7 +20,7 @@ from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.state import FleetState, Rules, state_of
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, load_fleet
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 _INCOMPLETE = 4
 
@@ -53,7 +53,8 @@ def _state(fleet: FleetFile) -> FleetState:
         night = ledger.last_night()
         if unmatched and night is None:
             raise InputError(unmatched)
-        return state_of(fleet.name, ledger.entries(), jobs, night, rules)
+        seen = night and night.seen_at(dt.datetime.now(dt.UTC))
+        return state_of(fleet.name, ledger.entries(), jobs, seen, rules)
 
 
 def backup(options: Namespace) -> int:

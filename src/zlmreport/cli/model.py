@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
-from zlmreport.certificate.forecast import Forecast, forecasts
+from zlmreport.cli.model_build import build_lines
 from zlmreport.cli.model_lines import change_lines, diagnosis_lines, fit_lines, history_lines, point_lines
 from zlmreport.cli.model_values import (
-    Change,
+    ModelChange,
     change_values,
     fit_values,
     history_values,
@@ -20,22 +20,27 @@ from zlmreport.cli.model_values import (
     points_of,
 )
 from zlmreport.cli.terminal import print_json, progress, shown_path, table
+from zlmreport.document.subjects.diagnosis import argument
+from zlmreport.document.subjects.forecast import StandardForecast, forecasts
+from zlmreport.document.writer import Writer
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.files import Document, read, reason, write
-from zlmreport.job.edit import NamedEffect, edit_effects
+from zlmreport.job.edit import Edit, NamedEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.job.parse import LARGEST
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.diagnosis import Verdict
-from zlmreport.model.priors import Lesson, as_text, learned
-from zlmreport.model.report import report
-from zlmreport.model.study import Fitted, Study, addition, refuse_useless
-from zlmreport.planning.deciding import experiment_of_tie, experiment_values
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.presenting.writer import Writer
+from zlmreport.model.diagnosis.build_report import build_values
+from zlmreport.model.diagnosis.building import Built
+from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.report import report
+from zlmreport.model.diagnosis.study import Fitted, Study, addition, refuse_useless
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.fitting.priors import Lesson, as_text, learned
+from zlmreport.model.planning.deciding import experiment_of_tie, experiment_values
+from zlmreport.plugin.registry import Registry, find_plugins
 
 _KEY = "model.effects"
 
@@ -66,7 +71,7 @@ class _Session:
         """Return the study of the job, or of what it is to become."""
         return Study.of(job or self.job, self.measurements, self.registry.effects, self.sessions)
 
-    def forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[Forecast, ...]:
+    def forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
         """Return what the job's standards would say of a corrected axis."""
         return forecasts(pipeline.standards(self.job, self.registry), study, history)
 
@@ -107,7 +112,8 @@ def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
         diagnosis = study.diagnosis(effects, told)
     with progress("simulating plans") as told:
         experiment = experiment_of_tie(study, diagnosis, effects, told)
-    lines = diagnosis_lines(diagnosis, session.job, session.shown_path, experiment)
+    titles = study.titles(effects)
+    lines = diagnosis_lines(diagnosis, study, session.shown_path, experiment, titles)
     values = experiment_values(experiment, session.job, Language.ENGLISH) if experiment else None
     return lines, report(diagnosis, experiment=values)
 
@@ -143,12 +149,52 @@ def _remove(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     return _written(session, _tried(session, None, (text,)))
 
 
-_ACTIONS = {"fit": _fit, "diagnose": _diagnose, "add": _add, "remove": _remove, "history": _history}
+def _build(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
+    """Build the job's model step by step, and write it into the job at the end."""
+    with progress("building") as told:
+        built = session.study().built(session.registry.effects, told)
+    edit = _edit_of(session, built)
+    if edit is not None and not options.dry_run:
+        edit.write()
+    job = edit.job if edit else session.job
+    lines = build_lines(built, job, session.shown_path, edit, is_tried=options.dry_run)
+    return lines, build_values(built)
 
 
-def _tried(session: _Session, named: NamedEffect | None, removed: tuple[str, ...]) -> Change:
+def _edit_of(session: _Session, built: Built) -> Edit | None:
+    """Return the change of the job that a build comes to; None if it changes nothing."""
+    named = [_as_in_a_job(each, session) for each in built.added]
+    added = {each.choice.identifier for each in named}
+    removed = tuple({*built.removed, *added})
+    if not named and not built.removed:
+        return None
+    return edit_effects(session.path, session.job, session.registry, add=named, remove=removed)
+
+
+def _as_in_a_job(effect: Effect, session: _Session) -> NamedEffect:
+    """Return an effect as a job names it: a formula of its candidates as it stands there."""
+    job, registry = session.job, session.registry
+    place = Place("zlmreport model build")
+    listed = {each.identifier for each in job.candidates}
+    text = effect.identifier if effect.identifier in listed else argument(effect)
+    return addition(text, job, registry, registry.effects, place)[0]
+
+
+_ACTIONS = {
+    "fit": _fit,
+    "diagnose": _diagnose,
+    "build": _build,
+    "add": _add,
+    "remove": _remove,
+    "history": _history,
+}
+
+
+def _tried(session: _Session, named: NamedEffect | None, removed: tuple[str, ...]) -> ModelChange:
     """Return a change of the model with what it does; nothing is written."""
-    edit = edit_effects(session.path, session.job, session.registry, add=named, remove=removed)
+    edit = edit_effects(
+        session.path, session.job, session.registry, add=[named] if named else [], remove=removed
+    )
     before = session.study().fitted()
     study = session.study(edit.job)
     try:
@@ -157,10 +203,10 @@ def _tried(session: _Session, named: NamedEffect | None, removed: tuple[str, ...
         place = session.job.place_of(_KEY)
         raise InputError(Problem(place, each.message) for each in error.problems) from error
     added = named.choice.identifier if named else ""
-    return Change(edit, added, removed, before, history, session.forecasts(study, history))
+    return ModelChange(edit, added, removed, before, history, session.forecasts(study, history))
 
 
-def _written(session: _Session, change: Change) -> tuple[Iterable[str], Any]:
+def _written(session: _Session, change: ModelChange) -> tuple[Iterable[str], Any]:
     change.edit.write()
     return change_lines(session.path, change, session.writer), change_values(session.path, change)
 

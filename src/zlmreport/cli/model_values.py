@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.certificate.forecast import Forecast
+from zlmreport.document.subjects.forecast import StandardForecast
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.edit import Edit
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.design import at_positions, outside_of_measured
-from zlmreport.model.effect import Shape
-from zlmreport.model.fit import Fit, Prediction
-from zlmreport.model.report import report_error, report_model, report_noise, report_precision
-from zlmreport.model.study import Fitted, one_way
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.diagnosis.report import report_error, report_model, report_noise, report_precision
+from zlmreport.model.diagnosis.study import Fitted, one_way
+from zlmreport.model.effects.design import at_positions, outside_of_measured
+from zlmreport.model.effects.effect import Shape
+from zlmreport.model.fitting.fit import Fit, Prediction
 
 FIT = "zlmreport/fit/1"
 HISTORY = "zlmreport/history/1"
@@ -28,7 +28,7 @@ CHANGE = "zlmreport/model-change/1"
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class ModelChange:
     """A change of a model that makes sense."""
 
     edit: Edit  #: Of the job file.
@@ -36,11 +36,11 @@ class Change:
     removed: tuple[str, ...]  #: The effects that go out.
     before: Fitted  #: The model as it was.
     history: tuple[Fitted, ...]  #: The model as it is then, effect by effect.
-    forecasts: tuple[Forecast, ...]  #: What standards would say of an axis corrected by it.
+    forecasts: tuple[StandardForecast, ...]  #: What standards would say of an axis corrected by it.
 
 
 @dataclass(frozen=True, slots=True)
-class Points:
+class PredictedPoints:
     """What a model gives at positions that were asked for."""
 
     positions: FloatArray  #: (M,): m or rad.
@@ -49,7 +49,7 @@ class Points:
     moves: bool
 
 
-def points_of(fit: Fit, positions: Sequence[float]) -> Points | None:
+def points_of(fit: Fit, positions: Sequence[float]) -> PredictedPoints | None:
     """Return what a model gives at positions in mm or degrees; None if none is asked for."""
     if not positions:
         return None
@@ -60,7 +60,7 @@ def points_of(fit: Fit, positions: Sequence[float]) -> Points | None:
     if sentences:
         raise InputError(Problem(Place("--at"), sentence) for sentence in sentences)
     measured = [approach for approach in Approach if np.any(design.direction == approach)]
-    return Points(
+    return PredictedPoints(
         places,
         {approach: fit.predict(at_positions(design, places, approach)) for approach in measured},
         any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms),
@@ -88,12 +88,12 @@ def fit_values(fitted: Fitted) -> dict[str, Any]:
     }
 
 
-def history_values(history: Sequence[Fitted], forecasts: Sequence[Forecast]) -> dict[str, Any]:
+def history_values(history: Sequence[Fitted], forecasts: Sequence[StandardForecast]) -> dict[str, Any]:
     """Return how the error fell, step by step; the first step is that without a model."""
     return {"schema": HISTORY, "steps": _steps(history, forecasts)}
 
 
-def change_values(path: Path, change: Change) -> dict[str, Any]:
+def change_values(path: Path, change: ModelChange) -> dict[str, Any]:
     """Return what was changed, and the error before and after."""
     after = change.history[-1]
     axis = after.fit.design.axis
@@ -109,7 +109,7 @@ def change_values(path: Path, change: Change) -> dict[str, Any]:
     }
 
 
-def point_values(points: Points | None, axis: Axis) -> dict[str, Any]:
+def point_values(points: PredictedPoints | None, axis: Axis) -> dict[str, Any]:
     """Return the same for JSON, in full precision: positions in mm or degrees, deviations in µm or ″."""
     if points is None:
         return {}
@@ -130,7 +130,7 @@ def point_values(points: Points | None, axis: Axis) -> dict[str, Any]:
     }
 
 
-def _steps(history: Sequence[Fitted], forecasts: Sequence[Forecast]) -> list[dict[str, Any]]:
+def _steps(history: Sequence[Fitted], forecasts: Sequence[StandardForecast]) -> list[dict[str, Any]]:
     axis = history[-1].fit.design.axis
     names = [None, *history[-1].fit.model.identifiers]
     return [
@@ -143,7 +143,7 @@ def _steps(history: Sequence[Fitted], forecasts: Sequence[Forecast]) -> list[dic
     ]
 
 
-def _predicted(forecast: Forecast, step: int) -> dict[str, Any]:
+def _predicted(forecast: StandardForecast, step: int) -> dict[str, Any]:
     """Return what a standard would say of an axis corrected by the effects up to a step."""
     unit = forecast.unit
     return {

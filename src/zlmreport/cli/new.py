@@ -6,14 +6,10 @@ import re
 from argparse import Namespace
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
 
 from zlmreport.cli.terminal import shown_path
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, write_new
-
-if TYPE_CHECKING:
-    from zlmreport.model.formula import FormulaEffect
 
 #: What can be begun, and the guide that goes on from there.
 GUIDES = {
@@ -35,57 +31,66 @@ def run(options: Namespace) -> int:
     kind, name = _kind(options.kind), _name(options.name)
     folder = Path(name)
     words = name.replace("-", " ")
+    module = name.replace("-", "_")
     meant = {
         "kind": kind,
+        "group": "part_program" if kind == "program" else kind,
         "guide": GUIDES[kind],
         "identifier": name,
-        "module": name.replace("-", "_"),
+        "module": module,
         "Class": words.title().replace(" ", ""),
         "words": words.capitalize(),
+        "data": f', "{module}.yaml"' if kind == "effect" else "",
+        "described": f"| `{module}.yaml` | what the effect is: formula, ranges, words |\n"
+        * (kind == "effect"),
     }
-    skeleton, further = kind, ""
+    wanted = {f"{module}.py": f"{kind}.py", f"test_{module}.py": f"{kind}_test.py"}
+    wanted |= {each: each for each in ("pyproject.toml", "README.md")}
+    documents = {path: _filled(skeleton, meant) for path, skeleton in wanted.items()}
+    further = ""
+    if kind == "effect":
+        documents[f"{module}.yaml"] = _filled("effect.yaml", meant)
     if options.job:
-        tokens, further = _of_formula(options, kind, name)
-        skeleton, meant = "formula", meant | tokens
-    module = folder / f"{meant['module']}.py"
-    test = folder / f"test_{meant['module']}.py"
-    documents = [
-        Document(path, _filled(skeleton, meant))
-        for path, skeleton in (
-            (module, f"{skeleton}.py"),
-            (test, f"{kind}_test.py"),
-            (folder / "pyproject.toml", "pyproject.toml"),
-            (folder / "README.md", "README.md"),
-        )
-    ]
-    for path in write_new(documents):
+        documents[f"{module}.yaml"], further = _of_formula(options, kind, name)
+    for path in write_new([Document(folder / path, content) for path, content in documents.items()]):
         print(shown_path(path))
-    print(f"next: python -m pytest {shown_path(test)}{further}")
+    print(f"next: python -m pytest {shown_path(folder / f'test_{module}.py')}{further}")
     return 0
 
 
-def _of_formula(options: Namespace, kind: str, name: str) -> tuple[dict[str, str], str]:
-    """Return what a formula of a job fills the skeleton with, and how the job names the plugin then."""
-    from zlmreport.cli.formula_source import in_job, tokens_of  # noqa: PLC0415 - brings the error model
-    from zlmreport.job.loading import load  # noqa: PLC0415 - likewise
-    from zlmreport.model.axis_model import chosen_effect  # noqa: PLC0415
-    from zlmreport.plugins import find_plugins  # noqa: PLC0415
+def _of_formula(options: Namespace, kind: str, name: str) -> tuple[bytes, str]:
+    """Return a formula of a job as a catalogue, and how the job names the effect then."""
+    from zlmreport.job.edit import CANDIDATES, EFFECTS, listed_items  # noqa: PLC0415 - likewise
+    from zlmreport.job.effect_catalogue import as_catalogue, in_job  # noqa: PLC0415 - brings the job
+    from zlmreport.job.formula_keys import FormulaKeys  # noqa: PLC0415
+    from zlmreport.job.formula_parts import Formula  # noqa: PLC0415
+    from zlmreport.job.loading import load  # noqa: PLC0415
+    from zlmreport.job.tree import Keys  # noqa: PLC0415
+    from zlmreport.plugin.registry import find_plugins  # noqa: PLC0415
 
     if kind != "effect":
         raise InputError.at(_PLACE, f"--from takes a formula, which is an effect and no {kind}")
-    registry = find_plugins(files=options.plugin)
-    job = load(options.job, registry)
-    choices = {each.identifier: each for each in (*job.effects, *job.candidates) if each.is_formula}
+    job = load(options.job, find_plugins(files=options.plugin))
+    listed = zip(
+        (*listed_items(job, EFFECTS), *listed_items(job, CANDIDATES)),
+        (*job.effects, *job.candidates),
+        strict=True,
+    )
+    choices = {choice.identifier: (node, choice) for node, choice in listed if choice.is_formula}
     if name not in choices:
         there = did_you_mean(name, list(choices)) if choices else "it writes none"
         raise InputError.at(job.place_of("model"), f"the job writes no formula {name!r}; {there}")
-    effect = cast("FormulaEffect", chosen_effect(choices[name], registry.effect, job.axis.kind))
-    if "v" in effect.formula.names:
+    node, choice = choices[name]
+    keys = choice.settings
+    assert isinstance(node, Keys) and isinstance(keys, FormulaKeys)  # noqa: S101, PT018  # it is a formula
+    formula = Formula.of(keys, job.axis.kind)
+    if "v" in formula.names:
         raise InputError.at(
-            choices[name].place,
+            choice.place,
             f"{name}: v is the feed of a job, which no plugin is given; log it as a column of another name",
         )
-    return tokens_of(effect, job.axis.kind), f"\nin the job, instead of the formula: {in_job(effect)}"
+    text = as_catalogue(node, formula, job.axis.kind)
+    return text.encode(), f"\nin the job, instead of the formula: {in_job(formula)}"
 
 
 def _kind(named: str) -> str:

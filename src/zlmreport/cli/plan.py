@@ -2,62 +2,65 @@
 
 from __future__ import annotations
 
-import math
 import os
 from argparse import Namespace
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from zlmreport import pipeline
-from zlmreport.capture.of_job import options_of
-from zlmreport.cli.plan_lines import plan_lines
+from zlmreport.cli.layout import section_lines
+from zlmreport.cli.part_programs import RUN, chosen_programs, demand_file, program_files, written_of
+from zlmreport.cli.plan_circle import plan_circle
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
-from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.figures.sequence import sequence
+from zlmreport.document.figures.sequence import sequence
+from zlmreport.document.subjects.plan import plan_sections, size_of_plan
+from zlmreport.document.subjects.plan_values import plan_values
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write_new
-from zlmreport.job.choices import Choice, ExtensionChoice, Find, programs_by_name
+from zlmreport.job.choices import ExtensionChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.measurement.axis import Axis
-from zlmreport.model.effect import unit_of
-from zlmreport.model.study import Study
-from zlmreport.planning.deciding import deciding_experiment, deciding_number, deciding_text, experiment_values
-from zlmreport.planning.planned_test import PlannedTest, planned_test
-from zlmreport.planning.programs import Motion, motion_of
-from zlmreport.planning.targets import in_users_unit
-from zlmreport.planning.visibility import Remedy, SeenEffect
-from zlmreport.plugin.extension import Extension, ExtensionPlan
-from zlmreport.plugin.protocols import PartProgram
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.live.capture.of_job import options_of
+from zlmreport.measurement.measurand import is_for
+from zlmreport.model.diagnosis.study import Study
+from zlmreport.model.planning.deciding import (
+    deciding_experiment,
+    deciding_number,
+    deciding_text,
+    experiment_values,
+)
+from zlmreport.model.planning.planned_test import PlannedTest, planned_test
+from zlmreport.model.planning.programs import Motion, motion_of
+from zlmreport.model.planning.targets import in_users_unit
+from zlmreport.plugin.extending import Extension, ExtensionPlan
+from zlmreport.plugin.registry import Registry, find_plugins
 
-SCHEMA, DECISION = "zlmreport/plan/1", "zlmreport/decision/1"
-_RUN = Place("zlmreport plan --run")
+DECISION = "zlmreport/decision/1"
 
-_OPTION = Place("zlmreport plan --program")
+_TEST = Place("zlmreport plan --test")
 
 
 def run(options: Namespace) -> int:
     """Plan the test of a job; its readings need not exist."""
     registry = find_plugins(files=options.plugin)
-    job = load(options.job, registry)
+    job = load(options.job, registry).line(options.test, _TEST)
     if options.decide:
         return _decide(options, job, registry)
+    if job.axis.circle:
+        return plan_circle(options, job, registry)
     own = _plan_of_extension(job, registry)
     if own and options.run is not None:
-        raise InputError.at(_RUN, "this plan has no runs of its own; leave it out")
+        raise InputError.at(RUN, "this plan has no runs of its own; leave it out")
     if own:
         return _show_plan(options, job, registry, own)
     programs = chosen_programs(
         options.program, options.output, job.programs, registry.part_program, registry.programs_for()
     )
-    if options.run is not None and (not programs or not options.output):
-        raise InputError.at(
-            _RUN, "the program of a run is a file; state --program NAME and --output DIR, too"
-        )
-    planned = planned_test(job, pipeline.standards(job, registry), registry.effects)
+    demand_file(options, programs)
+    effects = [each for each in registry.effects if is_for(each, job.axis.measurand)]
+    planned = planned_test(job, pipeline.standards(job, registry), effects)
     documents: tuple[Document, ...] = ()
     if options.output:
         number = job.keys.certificate.number
@@ -65,17 +68,23 @@ def run(options: Namespace) -> int:
         if options.run is None:
             documents = (
                 *plan_files(options.output, job, planned),
-                *program_files(options.output, number, motion, programs, registry.part_program),
+                *program_files(
+                    options.output, number, partial(written_of, motion), programs, registry.part_program
+                ),
             )
         else:
             of_run = f"{number}-run-{options.run}"
             subject = partial(_motion_of_run, motion, options.run)
-            documents = program_files(options.output, of_run, subject, programs, registry.part_program)
+            documents = program_files(
+                options.output, of_run, partial(written_of, subject), programs, registry.part_program
+            )
     written = write_new(documents)
     if options.json:
         print_json(plan_values(job, planned, written))
         return 0
-    print(*plan_lines(job, planned), sep="\n")
+    number, size = job.keys.certificate.number, said(size_of_plan(planned))
+    print(f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {size}")
+    print(*section_lines(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:
         names = ", ".join(each.identifier for each in programs)
@@ -126,87 +135,6 @@ def _motion_of_run(motion: Callable[[Place], Motion], run: int, place: Place) ->
     return motion(place).of_run(run)
 
 
-def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path]) -> dict[str, Any]:
-    """Return a plan as plain values for JSON."""
-    axis, proposal = job.axis, planned.proposal
-    plan, position = proposal.plan, axis.position_unit
-    targets = in_users_unit(axis, plan.targets)
-    return {
-        "schema": SCHEMA,
-        "certificate": {"number": job.keys.certificate.number},
-        "axis": {"name": axis.name, "kind": axis.kind.value},
-        "units": {"position": position.ascii, "deviation": axis.deviation_unit.ascii, "time": "s"},
-        "method": plan.method.value,
-        "runs": plan.runs,
-        "overrun": round(position.from_si(plan.overrun), 9),
-        "feed_per_minute": round(position.from_si(plan.feed) * 60, 9),
-        "dwell": plan.dwell,
-        "seed": proposal.seed if proposal.has_fractions else None,
-        "assumed": sorted(proposal.assumed),
-        "expected": {
-            "repeatability": axis.deviation_unit.from_si(proposal.expected.sigma),
-            "temperature_change": proposal.expected.temperature_change,
-        },
-        "travelled": position.from_si(planned.travelled),
-        "duration": planned.duration,
-        "targets": targets,
-        "two_phases_of": [said(period) for period in planned.half_seen],
-        "visits": [
-            {
-                "target": targets[visit.target],
-                "direction": visit.approach.sign,
-                "run": visit.run,
-                "time": time,
-            }
-            for visit, time in zip(planned.visits, planned.design.time.tolist(), strict=True)
-        ],
-        "model": list(planned.model.identifiers),
-        "visibility": [
-            _seen_effect(each, planned.remedies.get(each.effect.identifier), axis)
-            for each in planned.seen_effects
-        ],
-        "log": [{"column": column, "effects": names} for column, names in planned.logs.items()],
-        "requirements": [
-            {
-                "standard": designation,
-                "requirement": said(finding.requirement),
-                "found": said(finding.found),
-                "met": finding.met,
-            }
-            for designation, findings in planned.findings.items()
-            for finding in findings
-        ],
-        "files": [str(path) for path in written],
-    }
-
-
-def _seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
-    seen = found.visibility
-    smallest = None
-    if seen.smallest is not None and math.isfinite(seen.smallest[1]):
-        parameter, value = seen.smallest
-        unit = unit_of(parameter.dimension, axis.kind)
-        smallest = {"name": parameter.name, "value": value * unit.per_si, "unit": unit.ascii}
-    return {
-        "effect": seen.effect,
-        "sight": found.sight.value,
-        "share": seen.share,
-        "smallest_rms": axis.deviation_unit.from_si(seen.smallest_rms)
-        if math.isfinite(seen.smallest_rms)
-        else None,
-        "smallest": smallest,
-        "log": list(found.logs),
-        "reason": None if seen.reason is None else said(seen.reason),
-        "remedy": None
-        if remedy is None
-        else {
-            "reason": None if remedy.reason is None else said(remedy.reason),
-            "advice": said(remedy.advice),
-            "share": remedy.share,
-        },
-    }
-
-
 def _plan_of_extension(
     job: Job, registry: Registry
 ) -> tuple[Extension, ExtensionChoice, ExtensionPlan] | None:
@@ -237,7 +165,7 @@ def _show_plan(
                 Document(options.output / f"{number}-{name}", text.encode())
                 for name, text in plan.files().items()
             ),
-            *program_files(options.output, number, plan.subject, programs, find),
+            *program_files(options.output, number, partial(written_of, plan.subject), programs, find),
         )
     written = write_new(documents)
     if options.json:
@@ -281,7 +209,7 @@ def plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, 
 
 
 def _picture(job: Job, planned: PlannedTest) -> str:
-    from zlmreport.figures.draw import to_svg  # noqa: PLC0415 (brings the typeface)
+    from zlmreport.document.figures.draw import to_svg  # noqa: PLC0415 (brings the typeface)
 
     keys = job.keys.certificate
     motion = motion_of(keys.number, job.axis, planned.proposal.plan, job.place_of("plan"))
@@ -303,55 +231,3 @@ def _readings(job: Job, planned: PlannedTest) -> Iterator[str]:
     for visit in planned.visits:
         cells = [f"{targets[visit.target]:.12g}", visit.approach.sign, str(visit.run)]
         yield ",".join([*cells, "", *("" for _ in logs)])
-
-
-def chosen_programs(
-    named: str | None,
-    folder: Path | None,
-    stated: tuple[Choice, ...],
-    find: Find,
-    known: Sequence[PartProgram],
-) -> tuple[Choice, ...]:
-    """Return the programs that the command line names, or else those of the job.
-
-    `named`: Identifiers on the command line, parted by commas; None if there are none.
-
-    Raises `InputError` if there is none of that name, or no folder to write it into.
-    """
-    if named is None:
-        return stated
-    if folder is None:
-        raise InputError.at(_OPTION, "a program is a file; state its folder, too: --output DIR")
-    names = [name.strip() for name in named.split(",") if name.strip()]
-    if not names:
-        such_as = ",".join(each.identifier for each in known[:2])
-        raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
-    return programs_by_name(names, _OPTION, stated, find)
-
-
-def program_files(
-    folder: Path,
-    number: str,
-    subject: Callable[[Place], Any],
-    choices: Sequence[Choice],
-    find: Callable[[str], PartProgram],
-) -> tuple[Document, ...]:
-    """Return the files of part programs.
-
-    `subject`: Returns what the programs are written of, asked for at a place.
-
-    Raises `InputError` with everything that one of the controls or machines cannot be told.
-    """
-    problems: list[Problem] = []
-    documents: list[Document] = []
-    for choice in choices:
-        program = find(choice.identifier)
-        try:
-            text = program.write(subject(choice.place), choice.options)
-        except InputError as error:
-            problems.extend(error.problems)
-            continue
-        documents.append(Document(folder / f"{number}{program.suffix}", text.encode("ascii")))
-    if problems:
-        raise InputError(problems)
-    return tuple(documents)

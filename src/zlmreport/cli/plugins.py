@@ -9,7 +9,7 @@ from pathlib import Path
 from zlmreport.cli.terminal import Colour, print_json, shown_path, table
 from zlmreport.language import Language
 from zlmreport.plugin.kinds import KINDS
-from zlmreport.plugins import DISABLE, Plugin, Registry, find_plugins
+from zlmreport.plugin.registry import DISABLE, Plugin, Registry, find_plugins
 
 
 def run(options: Namespace) -> int:

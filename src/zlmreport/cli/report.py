@@ -13,18 +13,18 @@ from typing import TYPE_CHECKING
 
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.jobs import Result, do_all, findings, load_all, report
+from zlmreport.cli.jobs import JobResult, do_all, findings, load_all, report
 from zlmreport.cli.terminal import progress
 from zlmreport.errors import InputError, Place
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import write
 from zlmreport.job.loading import chosen_formats
 from zlmreport.pipeline import PDF
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.uncertainty.monte_carlo import TRIALS
+from zlmreport.plugin.registry import Registry, find_plugins
 
 if TYPE_CHECKING:
+    from zlmreport.document.signing.signer import Signer
     from zlmreport.job.job import Job
-    from zlmreport.signing.signer import Signer
 
 
 _PLACE = Place("zlmreport --sign")
@@ -41,7 +41,7 @@ def run(options: Namespace) -> int:
 
 
 def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], signer: Signer | None) -> int:
-    def made(result: Result, job: Job) -> Result:
+    def made(result: JobResult, job: Job) -> JobResult:
         if signer:
             demand_something_to_sign(job, registry)
         if job.source.instrument and not (options.quiet or options.json):
@@ -56,6 +56,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
             evaluations=made.evaluations,
             diagnosis=made.diagnosis,
             doubts=made.doubts,
+            evidence=made.evidence,
             budget=made.budget,
             files=files,
         )
@@ -86,8 +87,8 @@ def signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
     """Return who signs, if anybody is asked to."""
     if not options.sign:
         return nullcontext()
-    from zlmreport.signing.signer import open_signer  # noqa: PLC0415 - only to sign
-    from zlmreport.signing.state import trusted_by_user, trusted_certificates  # noqa: PLC0415
+    from zlmreport.document.signing.signer import open_signer  # noqa: PLC0415 - only to sign
+    from zlmreport.document.signing.state import trusted_by_user, trusted_certificates  # noqa: PLC0415
 
     named = trusted_by_user()
     return open_signer(options.sign, _password, _PLACE, trusted_certificates(named, _PLACE) if named else ())
@@ -121,7 +122,7 @@ def check(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
     trials = TRIALS if options.json else _FEW_TRIALS
 
-    def evaluated(result: Result, job: Job) -> Result:
+    def evaluated(result: JobResult, job: Job) -> JobResult:
         if "instrument" in type(job.source.options).model_fields:
             from zlmreport.cli.capture import awaits_capture, demand_capturable  # noqa: PLC0415 - only for live readings
 
@@ -134,10 +135,11 @@ def check(options: Namespace) -> int:
             evaluations=certificate.evaluations,
             diagnosis=certificate.diagnosis,
             doubts=certificate.doubts,
+            evidence=certificate.evidence,
             budget=certificate.budget,
         )
 
-    def lines(result: Result) -> Iterator[str]:
+    def lines(result: JobResult) -> Iterator[str]:
         if result.job is None or result.evaluations:
             return findings(result)
         from zlmreport.cli.capture import planned  # noqa: PLC0415 - only for live readings

@@ -8,15 +8,15 @@ from typing import Any
 
 from zlmreport.cli.emulate import put_on_line, refuse_two_lines, troubles_of
 from zlmreport.cli.terminal import shown_path
-from zlmreport.emulation.emulator import Scene
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, write
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.language import Language
-from zlmreport.planning.plan import Plan
-from zlmreport.plugins import find_plugins
-from zlmreport.simulation.files import description_of, job_text, live_job_text, readings_table
-from zlmreport.simulation.simulate import StartedMachine, emulated_machine, simulate
+from zlmreport.live.emulation.emulator import Scene
+from zlmreport.model.planning.plan import Plan
+from zlmreport.model.simulation.files import description_of, job_text, live_job_text, readings_table
+from zlmreport.model.simulation.simulate import StartedMachine, emulated_machine, simulate
+from zlmreport.plugin.registry import find_plugins
 
 _COMMAND = "zlmreport simulate"
 _SECONDS_A_MINUTE = 60

@@ -11,16 +11,18 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.cli.jobs import load_all
-from zlmreport.cli.model_lines import error_line, polynomial
+from zlmreport.cli.layout import in_a_line
 from zlmreport.cli.terminal import Colour, print_json, said, table, wrapped
+from zlmreport.document.subjects.fit import error_facts, polynomial
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
-from zlmreport.model import wording
-from zlmreport.model.axis_model import ModelError
-from zlmreport.plane.plane import Plane, plane_of, report
-from zlmreport.plane.surface import Surface
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.formatting import general_number, rounded_pair
+from zlmreport.language import Language
+from zlmreport.language.formatting import general_number, rounded_pair
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.plane.plane import Plane, plane_of, report
+from zlmreport.model.plane.surface import Surface
+from zlmreport.plugin.registry import Registry, find_plugins
 
 #: Points of a table where none are asked for: along the axis, and across it.
 _ALONG, _ACROSS = 5, 3
@@ -82,7 +84,8 @@ def _lines(plane: Plane, points: Points) -> Iterator[str]:
             yield from wrapped(f"set aside, for it stands off from its repeats, at {at}: {aside}")
     for surface in plane.surfaces:
         yield ""
-        yield f"{surface.approach.arrow} {error_line(surface.error, surface.fit.design.axis)}"
+        error = error_facts(surface.error, plane.axis, Language.ENGLISH)
+        yield f"{surface.approach.arrow} {in_a_line(error)}"
         yield from wrapped(_equation(surface))
         yield from wrapped(_interaction(surface))
     yield ""

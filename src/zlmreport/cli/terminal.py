@@ -17,7 +17,7 @@ from typing import Any
 
 from zlmreport.errors import Problem, ZlmreportError
 from zlmreport.language import Language, Words
-from zlmreport.quantities.formatting import HELD
+from zlmreport.language.formatting import HELD
 
 _USUAL_LINE, _SHORTEST_LINE = 110, 60
 #: A blank at which no line ends: before a number or a unit, and around a sign between numbers.
@@ -54,24 +54,25 @@ def line_width() -> int:
 
 def wrapped(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; no line ends within a value."""
-    lines = textwrap.wrap(
-        _WITHIN_A_VALUE.sub(HELD, text),
-        line_width(),
-        initial_indent=indent,
-        subsequent_indent=f"{indent}  ",
-        break_on_hyphens=False,
+    return [line.replace(HELD, " ") for line in filled(_WITHIN_A_VALUE.sub(HELD, text), indent)]
+
+
+def filled(text: str, indent: str = "  ") -> list[str]:
+    """Return a text in lines that fit, all but the first further in; blanks that are held stay."""
+    further = f"{indent}  "
+    return textwrap.wrap(
+        text, line_width(), initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
     )
-    return [line.replace(HELD, " ") for line in lines]
 
 
 def table(rows: Iterable[Sequence[str]], right: Sequence[int] = (), indent: str = "    ") -> Iterator[str]:
     """Yield rows whose columns line up; `right` lists the columns that stand on their last letter."""
     rows = [tuple(row) for row in rows]
-    widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
+    widths = [max(map(width_of, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = []
         for number, (cell, width) in enumerate(zip(row, widths, strict=True)):
-            space = " " * (width - _width(cell))
+            space = " " * (width - width_of(cell))
             cells.append(space + cell if number in right else cell + space)
         yield indent + "  ".join(cells).rstrip()
 
@@ -129,7 +130,7 @@ def visible(text: str) -> str:
     )
 
 
-def _width(cell: str) -> int:
+def width_of(cell: str) -> int:
     """Return how wide a cell is printed: colours and combining marks take no room."""
     width = 0
     in_colour = False

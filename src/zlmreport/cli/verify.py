@@ -10,12 +10,20 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, visible
+from zlmreport.document.signing.state import trusted_by_user, trusted_certificates
 from zlmreport.errors import Place
 from zlmreport.language import Words
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.units import printed_symbol
-from zlmreport.signing.state import trusted_by_user, trusted_certificates
-from zlmreport.verification.findings import Finding, Outcome, Value, Verdict, Verification, is_number
+from zlmreport.measurement.units import printed_symbol
+from zlmreport.plugin.registry import find_plugins
+from zlmreport.verification.findings import (
+    Finding,
+    Outcome,
+    OwnText,
+    Value,
+    Verdict,
+    Verification,
+    is_number,
+)
 from zlmreport.verification.verify import verify
 from zlmreport.version import __version__
 
@@ -24,6 +32,7 @@ _HOLDS = {Outcome.HOLDS: True, Outcome.DOES_NOT_HOLD: False, Outcome.UNDECIDED: 
 _COLOURS = {Verdict.HOLDS: Colour.GREEN, Verdict.DIFFERS: Colour.RED, Verdict.OPEN: Colour.YELLOW}
 _MOST_LINES = 12
 _LONGEST_TEXT = 40
+_LONGEST_QUOTE = 200
 #: Steps of a value's path that say nothing to people.
 _CONTAINERS = frozenset({"evaluations", "parameters", "positions"})
 _SAID = {
@@ -41,6 +50,10 @@ _PARTS = {
     "pages": Words(en="pages", de="Seiten"),
     "document": Words(en="document", de="Dokument"),
 }
+_OWN_WORDS = Words(
+    en="Words that somebody wrote; no reading gives them:",
+    de="Worte, die jemand geschrieben hat; kein Messwert ergibt sie:",
+)
 _Say: TypeAlias = Callable[[Words | str], str]
 SCHEMA = "zlmreport/verification/1"
 
@@ -67,7 +80,10 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
     """Yield the lines on a certificate, in its language; what differs is told in English."""
     identity, signature = found.identity, found.signature
     say = partial(said, language=identity.language)
-    yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found, say)}"
+    # What does not hold is no copy of anything: its digest would only be taken for a sign that it is.
+    is_told = identity.digest and found.outcome is not Outcome.DOES_NOT_HOLD
+    digest = f"  {visible(identity.digest)}" if is_told else ""
+    yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found, say)}{digest}"
     if identity.number:
         issued = Words(en=", issued {date}", de=", ausgestellt {date}").given(date=identity.issued)
         made_by = Words(en="made by {program}", de="hergestellt von {program}").given(
@@ -97,6 +113,9 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
     for standard in dict.fromkeys(value.path[1] for value in found.values if _is_of_parameter(value)):
         yield ""
         yield from _parameters(standard, found.values, say)
+    if found.own_words:
+        yield ""
+        yield from _own_words(found.own_words, say)
 
 
 def _verdict(found: Verification, say: _Say) -> str:
@@ -157,6 +176,19 @@ def _numbers(values: Sequence[Value], say: _Say) -> Iterator[tuple[str, str]]:
         if value.verdict is Verdict.DIFFERS and not _is_of_parameter(value)
     ]
     yield from list(_summary("", elsewhere, given, say))[1:]
+
+
+def _own_words(texts: Sequence[OwnText], say: _Say) -> Iterator[str]:
+    """Yield the words that somebody else wrote, each with what nobody can tell by looking."""
+    yield f"  {say(_OWN_WORDS)}"
+    for each in texts:
+        yield visible(f"  {each.key}: '{_shortened(each.text)}'")
+        yield from (f"    {_COLOURS[Verdict.OPEN].of(visible(say(oddity)))}" for oddity in each.oddities)
+
+
+def _shortened(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= _LONGEST_QUOTE else f"{line[: _LONGEST_QUOTE - 1]}…"
 
 
 def _parameters(standard: str, values: Sequence[Value], say: _Say) -> Iterator[str]:
@@ -237,6 +269,15 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
         ],
         "pages": _findings(found.pages),
         "document": _findings(found.document),
+        "own_words": [
+            {
+                "key": each.key,
+                "text": each.text,
+                "marks": list(map(said, each.oddities)),
+                "claim": said(each.claim) if each.claim else None,
+            }
+            for each in found.own_words
+        ],
         "remarks": list(map(said, found.remarks)),
     }
 

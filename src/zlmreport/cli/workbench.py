@@ -9,7 +9,7 @@ from types import FrameType
 from typing import NoReturn
 
 from zlmreport.errors import AccessError, Place
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 _PLACE = Place("zlmreport workbench")
 

@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.quantities.units import Unit, with_unit
+from zlmreport.measurement.units import Unit, with_unit
 
 #: Positions come as decimal numbers of mm or °: what differs less than this is the same.
 _ROUNDING = 1e-9

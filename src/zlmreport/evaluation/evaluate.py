@@ -19,12 +19,12 @@ from zlmreport.evaluation.evaluation import (
     PositionQuantity,
     Quantity,
 )
-from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+from zlmreport.evaluation.statistics import PositionStatistics, statistics_of
 from zlmreport.language import Words
+from zlmreport.language.formatting import plain
+from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.quantities.arrays import read_only_floats
-from zlmreport.quantities.formatting import plain
 
 
 class EvaluatingStandard(Protocol):
@@ -64,7 +64,7 @@ def evaluate(
     tolerances : mapping of symbol to limit
         m or rad.
     """
-    statistics = position_statistics(measurements.deviations())
+    statistics = statistics_of(measurements)
     arithmetic = standard.arithmetic(statistics, options)
     parameters = []
     undefined = []
@@ -153,11 +153,15 @@ def doubts(
 
     `values`: Parameters with their values, m or rad; none of them NaN.
     """
+    if statistics.tests:
+        return  # what several lines give together may be of another kind than any of their readings
     farthest = reach(statistics)
     for quantity, value in values:
         negative = is_negative(quantity, value, farthest)
         if not negative and abs(value) <= farthest:
             continue
+        if quantity.unit is not None:
+            continue  # of another unit than the readings: their reach says nothing of it
         symbol, said = plain(quantity.notation), deviation_in_words(axis, value)
         largest = deviation_in_words(axis, float(np.nanmax(np.abs(statistics.deviations))))
         found = (_NEGATIVE if negative else _TOO_LARGE).given(symbol=symbol, value=said, largest=largest)

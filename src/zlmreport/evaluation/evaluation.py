@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import Enum
 
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.values import dataclass
+from zlmreport.measurement.units import Unit
 
 
 class Conformity(Enum):
@@ -105,7 +105,7 @@ class Quantity:
     symbol
         ASCII, as in the results file: ``A_fwd``.
     notation
-        As printed (`zlmreport.quantities.formatting`): ``A↑``.
+        As printed (`zlmreport.language.formatting`): ``A↑``.
     name
         The name in the wording of the standard's edition.
     group
@@ -118,6 +118,8 @@ class Quantity:
         Whether a job may state a tolerance for it.
     printed_sign
         −1 where the edition prints the value with the sign opposite to the results file; else 1.
+    unit
+        Its own, where it is not a deviation of what was measured, as a slope; None for the measurand's.
     """
 
     symbol: str
@@ -128,6 +130,11 @@ class Quantity:
     meaning: Words
     can_be_limited: bool = True
     printed_sign: int = 1
+    unit: Unit | None = None
+
+    def unit_or(self, usual: Unit) -> Unit:
+        """Return its own unit, or the usual one where it has none."""
+        return self.unit or usual
 
 
 @dataclass(frozen=True, slots=True)
@@ -186,13 +193,16 @@ class Parameter:
     limit
         Tolerance that the job states, m or rad; None without one.
     expanded_uncertainty, coverage_factor
-        U = k·u (m or rad) and k; None where not evaluated.
+        U = k·u + |known error| (m or rad) and k; None where not evaluated.
     decision
         What the decision rule says of the unrounded value; None without a limit.
     raised_to
         The bound to which U was raised; None where it is the budget's.
     axis_interval
         Where another test of the same plan would find it, m or rad; None where one run tells nothing.
+    known_error
+        What the value would change by if the errors of known size that are in the readings, as an expansion
+        that is not corrected, were taken out of them, m or rad. U holds it whole.
     """
 
     quantity: Quantity
@@ -203,6 +213,7 @@ class Parameter:
     decision: Decision | None = None
     raised_to: Least | None = None
     axis_interval: tuple[float, float] | None = None
+    known_error: float = 0.0
 
     @property
     def conforms(self) -> bool | None:
@@ -211,10 +222,10 @@ class Parameter:
 
     @property
     def standard_uncertainty(self) -> float | None:
-        """u, m or rad; None where not evaluated."""
+        """The u of the value, (U − |known error|)/k, m or rad; None where not evaluated."""
         if self.expanded_uncertainty is None or self.coverage_factor is None:
             return None
-        return self.expanded_uncertainty / self.coverage_factor
+        return max(0.0, self.expanded_uncertainty - abs(self.known_error)) / self.coverage_factor
 
     @property
     def printed_value(self) -> float:
@@ -256,11 +267,12 @@ class Change:
 
     @property
     def coverage_factor(self) -> float | None:
-        """The factor k of U, where u is the sum of both u; None where U is not known."""
+        """The factor k of U, known errors apart, where u is the sum of both u; None where U is not known."""
         if self.before is None or self.after is None or self.expanded_uncertainty is None:
             return None
         before, after = self.before.standard_uncertainty, self.after.standard_uncertainty
-        return self.expanded_uncertainty / (before + after) if before and after else None
+        known = abs(self.before.known_error) + abs(self.after.known_error)
+        return (self.expanded_uncertainty - known) / (before + after) if before and after else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -313,6 +325,8 @@ class Evaluation:
         from an incomplete one.
     is_method
         Whether it is a published method and nobody's standard: a heading says so.
+    specification
+        The document from which the limits were taken; empty where the job does not say.
     """
 
     standard: str
@@ -328,6 +342,7 @@ class Evaluation:
     mean_uncertainty: MeanUncertainty | None = None
     uncertainty_is_complete: bool = True
     is_method: bool = False
+    specification: str = ""
 
     def parameter(self, symbol: str) -> Parameter | None:
         """Return a parameter of the axis; None where the test does not define it."""

@@ -12,11 +12,11 @@ import numpy as np
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
+from zlmreport.language.formatting import plain
+from zlmreport.measurement.arrays import decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
-from zlmreport.quantities.arrays import decimals_of
-from zlmreport.quantities.formatting import plain
-from zlmreport.quantities.units import Scale
+from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words(
     en="{name}: {value} {unit} is unusual where machines are measured",
@@ -49,24 +49,48 @@ _MOVES_STRAIGHT = Words(
     de="Achse {name} gilt als Drehachse, gemessen über {range}°; falls das Millimeter sind: "
     "axis.kind: linear",
 )
+_LARGE_ANGLES = Words(
+    en="Angles that span {span}{unit} are unusual for an axis; if the file has another unit: source.units: "
+    "{{deviation: {meant}}}",
+    de="Winkel über {span}{unit} sind für eine Achse ungewöhnlich; falls die Datei eine andere Einheit hat: "
+    "source.units: {{deviation: {meant}}}",
+)
+#: Of a machine tool's axis, rad: 1000 arc seconds.
+_LARGE_ANGLE = 1000 / 206264.80624709636
 #: Axes by their first letters (ISO 841), and the ranges that say that one of them turns.
 _TURNING, _STRAIGHT = frozenset("ABC"), frozenset("XYZUVW")
 _PARTS_OF_A_TURN = (90.0, 180.0, 360.0)
+_OF_MACHINE = Words(en="Expansion coefficient of the machine", de="Ausdehnungskoeffizient der Maschine")
+_OF_CORRECTION = Words(
+    en="Expansion coefficient of the correction", de="Ausdehnungskoeffizient der Korrektion"
+)
+_OF_COMPENSATION = Words(
+    en="Expansion coefficient by which the instrument compensated",
+    de="Ausdehnungskoeffizient, mit dem das Messgerät kompensierte",
+)
+_OF_INSTRUMENT = Words(
+    en="Expansion coefficient of the instrument", de="Ausdehnungskoeffizient des Messgeräts"
+)
+#: Of materials of scales and machines, µm/(m·K): Invar to aluminium and zinc; of glass ceramic it is about 0.
+_EXPANSIONS, _USUAL = (0.3, 35.0), (5.0, 25.0)
+#: Other units by how many µm/(m·K) they are.
+_OTHER_EXPANSIONS = ((1e3, "mm/(m·K)"), (1e6, "1/K"), (1e-3, "nm/(m·K)"))
 #: A limit as small as this, µm or ″, beside a value so many times as large, was meant in mm or °.
 _SMALL, _MANY_TIMES = 0.5, 50.0
 _MOST_DECIMALS = 3
 
 
-def doubts(job: Job, evaluations: Sequence[Evaluation]) -> tuple[Words, ...]:
+def doubts(job: Job, measurements: MeasurementSet, evaluations: Sequence[Evaluation]) -> tuple[Words, ...]:
     """Return a sentence for each value of a job or its readings that seems to be in another unit.
 
-    `evaluations`: Of its readings, at least one, with the limits that it states.
+    `evaluations`: Of its readings, with the limits that it states.
     """
-    measurements = evaluations[0].measurements
     return (
         *_conditions(job, measurements),
+        *_expansion(job),
         *(sentence for each in evaluations for sentence in _limits(each)),
         *_kind_of_axis(measurements),
+        *_angles(measurements),
     )
 
 
@@ -85,6 +109,28 @@ def _conditions(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
                     other=_named(meant), meant=float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
                 )
             yield sentence.given(name=CONDITION_NAMES[name], value=value, unit=kind.unit.symbol)
+
+
+def _expansion(job: Job) -> Iterator[Words]:
+    """Yield the expansion coefficients that no material of a machine has."""
+    environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
+    material = corrections.material if corrections else None
+    compensates = instrument.compensates if instrument else None
+    for name, value in (
+        (_OF_MACHINE, environment and environment.expansion_coefficient),
+        (_OF_CORRECTION, material and material.expansion_coefficient),
+        (_OF_COMPENSATION, compensates and compensates.material),
+        (_OF_INSTRUMENT, instrument and instrument.expansion_coefficient),
+    ):
+        if not isinstance(value, float) or not value or _EXPANSIONS[0] <= abs(value) <= _EXPANSIONS[1]:
+            continue
+        factor, unit = next(
+            (each for each in _OTHER_EXPANSIONS if _USUAL[0] <= abs(value) * each[0] <= _USUAL[1]), (0.0, "")
+        )
+        sentence = _UNLIKELY
+        if factor:
+            sentence = _MEANT.given(other=unit, meant=float(f"{value * factor:.3g}"))
+        yield sentence.given(name=name, value=value, unit="µm/(m·K)")
 
 
 def _other_unit(value: float, kind: ConditionKind) -> Scale | None:
@@ -106,12 +152,12 @@ def _limits(evaluation: Evaluation) -> Iterator[Words]:
     step = unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
     small, large = [], []
     for each in evaluation.parameters:
-        if each.limit is None:
+        if each.limit is None or each.quantity.unit is not None:
             continue
         is_tiny = each.limit < unit.to_si(_SMALL) and _MANY_TIMES * each.limit < abs(each.value)
         if is_tiny or each.limit < step:
             small.append(each)
-        elif each.limit > float(targets[-1] - targets[0]) > 0:
+        elif axis.measurand.is_position and each.limit > float(targets[-1] - targets[0]) > 0:
             large.append(each)
     other = axis.position_unit
     for sentence, found in (
@@ -131,6 +177,19 @@ def _in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words
         for index, each in enumerate(parameters)
     )
     return Words(phrase, phrase).given(**places)
+
+
+def _angles(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield whether angles seem to have been read in too large a unit."""
+    axis, readings = measurements.axis, measurements.deviation
+    if axis.measurand.is_position or axis.deviation_unit not in ANGLES or not np.isfinite(readings).any():
+        return
+    span = float(np.nanmax(readings) - np.nanmin(readings))
+    if span > _LARGE_ANGLE:
+        unit = axis.deviation_unit
+        yield _LARGE_ANGLES.given(
+            span=float(f"{unit.from_si(span):.4g}"), unit=unit.symbol, meant=MICRORADIAN.ascii
+        )
 
 
 def _kind_of_axis(measurements: MeasurementSet) -> Iterator[Words]:

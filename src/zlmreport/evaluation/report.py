@@ -11,8 +11,8 @@ from typing import Any
 from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter, changes
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.units import Unit
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.units import Unit
 
 #: How directions of approach are called in symbols.
 DIRECTIONS = {Approach.POSITIVE: "fwd", Approach.NEGATIVE: "bwd"}
@@ -56,9 +56,9 @@ def report_changes(before: Evaluation, after: Evaluation) -> dict[str, Any]:
         "parameters": [
             {
                 "symbol": each.either.quantity.symbol,
-                "value": unit.from_si(each.value),
-                "unit": unit.ascii,
-                **_expanded(each.expanded_uncertainty, unit),
+                "value": each.either.quantity.unit_or(unit).from_si(each.value),
+                "unit": each.either.quantity.unit_or(unit).ascii,
+                **_expanded(each.expanded_uncertainty, each.either.quantity.unit_or(unit)),
             }
             for each in changes(before, after)
             if each.value is not None
@@ -72,6 +72,7 @@ def _expanded(uncertainty: float | None, unit: Unit) -> dict[str, float]:
 
 def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> dict[str, Any]:
     """Return a parameter with its uncertainty, its limit and what is decided on it."""
+    unit = parameter.quantity.unit_or(unit)
     values: dict[str, Any] = {
         "symbol": parameter.quantity.symbol,
         "name": parameter.quantity.name.in_language(language),
@@ -81,6 +82,8 @@ def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> di
     }
     if parameter.coverage_factor is not None:
         values["coverage_factor"] = parameter.coverage_factor
+    if parameter.known_error:
+        values["known_error"] = unit.from_si(parameter.known_error)
     if parameter.raised_to is not None:
         values["raised_to"] = parameter.raised_to.value
     if parameter.axis_interval is not None:

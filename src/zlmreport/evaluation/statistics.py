@@ -7,12 +7,14 @@ NaN. Batch dimensions lead.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray
-from zlmreport.values import dataclass
+from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.measurement.measurement_set import MeasurementSet
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +35,19 @@ class PositionStatistics:
         x̄_i↑ and x̄_i↓.
     standard_deviation : (..., approach, position) array
         s_i↑ and s_i↓ with n − 1.
+    positions : (position,) array
+        P_i, m or rad (s in time), alike in all tests of a stack; NaN where nobody stated them.
+    tests
+        Of several measured lines that are evaluated together: the statistics of each, by its name. The
+        arrays above then have no position.
     """
 
     deviations: FloatArray
     count: IntArray
     mean: FloatArray
     standard_deviation: FloatArray
+    positions: FloatArray
+    tests: Mapping[str, PositionStatistics] = field(default_factory=dict)
 
     @property
     def mean_positive(self) -> FloatArray:
@@ -108,13 +117,15 @@ class PositionStatistics:
         return np.where(both[..., np.newaxis], of_both, single)
 
 
-def position_statistics(deviations: FloatArray) -> PositionStatistics:
+def position_statistics(deviations: FloatArray, positions: FloatArray | None = None) -> PositionStatistics:
     """Return the statistics by position.
 
     Parameters
     ----------
     deviations : (..., approach, position, run) array
         x_ij, m or rad; NaN where missing. A missing reading lowers n at its position and approach only.
+    positions : (position,) array
+        P_i; without them, what needs them is not defined.
 
     Notes
     -----
@@ -141,9 +152,24 @@ def position_statistics(deviations: FloatArray) -> PositionStatistics:
             _added(squares, residual, complete=complete)
         standard_deviation = np.sqrt(squares / (count - 1))
     standard_deviation[count < 2] = np.nan
-    for array in (count, mean, standard_deviation):
+    places = np.full(readings.shape[-2], np.nan) if positions is None else positions.view()
+    for array in (count, mean, standard_deviation, places):
         array.setflags(write=False)
-    return PositionStatistics(readings, count, mean, standard_deviation)
+    return PositionStatistics(readings, count, mean, standard_deviation, places)
+
+
+def statistics_of(measurements: MeasurementSet) -> PositionStatistics:
+    """Return the statistics of a test, or of several measured lines together."""
+    if measurements.tests:
+        return joined_statistics({name: statistics_of(each) for name, each in measurements.tests.items()})
+    return position_statistics(measurements.deviations(), measurements.target_positions)
+
+
+def joined_statistics(tests: Mapping[str, PositionStatistics]) -> PositionStatistics:
+    """Return the statistics of several measured lines together, which have the same batch dimensions."""
+    batch = next(iter(tests.values())).mean.shape[:-2]
+    none = position_statistics(np.empty((*batch, len(Approach), 0, 0)), np.empty(0))
+    return replace(none, tests=dict(tests))
 
 
 def _added(total: FloatArray, values: FloatArray, *, complete: bool) -> BoolArray | bool:

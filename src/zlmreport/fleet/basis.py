@@ -9,18 +9,17 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.machinery import PathFinder
-from importlib.metadata import entry_points
 from pathlib import Path
 from typing import Any, Self
 
 from pydantic import BaseModel
 
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.fleet import FleetFile
 from zlmreport.job.job import Job
 from zlmreport.plugin import kinds
-from zlmreport.plugins import FILES, Registry
-from zlmreport.plugins.find import GROUP
+from zlmreport.plugin.registry import FILES, Registry
+from zlmreport.plugin.registry.find import plugin_points
 
 #: Files younger than this when a certificate is begun may change while it is made without looking different
 #: afterwards, on file systems whose clock has a coarse tick; seconds.
@@ -28,7 +27,7 @@ _COARSEST_TICK = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class FileStamp:
     """How a file looks from outside: as long as it looks the same, nobody wrote to it."""
 
     size: int  #: In bytes.
@@ -57,7 +56,7 @@ class KnownFile:
     #: the folder of certificates.
     path: str
     sha256: str  #: Digest of its bytes, hexadecimal.
-    look: Look | None = None  #: When these bytes were in it; None where that is not sure.
+    look: FileStamp | None = None  #: When these bytes were in it; None where that is not sure.
 
     def as_json(self) -> list[Any]:
         """Return what a ledger keeps."""
@@ -68,7 +67,7 @@ class KnownFile:
     def from_json(cls, kept: list[Any]) -> Self:
         """Return what a ledger kept."""
         role, path, sha256, *look = kept
-        return cls(role, path, sha256, Look(*look) if look else None)
+        return cls(role, path, sha256, FileStamp(*look) if look else None)
 
 
 def is_intact(path: Path, file: KnownFile) -> bool:
@@ -90,7 +89,7 @@ def sha256_of(path: Path) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Basis:
+class CertificateBasis:
     """Everything that a certificate depends on."""
 
     files: tuple[KnownFile, ...]  #: The job, what it extends, readings, tables, pictures.
@@ -127,7 +126,7 @@ class Disk:
     """Files as they are tonight; each is looked at, and read, once."""
 
     folder: Path  #: That relative paths are relative to.
-    _looks: dict[str, Look | None] = field(default_factory=dict)
+    _looks: dict[str, FileStamp | None] = field(default_factory=dict)
     _digests: dict[str, str | None] = field(default_factory=dict)
 
     def has(self, file: KnownFile) -> bool:
@@ -149,15 +148,15 @@ class Disk:
                 self._digests[path] = sha256_of(self.folder / path)
         return self._digests[path]
 
-    def _look(self, path: str) -> Look | None:
+    def _look(self, path: str) -> FileStamp | None:
         if path not in self._looks:
             self._looks[path] = None
             with contextlib.suppress(OSError):
-                self._looks[path] = Look.at(self.folder / path)
+                self._looks[path] = FileStamp.at(self.folder / path)
         return self._looks[path]
 
 
-def changes(basis: Basis, disk: Disk, now: Basis) -> Iterator[str]:
+def changes(basis: CertificateBasis, disk: Disk, now: CertificateBasis) -> Iterator[str]:
     """Yield what has changed since a certificate was made, in words.
 
     `now`: The programs, formats and defaults of tonight; formats are empty where the job itself names them,
@@ -205,7 +204,7 @@ def program_versions(
     """
     packages: dict[str, set[str]] = {OWN: set(_OWN_PACKAGES)}
     releases: dict[str, str] = {}
-    for point in entry_points(group=GROUP):
+    for point, _ in plugin_points():
         name = point.dist.name if point.dist else point.name
         packages.setdefault(name, set()).add(point.module.partition(".")[0])
         releases[name] = point.dist.version if point.dist else ""
@@ -226,14 +225,12 @@ def release(version: str) -> str:
 
 def programs_of(job: Job, formats: Iterable[str], registry: Registry) -> frozenset[str]:
     """Return the names of what takes part in a job, as `program_versions` has them."""
-    keys: list[tuple[kinds.Kind[Any], str]] = [
-        (kinds.SOURCE, each.identifier) for each in (job.source, job.source_as_found) if each
-    ]
-    keys.extend((kinds.STANDARD, choice.identifier) for choice in job.standards)
+    keys: list[tuple[kinds.Kind[Any], str]] = [(kinds.SOURCE, each.identifier) for each in job.sources]
+    keys.extend((kinds.STANDARD, choice.identifier) for part in job.parts for choice in part.standards)
     keys.extend((kinds.RENDERER, identifier) for identifier in formats)
     plugins = [registry.origin(kind, identifier) for kind, identifier in keys]
     names = {plugin.distribution or plugin.module for plugin in plugins}
-    return frozenset(names | {OWN} | ({_ALL} if job.effects else set()))
+    return frozenset(names | {OWN} | ({_ALL} if any(part.effects for part in job.parts) else set()))
 
 
 def _code_of(packages: Iterable[str]) -> Iterator[Path]:
@@ -262,8 +259,9 @@ def named_files(job: Job) -> dict[Path, str]:
     older content than the one that was read: then the certificate is due again.
     """
     templates = job.keys.certificate.style.templates
-    options = [each.options for each in (job.source, job.source_as_found, *job.standards) if each]
-    named = [path for path in _paths([job.keys, *options]) if path.is_file()]
+    options = [each.options for part in job.parts for each in (*part.sources, *part.standards)]
+    keys = [each.keys for each in (job, *job.parts)]
+    named = [path for path in _paths([*keys, *options]) if path.is_file()]
     return {path: sha256_of(path) for path in (*named, *([templates] if templates else ()))}
 
 
@@ -286,7 +284,7 @@ def files_behind(
         if path is None or not path.is_file() or path_in(folder, path) in seen:
             continue
         seen.add(path_in(folder, path))
-        look = Look.at(path)
+        look = FileStamp.at(path)
         kind, settled = "job" if path == own else role, look if look.is_settled(begun) else None
         yield KnownFile(kind, path_in(folder, path), sha256, settled)
     if templates:

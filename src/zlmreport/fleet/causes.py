@@ -11,7 +11,7 @@ from statistics import fmean, stdev
 
 from zlmreport.fleet.drifts import Trend, holm
 from zlmreport.fleet.trend import Calibration, Series
-from zlmreport.model.distributions import f_tail, t_quantile
+from zlmreport.model.fitting.distributions import f_tail, t_quantile
 
 #: A parameter that changed by fewer of its standard deviations is not named.
 _LEAST = 3.0

@@ -18,20 +18,20 @@ from dataclasses import dataclass, replace
 from datetime import date
 from statistics import fmean
 
-from zlmreport.fleet.scatter import Scatter, learned
+from zlmreport.fleet.scatter import ScatterLikelihood, learned
 from zlmreport.fleet.steps import (
     SMALL,
-    Course,
-    Step,
+    ParameterCourse,
+    ParameterStep,
     chances,
     course,
     squares_between,
 )
 from zlmreport.fleet.trend import (
     DAYS_PER_YEAR,
-    Forecast,
-    Line,
+    LimitCrossing,
     Series,
+    TrendLine,
     forecast,
     line_through,
     rank_p_value,
@@ -49,16 +49,16 @@ class Trend:
 
     series: Series  #: The calibrations.
     #: Through them; None with fewer than `LEAST_DATES` dates, and then nothing is tested.
-    line: Line | None = None
+    line: TrendLine | None = None
     rank_p_value: float | None = None  #: Of the test that knows only the order; None likewise.
     drifts: bool = False  #: Whether it is named, with the whole fleet's tests in view.
     #: When a drift meets its limit; None without a drift, without a limit, and where there is no such date.
-    forecast: Forecast | None = None
+    forecast: LimitCrossing | None = None
     #: What its tests say of steps, in parts of `scale`; None of a parameter that is not asked.
-    course: Course | None = None
+    course: ParameterCourse | None = None
     scale: float = 1.0  #: The limit; 1 where there is none.
     #: That the latest test shows, or that looked like a drift; in the unit of the series.
-    step: Step | None = None
+    step: ParameterStep | None = None
     #: That it is a drift, and neither a step nor chance, if each is as likely beforehand; 0 where none is
     #: named.
     probability: float = 0.0
@@ -121,8 +121,8 @@ class _Stepping:
     series: Series
     scale: float
     values: tuple[float, ...]
-    fleet: Scatter
-    course: Course
+    fleet: ScatterLikelihood
+    course: ParameterCourse
 
 
 def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
@@ -249,7 +249,7 @@ def _named(trend: Trend, stepping: _Stepping | None) -> Trend:
         if sum(likely.steps) > likely.drift:
             values = [stepping.values[index] * stepping.scale for index in since]
             change = fmean(values[best:]) - fmean(values[:best])
-            return replace(trend, step=trend.step or Step(since[best], change, sum(likely.steps)))
+            return replace(trend, step=trend.step or ParameterStep(since[best], change, sum(likely.steps)))
         probability = likely.drift
     limit, line = trend.series.latest.limit, trend.line
     last = trend.series.calibrations[-1].measured

@@ -20,7 +20,7 @@ from zlmreport.fleet.records import About, file_name
 from zlmreport.fleet.state import FleetState
 from zlmreport.fleet.trend import Series
 from zlmreport.language import Language, Words
-from zlmreport.quantities.units import ANGLES, LENGTHS
+from zlmreport.measurement.units import ANGLES, LENGTHS
 from zlmreport.version import __version__
 
 _UNITS = {unit.ascii: unit for unit in (*LENGTHS, *ANGLES)}
@@ -231,7 +231,7 @@ def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     `taught`: In the order of measurement; a test of a machine without a manufacturer and model teaches
         nobody.
     """
-    from zlmreport.model.priors import Lesson, as_text, learned  # noqa: PLC0415 - only where there is a model
+    from zlmreport.model.fitting.priors import Lesson, as_text, learned  # noqa: PLC0415 - only where there is a model
 
     groups: defaultdict[tuple[str, str], list[Taught]] = defaultdict(list)
     seen: set[frozenset[str]] = set()

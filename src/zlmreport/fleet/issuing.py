@@ -16,11 +16,11 @@ from pathlib import Path
 
 from zlmreport.errors import Place, Problem, as_problems
 from zlmreport.files import beside, take_names
-from zlmreport.fleet.basis import KnownFile, Look, sha256_of
+from zlmreport.fleet.basis import FileStamp, KnownFile, sha256_of
 from zlmreport.fleet.ledger import Night, NumberTakenError
-from zlmreport.fleet.making import Failed, Finished, Made
-from zlmreport.fleet.plan import Evening, Planned, inputs_digest
-from zlmreport.fleet.records import Entry, State, Subject
+from zlmreport.fleet.making import Failed, FinishedFile, MadeCertificate
+from zlmreport.fleet.plan import Evening, PlannedJob, inputs_digest
+from zlmreport.fleet.records import LedgerEntry, State, Subject
 from zlmreport.job.fleet import FleetFile
 
 #: Of a file that the ledger has not taken over yet.
@@ -40,7 +40,7 @@ class Laid:
 
 
 @contextlib.contextmanager
-def laid(folder: Path, files: Iterable[Finished]) -> Iterator[Laid]:
+def laid(folder: Path, files: Iterable[FinishedFile]) -> Iterator[Laid]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
 
     Raises `OSError` if one cannot be written.
@@ -53,7 +53,8 @@ def laid(folder: Path, files: Iterable[Finished]) -> Iterator[Laid]:
 
     with beside({folder / file.path: file.content for file in files}, hidden) as names:
         known = [
-            KnownFile(file.role, file.path, file.sha256, Look.at(names[folder / file.path])) for file in files
+            KnownFile(file.role, file.path, file.sha256, FileStamp.at(names[folder / file.path]))
+            for file in files
         ]
         yield Laid(names, tuple(known))
 
@@ -135,7 +136,7 @@ class Desk:
         """The fleet file."""
         return self.known.fleet
 
-    def kept(self, planned: Planned, result: Made | Failed) -> Happened:
+    def kept(self, planned: PlannedJob, result: MadeCertificate | Failed) -> Happened:
         """Keep what a job came to."""
         if isinstance(result, Failed):
             return self.failed(planned, result)
@@ -148,7 +149,7 @@ class Desk:
         except OSError as error:
             return self.failed(planned, Failed(as_problems(planned.path, error).problems, result.subject))
 
-    def failed(self, planned: Planned, result: Failed) -> Happened:
+    def failed(self, planned: PlannedJob, result: Failed) -> Happened:
         """Note that a job came to nothing."""
         subject = replace(result.subject, number=result.subject.number or planned.number)
         message = "\n".join(map(str, result.problems))
@@ -167,11 +168,11 @@ class Desk:
         if standing.state is not State.VANISHED:
             subject = asdict(replace(standing.subject, number=standing.number))
             began, state = self.night.began, State.VANISHED
-            self.night.add(Entry(**subject, job=job, night=began, state=state, message=_GONE))
+            self.night.add(LedgerEntry(**subject, job=job, night=began, state=state, message=_GONE))
         problem = Problem(Place(str(self.fleet.path)), f"{job}: {_GONE}")
         return Happened(What.VANISHED, job, standing.number, "", problems=(problem,))
 
-    def _draft(self, planned: Planned, made: Made) -> Happened:
+    def _draft(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
         before = self.known.standings.get(planned.job)
         if before and before.state is State.DRAFT and before.number == planned.number:
             message = before.message  # made again for another reason, it still differs for the first
@@ -183,13 +184,13 @@ class Desk:
             files.name()
         return _happened(What.DRAFT, planned, made, made.files)
 
-    def _issued(self, planned: Planned, made: Made) -> Happened:
+    def _issued(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
         output = self.fleet.output
         missing = [file for file in made.files if not (output / file.path).exists()]
         known = {file.path: file for file in (planned.issued.files if planned.issued else ())}
         for file in made.files:
             if file not in missing and file.path not in known:
-                look = Look.at(output / file.path)
+                look = FileStamp.at(output / file.path)
                 known[file.path] = KnownFile(file.role, file.path, file.sha256, look)
         with laid(output, missing) as files:
             known |= {file.path: file for file in files.known}
@@ -200,7 +201,7 @@ class Desk:
         what = What.ISSUED if not planned.issued else What.RESTORED if missing else What.CONFIRMED
         return _happened(what, planned, made, missing)
 
-    def _forget_draft(self, planned: Planned) -> None:
+    def _forget_draft(self, planned: PlannedJob) -> None:
         """Remove a draft that says nothing else any more than the certificate."""
         standing = self.known.standings.get(planned.job)
         if standing and standing.state is State.DRAFT and standing.number == planned.number:
@@ -209,9 +210,14 @@ class Desk:
                     (self.fleet.output / file.path).unlink(missing_ok=True)
 
     def _entry(
-        self, planned: Planned, subject: Subject, state: State, message: str, made: Made | None = None
-    ) -> Entry:
-        return Entry(
+        self,
+        planned: PlannedJob,
+        subject: Subject,
+        state: State,
+        message: str,
+        made: MadeCertificate | None = None,
+    ) -> LedgerEntry:
+        return LedgerEntry(
             **asdict(subject),
             job=planned.job,
             night=self.night.began,
@@ -224,7 +230,9 @@ class Desk:
         )
 
 
-def _happened(what: What, planned: Planned, made: Made, written: Sequence[Finished]) -> Happened:
+def _happened(
+    what: What, planned: PlannedJob, made: MadeCertificate, written: Sequence[FinishedFile]
+) -> Happened:
     verdicts = [each.conforms for each in made.parameters if each.limit is not None]
     conforms = False if False in verdicts else True if verdicts and None not in verdicts else None
     files = tuple(file.path for file in written)

@@ -18,7 +18,7 @@ from sqlalchemy import Connection, Insert, Row, func, insert, select, update
 from sqlalchemy.exc import IntegrityError
 
 from zlmreport.files import Closable
-from zlmreport.fleet.basis import Basis, KnownFile
+from zlmreport.fleet.basis import CertificateBasis, KnownFile
 from zlmreport.fleet.database import (
     CERTIFICATES,
     ENTRIES,
@@ -32,11 +32,12 @@ from zlmreport.fleet.database import (
     open_database,
 )
 from zlmreport.fleet.records import (
+    SILENT,
     About,
-    Entry,
-    Kind,
+    LedgerEntry,
     News,
-    Notice,
+    NewsKind,
+    NightNotice,
     PastNight,
     RecordedParameter,
     State,
@@ -44,8 +45,6 @@ from zlmreport.fleet.records import (
 )
 from zlmreport.language import Language, Words
 
-#: A night that has given no sign of life for so long does nothing any more.
-STUCK = dt.timedelta(minutes=15)
 #: How often, and how many seconds apart, the lock of a night that was killed is tried.
 _ATTEMPTS, _PAUSE = 50, 0.1
 #: What the table of entries keeps of an entry as it is.
@@ -67,22 +66,24 @@ class Night:
     was_interrupted: bool  #: Whether the night before never came to its end.
     took_over: str = ""  #: When the night began that was stuck, and was killed for this one; empty for none.
 
-    def add(self, entry: Entry, files: Sequence[KnownFile] = (), basis: Basis | None = None) -> None:
+    def add(
+        self, entry: LedgerEntry, files: Sequence[KnownFile] = (), basis: CertificateBasis | None = None
+    ) -> None:
         """Add an entry that issues nothing: a draft or a failure."""
         with self.database.transaction() as connection:
             self._insert(connection, entry, files, basis)
 
     def issue(
         self,
-        entry: Entry,
+        entry: LedgerEntry,
         files: Sequence[KnownFile],
-        basis: Basis | None,
+        basis: CertificateBasis | None,
         lesson: Mapping[str, Any] | None = None,
     ) -> None:
         """Add the entry of a certificate, and in the same transaction its number and its files.
 
         A number that this fleet gave before keeps its first entry, and its files are those of now. The lesson
-        is what its readings teach other tests, as `zlmreport.model.priors.Lesson` gives it.
+        is what its readings teach other tests, as `zlmreport.model.fitting.priors.Lesson` gives it.
 
         Raises `NumberTakenError` if the number is that of another fleet's certificate.
         """
@@ -114,7 +115,7 @@ class Night:
         """Give a sign of life."""
         self._note(beat=now)
 
-    def notice(self, notices: Sequence[Notice]) -> None:
+    def notice(self, notices: Sequence[NightNotice]) -> None:
         """Note what concerns the whole night."""
         self._note(notices=[[each.about.value, *map(each.text.in_language, Language)] for each in notices])
 
@@ -130,7 +131,7 @@ class Night:
             over = [
                 row.id
                 for key, row in known.items()
-                if is_all and key not in now and Kind(row.kind).is_condition
+                if is_all and key not in now and NewsKind(row.kind).is_condition
             ]
             if over:
                 connection.execute(update(NEWS).where(NEWS.c.id.in_(over)).values(ended=self.identity))
@@ -149,7 +150,7 @@ class Night:
             if new:
                 connection.execute(insert(NEWS), new)
 
-    def subjects(self, kind: Kind) -> frozenset[str]:
+    def subjects(self, kind: NewsKind) -> frozenset[str]:
         """Return the subjects of all news of a kind that there ever was."""
         query = select(NEWS.c.subject).where(NEWS.c.fleet == self.fleet, NEWS.c.kind == kind.value)
         with self.database.transaction() as connection:
@@ -167,7 +168,7 @@ class Night:
             last_ended = connection.scalar(ended) or 0
         if not was_tried and not any(way in row.told for row in rows):
             rows = [row for row in rows if row.night > last_ended or _is_still_so(row)]
-        return tuple(News(Kind(row.kind), row.subject, row.text) for row in rows if way not in row.told)
+        return tuple(News(NewsKind(row.kind), row.subject, row.text) for row in rows if way not in row.told)
 
     def tell(self, way: str) -> None:
         """Note that all news was told by a way."""
@@ -189,9 +190,9 @@ class Night:
     def _insert(
         self,
         connection: Connection,
-        entry: Entry,
+        entry: LedgerEntry,
         files: Sequence[KnownFile],
-        basis: Basis | None,
+        basis: CertificateBasis | None,
         lesson: Mapping[str, Any] | None = None,
     ) -> int:
         identity = _added(
@@ -215,7 +216,7 @@ class Night:
 
 
 def _is_still_so(news: Row[Any]) -> bool:
-    return news.ended is None and Kind(news.kind).is_condition
+    return news.ended is None and NewsKind(news.kind).is_condition
 
 
 def _added(connection: Connection, row: Insert) -> int:
@@ -231,13 +232,13 @@ def _added(connection: Connection, row: Insert) -> int:
 class Standing:
     """What the ledger knows of a job: the last that became of it."""
 
-    #: number, state, night and message: As `Entry` has them.
+    #: number, state, night and message: As `LedgerEntry` has them.
     number: str
     state: State
     night: str
     message: str
     files: tuple[KnownFile, ...]  #: Its certificate's, or its draft's.
-    basis: Basis | None  #: What they were made from; None of a job that failed.
+    basis: CertificateBasis | None  #: What they were made from; None of a job that failed.
     digest: str = ""  #: Of its inputs, where it was stopped.
     subject: Subject = field(default_factory=Subject)  #: Machine, axis, and date of the measurement.
 
@@ -259,7 +260,7 @@ class Taught:
 
     subject: Subject  #: What it is about.
     readings: frozenset[str]  #: Digests of its readings: two certificates of the same teach once.
-    lesson: Mapping[str, Any]  #: As `zlmreport.model.priors.Lesson` gives it.
+    lesson: Mapping[str, Any]  #: As `zlmreport.model.fitting.priors.Lesson` gives it.
 
 
 class Ledger(Closable):
@@ -289,7 +290,7 @@ class Ledger(Closable):
         """Copy the whole ledger into an SQLite file; raise `OSError` if that cannot be written."""
         copy(self._database, to)
 
-    def entries(self) -> Iterator[Entry]:
+    def entries(self) -> Iterator[LedgerEntry]:
         """Yield the whole history of the fleet with parameters, oldest first; drafts and failures too."""
         own = ENTRIES.c.fleet == self._fleet
         entries = (
@@ -322,7 +323,7 @@ class Ledger(Closable):
                 return None
             states = select(ENTRIES.c.state, func.count()).where(ENTRIES.c.night == night.id)
             came_to = {State(row[0]): row[1] for row in connection.execute(states.group_by(ENTRIES.c.state))}
-        notices = tuple(Notice(About(about), _words(*texts)) for about, *texts in night.notices or ())
+        notices = tuple(NightNotice(About(about), _words(*texts)) for about, *texts in night.notices or ())
         ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
         return PastNight(dt.datetime.fromisoformat(night.began), ended, notices, came_to, beat)
 
@@ -342,7 +343,7 @@ class Ledger(Closable):
                     row.began,
                     row.message,
                     _files(row.files),
-                    Basis.from_json(row.basis) if row.basis else None,
+                    CertificateBasis.from_json(row.basis) if row.basis else None,
                     row.digest,
                     Subject(**_subject(row)),
                 )
@@ -383,7 +384,7 @@ class Ledger(Closable):
         )
         with self._database.transaction() as connection:
             for row in connection.execute(query):
-                files = Basis.from_json(row.basis).files if row.basis else ()
+                files = CertificateBasis.from_json(row.basis).files if row.basis else ()
                 readings = frozenset(file.sha256 for file in files if file.role == "readings")
                 yield Taught(Subject(**_subject(row)), readings, row.lesson)
 
@@ -395,7 +396,7 @@ class Ledger(Closable):
 
         Raises `AccessError` if another is at work on it.
 
-        One of this host that has given no sign of life for `STUCK` is killed, and this one takes its place.
+        One of this host that has given no sign of life for `SILENT` is killed, and this one takes its place.
         """
         holder = f"{fleet_file} on {socket.gethostname()}, since {began}"
         with contextlib.ExitStack() as stack:
@@ -427,7 +428,7 @@ class Ledger(Closable):
         if night is None or night.ended or night.host != socket.gethostname() or not night.beat:
             return None
         silent = dt.datetime.fromisoformat(now) - dt.datetime.fromisoformat(night.beat)
-        return night if silent >= STUCK and night.process != os.getpid() else None
+        return night if silent >= SILENT and night.process != os.getpid() else None
 
 
 def _kill(process: int) -> None:
@@ -446,8 +447,8 @@ def _enter_soon(stack: contextlib.ExitStack, database: Database, holder: str) ->
     stack.enter_context(locked(database, holder))
 
 
-def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> Entry:
-    return Entry(
+def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> LedgerEntry:
+    return LedgerEntry(
         **_subject(row),
         job=row.job,
         night=row.began,

@@ -15,17 +15,25 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from zlmreport import pipeline
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
 from zlmreport.files import confined
-from zlmreport.fleet.basis import Basis, files_behind, named_files, program_versions, programs_of, release
+from zlmreport.fleet.basis import (
+    CertificateBasis,
+    files_behind,
+    named_files,
+    program_versions,
+    programs_of,
+    release,
+)
 from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.job.job import Job
 from zlmreport.job.loading import chosen_formats, load
 from zlmreport.language import Words
-from zlmreport.model.effect import Effect
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.model.effects.effect import Effect
+from zlmreport.plugin.protocols import Renderer
+from zlmreport.plugin.registry import Registry, find_plugins
 
 #: The longest time between two signs of life of a night, s.
 BEAT = 5.0
@@ -78,7 +86,7 @@ class Task:
 
 
 @dataclass(frozen=True, slots=True)
-class Finished:
+class FinishedFile:
     """A file that is to be on the disk."""
 
     role: str  #: Suffix of its format: ``.pdf``.
@@ -92,12 +100,12 @@ class Finished:
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class MadeCertificate:
     """A certificate, or its draft."""
 
     subject: Subject  #: What it is about.
-    basis: Basis  #: What it was made from.
-    files: tuple[Finished, ...]
+    basis: CertificateBasis  #: What it was made from.
+    files: tuple[FinishedFile, ...]
     parameters: tuple[RecordedParameter, ...]  #: What it states.
     is_draft: bool  #: Whether its number was issued with another content.
     seconds: float = 0.0  #: How long it took.
@@ -124,7 +132,7 @@ def late(task: Task) -> Failed:
 _ONE_AT_A_TIME = threading.Lock()
 
 
-def work(task: Task) -> Made | Failed:
+def work(task: Task) -> MadeCertificate | Failed:
     """Make a certificate; whatever goes wrong is the answer and no exception."""
     with _ONE_AT_A_TIME, confined(task.confine):
         subject = Subject()
@@ -147,13 +155,14 @@ def warm(plugins: tuple[Path, ...]) -> None:
     _registry(plugins)
 
 
-def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
+def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertificate:
     registry = _registry(task.plugins)
     programs = _programs(task, job, registry)
     named = named_files(job)
+    renderers = [registry.renderer(identifier) for identifier in job.formats]
+    _demand_one_of_a_suffix(task.job, renderers)
     outcome = pipeline.run(job, registry)
     certificate = outcome.certificate
-    renderers = [registry.renderer(identifier) for identifier in job.formats]
     suffixes = [each.suffix for each in renderers]
     contents = [each.content for each in outcome.documents]
     folder = PurePosixPath(task.folder or folder_of(job.keys, fleet.keys.output.layout))
@@ -175,17 +184,30 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> Made:
         contents = [rendered[each.identifier] for each in renderers]
     stem = certificate.number + (MARK if is_draft else "")
     files = tuple(files_behind(certificate, named, job, fleet, begun))
-    return Made(
+    return MadeCertificate(
         subject=Subject.of(job),
-        basis=Basis(files, programs, job.formats, defaults_digest(fleet)),
+        basis=CertificateBasis(files, programs, job.formats, defaults_digest(fleet)),
         files=tuple(
-            Finished(suffix, str(folder / f"{stem}{suffix}"), content)
+            FinishedFile(suffix, str(folder / f"{stem}{suffix}"), content)
             for suffix, content in zip(suffixes, contents, strict=True)
         ),
         parameters=parameters,
         is_draft=is_draft,
         lesson=None if is_draft else _lesson_of(certificate, job, registry.effects),
     )
+
+
+def _demand_one_of_a_suffix(job: Path, renderers: Sequence[Renderer]) -> None:
+    """Refuse formats of one suffix: the ledger knows the files of a certificate by theirs."""
+    known: dict[str, str] = {}
+    for each in renderers:
+        other = known.setdefault(each.suffix, each.identifier)
+        if other != each.identifier:
+            raise InputError.at(
+                Place(str(job)),
+                f"a fleet keeps one {each.suffix} file of a certificate; choose {other} or {each.identifier} "
+                "(output.formats)",
+            )
 
 
 def _lesson_of(certificate: Certificate, job: Job, effects: Sequence[Effect]) -> Mapping[str, Any] | None:
@@ -197,9 +219,9 @@ def _lesson_of(certificate: Certificate, job: Job, effects: Sequence[Effect]) ->
     diagnosis = certificate.diagnosis
     if diagnosis is None:
         return None
-    from zlmreport.model.diagnosis import Verdict  # noqa: PLC0415 - only where there is a model
-    from zlmreport.model.priors import Lesson  # noqa: PLC0415
-    from zlmreport.model.study import Study  # noqa: PLC0415
+    from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - only where there is a model
+    from zlmreport.model.diagnosis.study import Study  # noqa: PLC0415
+    from zlmreport.model.fitting.priors import Lesson  # noqa: PLC0415
 
     if job.sessions or job.priors:
         alone = replace(job, sessions=(), priors=None)

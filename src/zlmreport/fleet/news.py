@@ -18,27 +18,27 @@ from zlmreport.fleet.drifts import Trend, by_axis
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.overview_words import ABOUTS
 from zlmreport.fleet.plan import Evening
-from zlmreport.fleet.records import About, Kind, News, Notice, named
+from zlmreport.fleet.records import About, News, NewsKind, NightNotice, named
 from zlmreport.fleet.state import FleetState
 from zlmreport.job.contradictions import validate
 from zlmreport.job.fleet import FleetFile
 from zlmreport.job.tree import Keys, Scalar, found_at
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
+from zlmreport.language.formatting import fixed_number, general_number
+from zlmreport.measurement.units import behind, printed_symbol
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.formatting import fixed_number, general_number
-from zlmreport.quantities.units import behind, printed_symbol
+from zlmreport.plugin.registry import Registry, find_plugins
 
 _KINDS = {
-    Kind.NIGHT: Words(en="the whole night", de="zum ganzen Lauf"),
-    Kind.FAILED: Words(en="failed", de="fehlgeschlagen"),
-    Kind.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
-    Kind.CHANGED: Words(en="changed", de="verändert"),
-    Kind.DRIFTING: Words(en="drifting", de="mit Drift"),
-    Kind.OVERDUE: Words(en="overdue", de="überfällig"),
-    Kind.DRAFT: Words(en="draft", de="als Entwurf"),
+    NewsKind.NIGHT: Words(en="the whole night", de="zum ganzen Lauf"),
+    NewsKind.FAILED: Words(en="failed", de="fehlgeschlagen"),
+    NewsKind.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
+    NewsKind.CHANGED: Words(en="changed", de="verändert"),
+    NewsKind.DRIFTING: Words(en="drifting", de="mit Drift"),
+    NewsKind.OVERDUE: Words(en="overdue", de="überfällig"),
+    NewsKind.DRAFT: Words(en="draft", de="als Entwurf"),
 }
 _NOT_MET = Words(en="{symbol} = {value}, limit {limit}", de="{symbol} = {value}, Grenzwert {limit}")
 _WILDER = Words(en="scatters more than before", de="streut stärker als zuvor")
@@ -61,12 +61,12 @@ _UNTOLD = Words(
 _FAILED = Words(en="{job} failed", de="{job} ist fehlgeschlagen")
 
 
-def news_of_night(notices: Iterable[Notice], language: Language) -> Iterator[News]:
+def news_of_night(notices: Iterable[NightNotice], language: Language) -> Iterator[News]:
     """Yield what concerns the whole night."""
     for each in notices:
         text = each.text.in_language(language)
         subject = each.about.value if each.about.is_condition else f"{each.about.value}|{text}"
-        yield News(Kind.NIGHT, subject, f"{ABOUTS[each.about].in_language(language)}: {text}")
+        yield News(NewsKind.NIGHT, subject, f"{ABOUTS[each.about].in_language(language)}: {text}")
 
 
 def news_of(state: FleetState, language: Language) -> Iterator[News]:
@@ -76,21 +76,23 @@ def news_of(state: FleetState, language: Language) -> Iterator[News]:
         entry = failure.entry
         message = entry.message.partition("\n")[0]
         told = message if message.startswith(entry.job) else f"{entry.job}: {message}"
-        yield News(Kind.FAILED, f"{entry.job}|{message}", told)
+        yield News(NewsKind.FAILED, f"{entry.job}|{message}", told)
     for (machine, axis), trends in by_axis(state.not_met).items():
         stated = ", ".join(_not_met(each, language) for each in trends)
-        yield News(Kind.NOT_MET, f"{machine}|{axis}", f"{named(machine, axis)}: {stated}")
+        yield News(NewsKind.NOT_MET, f"{machine}|{axis}", f"{named(machine, axis)}: {stated}")
     for (machine, axis), trends in by_axis(state.changed).items():
         yield _changed(machine, axis, trends, state, language)
     for (machine, axis), trends in by_axis(state.drifting).items():
         stated = "; ".join(_drift(each, language) for each in trends)
-        yield News(Kind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{named(machine, axis)}: {stated}")
+        yield News(
+            NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{named(machine, axis)}: {stated}"
+        )
     for term in state.overdue:
         entry = term.entry
         told = _OVERDUE.given(measured=entry.measured, due=str(term.due)).in_language(language)
-        yield News(Kind.OVERDUE, entry.term(term.due.isoformat()), f"{entry.of_axis}: {told}")
+        yield News(NewsKind.OVERDUE, entry.term(term.due.isoformat()), f"{entry.of_axis}: {told}")
     for entry in state.drafts:
-        yield News(Kind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
+        yield News(NewsKind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 
 
 def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
@@ -129,7 +131,7 @@ def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState
     told = named(machine, axis)
     if not stepped:
         subject = f"{machine}|{axis}|scatter|{trends[0].since}"
-        return News(Kind.CHANGED, subject, f"{told}: {_WILDER.in_language(language)}")
+        return News(NewsKind.CHANGED, subject, f"{told}: {_WILDER.in_language(language)}")
     cause = cause_of(stepped[0], state.effects)
     since = cause.since.isoformat() if cause else ""
     changes = ", ".join(
@@ -142,7 +144,7 @@ def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState
         text += f"; {cause.effect} {_signed(cause.change, cause.unit, language)}"
     if cause and cause.after:
         text += _INSTRUMENT.given(after=cause.after, before=cause.before).in_language(language)
-    return News(Kind.CHANGED, f"{machine}|{axis}|{since}", text)
+    return News(NewsKind.CHANGED, f"{machine}|{axis}|{since}", text)
 
 
 def _not_met(trend: Trend, language: Language) -> str:
@@ -209,17 +211,17 @@ class Ways:
 
     all: tuple[Way, ...] = ()  #: In the order of the fleet file.
     #: What is to be said of those that nobody was reached by tonight.
-    untold: dict[str, Notice] = field(default_factory=dict)
+    untold: dict[str, NightNotice] = field(default_factory=dict)
 
     def of(self, occasion: Occasion) -> Iterator[Way]:
         """Yield those that tell of an occasion, and may still work."""
         return (way for way in self.all if occasion in way.tells and way.name not in self.untold)
 
-    def tell(self, way: Way, message: Message, watch: Callable[[Notice], None]) -> bool:
+    def tell(self, way: Way, message: Message, watch: Callable[[NightNotice], None]) -> bool:
         """Tell people by one of them, and return whether it was taken; if not, the watch takes note."""
         reason = way.tell(message)
         if reason:
-            self.untold[way.name] = Notice(About.UNTOLD, _UNTOLD.given(way=way.name, reason=reason))
+            self.untold[way.name] = NightNotice(About.UNTOLD, _UNTOLD.given(way=way.name, reason=reason))
             watch(self.untold[way.name])
         return not reason
 

@@ -15,15 +15,15 @@ from typing import Protocol
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import Document, confinement, write
-from zlmreport.fleet.basis import Basis, Disk, changes, path_in, program_versions
+from zlmreport.fleet.basis import CertificateBasis, Disk, changes, path_in, program_versions
 from zlmreport.fleet.exports import heartbeat, priors
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
 from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
 from zlmreport.fleet.notices import documents, left, missing, notices, of_last, vanished
-from zlmreport.fleet.plan import Due, Evening, Planned, plan, reasons
-from zlmreport.fleet.records import About, Kind, Notice, PastNight, State, due_date
+from zlmreport.fleet.plan import Due, Evening, PlannedJob, plan, reasons
+from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, State, due_date
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, job_files
@@ -42,13 +42,13 @@ _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 class Watch(Protocol):
     """Whoever watches a night."""
 
-    def planned(self, jobs: Sequence[Planned]) -> None:
+    def planned(self, jobs: Sequence[PlannedJob]) -> None:
         """Take note of what is due."""
 
     def happened(self, happened: Happened) -> None:
         """Take note of what happened to a job."""
 
-    def noticed(self, notice: Notice) -> None:
+    def noticed(self, notice: NightNotice) -> None:
         """Take note of something that concerns the whole night, and is not as it should be."""
 
     def learned(self, file: Path) -> None:
@@ -57,7 +57,7 @@ class Watch(Protocol):
 
 def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]) -> Evening:
     """Return what is known before a night."""
-    now = Basis(
+    now = CertificateBasis(
         files=(),
         programs=program_versions(files=plugins),
         formats=tuple(identifier for identifier, _ in fleet.formats),
@@ -67,7 +67,7 @@ def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: t
     return Evening(fleet, at_work, ledger.standings(), ledger.certificates(), now)
 
 
-def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[Planned, ...]:
+def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[PlannedJob, ...]:
     """Return what a night would do; nothing is made or written."""
     jobs = job_files(fleet)
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
@@ -90,7 +90,7 @@ class Order:
     seconds: float = math.inf  #: After which no job is begun any more.
 
 
-def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
+def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     """Make all that is due.
 
     Raises `InputError` if a pattern of jobs matches nothing; `AccessError` if the ledger or the scheduler
@@ -118,14 +118,14 @@ def spend(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
                 raise MissingError.at(place, notice.english)
-            mistakes = (Notice(About.JOBS, same(each.message)) for each in unmatched)
+            mistakes = (NightNotice(About.JOBS, same(each.message)) for each in unmatched)
             noticed = (*notices(known, night, gone, last), *mistakes)
             night.notice(noticed)
             night.report(tuple(news_of_night(noticed, language)), is_all=False)  # it may be killed, too
             for notice in noticed:
                 watch.noticed(notice)
             witness = _Witness(watch, known, ways)
-            for notice in _spend(known, order, witness, _Work(night, gone, ends, ledger.longest())):
+            for notice in _work_through(known, order, witness, _Work(night, gone, ends, ledger.longest())):
                 watch.noticed(notice)
                 noticed = (*noticed, notice)
             if witness.saw_something or night.was_interrupted or (last and last.notices):
@@ -178,7 +178,7 @@ class _Witness:
                 self.ways.tell(way, message, self.watch.noticed)
 
 
-def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[Notice]:
+def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[NightNotice]:
     """Write what the tests of the fleet teach, where the fleet file has a folder for it."""
     if fleet.keys.priors is None:
         return
@@ -186,7 +186,7 @@ def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[Notice]:
         for path in write(priors(ledger.lessons(), fleet.keys.priors)):
             watch.learned(path)
     except AccessError as error:
-        notice = Notice(About.PRIORS, _UNTAUGHT.given(problem=str(error.problems[0])))
+        notice = NightNotice(About.PRIORS, _UNTAUGHT.given(problem=str(error.problems[0])))
         watch.noticed(notice)
         yield notice
 
@@ -217,7 +217,7 @@ def _tidy(known: Evening) -> None:
     tidy(known.fleet.output, itertools.chain.from_iterable(kept))
 
 
-def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> Iterator[Notice]:
+def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) -> Iterator[NightNotice]:
     """Make what is due, and yield what is to be said of the whole night at its end."""
     night = work.night
     if night.was_interrupted:
@@ -225,14 +225,18 @@ def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> Iter
     why = reasons(known)
     with contextlib.ExitStack() as stack:
         due = sum(map(bool, why.values()))
-        executor = _executor(known.fleet, order, due, lambda: _sign(known.fleet, night)) if due else None
+        executor = (
+            _executor(known.fleet, order, due, lambda: _write_sign_of_life(known.fleet, night))
+            if due
+            else None
+        )
         stack.enter_context(executor or contextlib.nullcontext())
         planned = plan(known, why)
         witness.watch.planned(planned)
         desk = Desk(known, night)
         for happened in (
             *map(desk.vanished, work.gone),
-            *overdue(known, night.subjects(Kind.OVERDUE), night.began),
+            *overdue(known, night.subjects(NewsKind.OVERDUE), night.began),
         ):
             witness.happened(happened)
         for each in planned:
@@ -256,13 +260,13 @@ def _spend(known: Evening, order: Order, witness: _Witness, work: _Work) -> Iter
     yield from documents(known, planned)
 
 
-def _sign(fleet: FleetFile, night: Night) -> None:
+def _write_sign_of_life(fleet: FleetFile, night: Night) -> None:
     """Give a sign of life, to the ledger and to whoever watches files."""
     night.beat(_now())
     _beat(fleet, is_at_work=True)
 
 
-def _not_made(planned: Planned, desk: Desk) -> Happened:
+def _not_made(planned: PlannedJob, desk: Desk) -> Happened:
     if planned.due is Due.NOTHING:
         return Happened(What.UNCHANGED, planned.job, planned.number)
     if planned.due is Due.SET_ASIDE:
@@ -291,7 +295,7 @@ def overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened
             yield Happened(What.OVERDUE, job, standing.number, why)
 
 
-def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:
+def _task(planned: PlannedJob, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:
     issued, limits = planned.issued, known.fleet.keys.limits
     patience = max(Limits().seconds, _TIMES_LONGEST * work.longest.get(planned.job, 0.0))
     is_elsewhere = known.fleet.keys.executor.kind == "dask"  # other machines work in other folders
@@ -309,7 +313,7 @@ def _task(planned: Planned, known: Evening, plugins: tuple[Path, ...], work: _Wo
     )
 
 
-def _is_upgrade(planned: Planned, known: Evening) -> bool:
+def _is_upgrade(planned: PlannedJob, known: Evening) -> bool:
     """Whether nothing but programs changed since a certificate was issued."""
     standing = known.standings.get(planned.job)
     if standing is None or standing.basis is None or standing.state is not State.MADE:

@@ -9,8 +9,8 @@ from pathlib import Path
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.fleet.basis import Disk
 from zlmreport.fleet.ledger import Night
-from zlmreport.fleet.plan import Evening, Planned, damage
-from zlmreport.fleet.records import About, Notice, PastNight, State
+from zlmreport.fleet.plan import Evening, PlannedJob, damage
+from zlmreport.fleet.records import About, NightNotice, PastNight, State
 from zlmreport.job.fleet import FleetFile, is_retired, number_of
 from zlmreport.language import Words, same
 
@@ -54,6 +54,10 @@ _MOST_GONE = Words(
     de="{gone} von {before} Aufträgen fehlen seit dem letzten Lauf; bitte prüfen, ob ihr Ordner eingehängt "
     "ist, oder unter retired nennen, was mit Absicht fehlt",
 )
+_NO_FOLDER = Words(
+    en="is no folder, and the certificates of the fleet belong into one; move away what is there",
+    de="ist kein Ordner, und die Kalibrierscheine der Flotte gehören in einen; bitte entfernen, was dort ist",
+)
 _EMPTY = Words(
     en="the folder is empty, and {number} certificates were issued into it; look whether it is mounted. A "
     "file in it, whatever it is, lets the night make them again",
@@ -87,20 +91,22 @@ def vanished(known: Evening) -> tuple[str, ...]:
     )
 
 
-def notices(known: Evening, night: Night, gone: Sequence[str], last: PastNight | None) -> Iterator[Notice]:
+def notices(
+    known: Evening, night: Night, gone: Sequence[str], last: PastNight | None
+) -> Iterator[NightNotice]:
     """Yield what is to be said before a night, and lets it go on."""
     yield from of_last(night, last)
     if last and dt.datetime.fromisoformat(night.began) < last.began:
-        yield Notice(About.CLOCK, _CLOCK.given(now=night.began, last=last.began.isoformat()))
+        yield NightNotice(About.CLOCK, _CLOCK.given(now=night.began, last=last.began.isoformat()))
     new, before = _newly_gone(known, gone), len(known.jobs) + len(gone)
     if len(new) > _FEW and len(new) > _PART * before:
-        yield Notice(About.JOBS, _MANY_GONE.given(gone=len(new), before=before))
+        yield NightNotice(About.JOBS, _MANY_GONE.given(gone=len(new), before=before))
 
 
-def of_last(night: Night, last: PastNight | None) -> Iterator[Notice]:
+def of_last(night: Night, last: PastNight | None) -> Iterator[NightNotice]:
     """Yield how the night before ended, if it did not end by itself; one that was refused since told it."""
     if night.took_over:
-        yield Notice(About.STUCK, _STUCK.given(night=night.took_over))
+        yield NightNotice(About.STUCK, _STUCK.given(night=night.took_over))
     if last is None or not night.was_interrupted or night.took_over == last.began.isoformat():
         return
     told = {each.about for each in last.notices}
@@ -109,39 +115,41 @@ def of_last(night: Night, last: PastNight | None) -> Iterator[Notice]:
         came_to = _listed(states) if states else _NOTHING
         beat = (last.beat or last.began).isoformat()
         text = _BROKEN.given(night=last.began.isoformat(), beat=beat, states=came_to)
-        yield Notice(About.BROKEN, text)
+        yield NightNotice(About.BROKEN, text)
 
 
-def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, Notice] | None:
+def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotice] | None:
     """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None."""
     fleet = known.fleet
     new = _newly_gone(known, gone)
     if (gone and not known.jobs) or (len(new) > _FEW and len(new) > len(known.jobs)):
         text = _MOST_GONE.given(gone=len(new or gone), before=len(known.jobs) + len(gone))
-        return Place(str(fleet.path)), Notice(About.JOBS, text)
+        return Place(str(fleet.path)), NightNotice(About.JOBS, text)
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
+    if fleet.output.exists() and not fleet.output.is_dir():
+        return Place(str(fleet.output)), NightNotice(About.FOLDER, _NO_FOLDER)
     is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)
     if own and is_empty:
-        return Place(str(fleet.output)), Notice(About.FOLDER, _EMPTY.given(number=len(own)))
+        return Place(str(fleet.output)), NightNotice(About.FOLDER, _EMPTY.given(number=len(own)))
     if known.standings or is_empty:
         return None
     stems = {path.name.partition(".")[0] for path in fleet.output.rglob("*") if path.is_file()}
     found, jobs = sum(_number(path, fleet) in stems for path in known.jobs), len(known.jobs)
     if found > _FEW and 2 * found > jobs:
         places = {"folder": str(fleet.output), "fleet": str(fleet.path)}
-        return Place(str(fleet.ledger)), Notice(
+        return Place(str(fleet.ledger)), NightNotice(
             About.LEDGER, _FOREIGN.given(found=found, jobs=jobs, **places)
         )
     return None
 
 
-def left(number: int, due: int) -> Iterator[Notice]:
+def left(number: int, due: int) -> Iterator[NightNotice]:
     """Yield how many jobs there was no time for."""
     if number:
-        yield Notice(About.LEFT, _LEFT.given(left=number, due=due))
+        yield NightNotice(About.LEFT, _LEFT.given(left=number, due=due))
 
 
-def documents(known: Evening, planned: Iterable[Planned]) -> Iterator[Notice]:
+def documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterator[NightNotice]:
     """Yield, after a night, what became of certificates that no job made again.
 
     They are those of retired jobs, of jobs that have another number by now, or that are drafts.
@@ -160,7 +168,7 @@ def documents(known: Evening, planned: Iterable[Planned]) -> Iterator[Notice]:
         numbers = same(", ".join(damaged[:_NAMED]))
         more = len(damaged) - _NAMED
         text = _MORE.given(numbers=numbers, more=more) if more > 0 else numbers
-        yield Notice(About.DOCUMENTS, _DOCUMENTS.given(numbers=text))
+        yield NightNotice(About.DOCUMENTS, _DOCUMENTS.given(numbers=text))
 
 
 def _listed(words: Sequence[Words]) -> Words:

@@ -5,26 +5,20 @@ What needs somebody, worst first; every machine with its axes and their latest v
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import date, timedelta
 from itertools import groupby
 from typing import Generic, TypeVar
 
-from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.causes import LEAST_MACHINES, Shared, shared
-from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
-from zlmreport.fleet.overview_cells import Cells, Names, Period, small_graph
-from zlmreport.fleet.records import Entry, Notice, PastNight, RecordedParameter, State
-from zlmreport.fleet.state import SOON, Failure, FleetState, Term
-from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, level_of
-from zlmreport.fleet.trend import Calibration, Series, line_through
-from zlmreport.language import Language, Words
-from zlmreport.typesetting.overview import (
+from zlmreport.document.typesetting.overview import (
     OverviewCellContext,
     OverviewContext,
     OverviewGroupContext,
     OverviewLegendContext,
+    OverviewMachineContext,
+    OverviewMachinesContext,
+    OverviewRowContext,
     OverviewSectionContext,
     OverviewTableContext,
     OverviewToolsContext,
@@ -33,8 +27,19 @@ from zlmreport.typesetting.overview import (
     overview_script,
     overview_style,
 )
-from zlmreport.typesetting.resources import fingerprint
-from zlmreport.typesetting.templates import render
+from zlmreport.document.typesetting.resources import fingerprint
+from zlmreport.document.typesetting.templates import render
+from zlmreport.fleet import overview_words as words
+from zlmreport.fleet.causes import LEAST_MACHINES, Shared, shared
+from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
+from zlmreport.fleet.overview_cells import Cells, Names, key_of
+from zlmreport.fleet.overview_trend import trend_in_full
+from zlmreport.fleet.records import LedgerEntry, NightNotice, PastNight, RecordedParameter, State
+from zlmreport.fleet.state import SOON, DueDate, FailingJob, FleetState
+from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, level_of
+from zlmreport.fleet.trend import Calibration, Series, line_through
+from zlmreport.fleet.trend_graph import Period, trend_graph
+from zlmreport.language import Language, Words
 from zlmreport.version import __version__
 
 _MINUTE = 60
@@ -47,9 +52,11 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
     """
     dates = [each.measured for trend in state.trends for each in trend.series.calibrations]
     period = Period(min(dates, default=date.min), max(dates, default=date.min))
-    cells = Cells(language, names, period, files, state.effects)
-    script = overview_script()
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
+    chosen = _shown_in_full(printed)
+    anchors = {key_of(each.series): f"trend-{number}" for number, each in enumerate(chosen, 1)}
+    cells = Cells(language, names, period, files, state.effects, anchors)
+    script = overview_script()
     return render(
         OverviewContext(
             language=language.value,
@@ -63,6 +70,7 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
             tiles=tuple(_tiles(printed, cells)),
             tiles_title=cells.say(words.HEADLINE),
             sections=tuple(map(render, _sections(printed, cells))),
+            trends=tuple(render(trend_in_full(each, cells)) for each in chosen),
         )
     )
 
@@ -77,6 +85,8 @@ def _run(night: PastNight | None) -> Words:
     if night is None:
         return words.NEVER
     began = night.began.strftime("%Y-%m-%d %H:%M UTC")
+    if night.is_at_work:
+        return words.AT_WORK.given(began=began, done=night.done)
     if night.seconds is None:
         return words.INTERRUPTED.given(began=began)
     minutes, seconds = divmod(round(night.seconds), _MINUTE)
@@ -97,6 +107,8 @@ def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
         (len(state.drafts), words.DRAFTS, "drafts"),
     )
     for number, label, key in counted:
+        if key == "noticed" and not number:
+            continue  # a run as a whole is no number of things that may be none
         style = f"raised {key}" if number and key != "due" else "calm"
         yield TileContext(str(number), cells.say(label), style, key if number else "")
     yield TileContext(str(len(state.axes)), cells.say(words.AXES), "calm", "machines")
@@ -173,18 +185,18 @@ _VALUES = (
 )
 _COURSE = (words.COURSE, Cells.course)
 _OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, Cells.latest))
-_OF_TERMS: tuple[tuple[Words, Callable[[Cells, Term], OverviewCellContext]], ...] = (
+_OF_TERMS: tuple[tuple[Words, Callable[[Cells, DueDate], OverviewCellContext]], ...] = (
     (words.MEASURED_ON, lambda _, term: _date(term.entry.measured)),
     (words.DUE, lambda _, term: _date(term.due.isoformat())),
 )
-_NOTICED: _Table[Notice] = _Table(
+_NOTICED: _Table[NightNotice] = _Table(
     "noticed",
     words.NOTICED,
     words.NOTICED_CAPTION,
     words.ABOUT,
     ((words.MESSAGE, lambda cells, notice: _message(cells.say(notice.text))),),
 )
-_FAILED: _Table[Failure] = _Table(
+_FAILED: _Table[FailingJob] = _Table(
     "failed",
     words.FAILED,
     words.FAILED_CAPTION,
@@ -214,7 +226,7 @@ _OVERDUE = _Table("overdue", words.OVERDUE, words.OVERDUE_CAPTION, words.CERTIFI
 _DUE = _Table(
     "due-soon", words.DUE_SOON, words.DUE_CAPTION.given(days=SOON.days), words.CERTIFICATE, _OF_TERMS
 )
-_DRAFTS: _Table[Entry] = _Table(
+_DRAFTS: _Table[LedgerEntry] = _Table(
     "drafts",
     words.DRAFTS,
     words.DRAFTS_CAPTION,
@@ -264,7 +276,7 @@ def _axes(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCellC
     return ((cells.axis(each[0]), each) for each in by_axis(trends).values())
 
 
-def _terms(terms: Sequence[Term], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[Term]]]:
+def _terms(terms: Sequence[DueDate], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[DueDate]]]:
     return ((cells.issued(each.entry), [each]) for each in terms)
 
 
@@ -277,25 +289,59 @@ def _drifts(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCel
         yield replace(head, note=note), shown
 
 
-def machines(state: FleetState, cells: Cells) -> OverviewTableContext:
-    """Return the table of all axes, machine by machine."""
-    table = _Table(
-        "axes",
-        words.AXES,
-        words.MACHINE_CAPTION.given(first=cells.period.first.isoformat()),
-        words.AXIS,
-        (*_VALUES, (words.STATE, Cells.state), _COURSE, (words.CHANGE_OR_DRIFT, Cells.change_or_drift)),
-        "machine",
-    )
+def machines(state: FleetState, cells: Cells) -> OverviewMachinesContext:
+    """Return all axes, machine by machine: of each its parameters, a row each."""
     marks, due = _marks(state), {term.entry.axis_key: term.due for term in state.terms}
     axes = by_axis(state.trends)
-    made = table.of([(_head(each, cells, due.get(key)), _shown(each)) for key, each in axes.items()], cells)
-    facts = [
-        _facts_of(each, [mark for mark, _, marked in marks if key in marked], due.get(key))
-        for key, each in axes.items()
-    ]
-    groups = tuple(replace(group, facts=own) for group, own in zip(made.groups, facts, strict=True))
-    return replace(made, groups=groups)
+    of_machine = groupby(axes.items(), key=lambda item: item[0][0])
+    headings = (words.AXIS, *(heading for heading, _ in _OF_AXES), words.MEASURED_ON)
+    return OverviewMachinesContext(
+        title=cells.say(words.AXES),
+        count=str(len(axes)),
+        caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
+        headings=tuple(map(cells.say, headings)),
+        machines=tuple(_machine(dict(its_axes), marks, due, cells) for _, its_axes in of_machine),
+    )
+
+
+_OF_AXES: tuple[tuple[Words, Callable[[Cells, Trend], OverviewCellContext]], ...] = (
+    (words.PARAMETER, Cells.brief),
+    (words.VALUE, Cells.value),
+    (words.LIMIT, Cells.limit),
+    (words.STATE, Cells.state),
+    _COURSE,
+    (words.CHANGE_OR_DRIFT, Cells.change_in_brief),
+)
+
+
+def _machine(
+    axes: Mapping[tuple[str, str], Sequence[Trend]],
+    marks: Sequence[tuple[str, Words, frozenset[tuple[str, str]]]],
+    due: Mapping[tuple[str, str], date],
+    cells: Cells,
+) -> OverviewMachineContext:
+    rows = []
+    for key, trends in axes.items():
+        shown = _shown(trends)
+        facts = _facts_of(trends, [mark for mark, _, marked in marks if key in marked], due.get(key))
+        for number, trend in enumerate(shown):
+            beside = tuple(cell(cells, trend) for _, cell in _OF_AXES)
+            head = None if number else cells.quantity(trend)
+            measured = OverviewCellContext() if number else cells.measured(trend, due.get(key))
+            row = (*beside, measured)
+            rows.append(OverviewRowContext(head, len(shown), row, facts))
+    counted = words.ONE_AXIS if len(axes) == 1 else words.COUNTED_AXES.given(number=len(axes))
+    name = cells.machine(next(iter(axes.values()))[0].series)
+    return OverviewMachineContext(name, cells.say(counted), tuple(rows))
+
+
+def _shown_in_full(state: FleetState) -> tuple[Trend, ...]:
+    """Return the trends whose small graphs stand anywhere, in the order of the ledger."""
+    of_axes = [each for trends in by_axis(state.trends).values() for each in _shown(trends)]
+    drifting = [each for trends in by_axis(state.drifting).values() for each in trends]
+    named = (*of_axes, *state.not_met, *state.undecided, *state.changed, *drifting)
+    keys = {key_of(each.series) for each in named}
+    return tuple(each for each in state.trends if key_of(each.series) in keys)
 
 
 def tools(state: FleetState, cells: Cells) -> OverviewToolsContext:
@@ -333,18 +379,12 @@ def _latest(trends: Sequence[Trend]) -> Calibration:
     return max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
 
 
-def _head(trends: Sequence[Trend], cells: Cells, due: date | None) -> OverviewCellContext:
-    latest, head = _latest(trends), cells.axis(trends[0])
-    said = words.MEASURED_DUE.given(due=str(due)) if due else words.MEASURED
-    note = f"{head.note}\n{cells.say(said.given(date=latest.measured.isoformat()))}"
-    return replace(head, note=note, links=cells.links(latest.entry))
-
-
 def _facts_of(trends: Sequence[Trend], marks: Sequence[str], due: date | None) -> tuple[tuple[str, str], ...]:
     """Return by what a reader chooses and orders an axis."""
     latest = [trend.series.latest for trend in trends]
     used = [abs(each.value) / each.limit for each in latest if each.limit]
     return (
+        ("axis", "\n".join(trends[0].series.axis_key)),
         ("marks", " ".join(marks)),
         ("used", f"{max(used):.3f}" if used else ""),
         ("measured", _latest(trends).measured.isoformat()),
@@ -392,14 +432,14 @@ def legend(cells: Cells) -> OverviewLegendContext:
     calibrations = sample.series.calibrations
     period = Period(calibrations[0].measured, calibrations[-1].measured)
     return OverviewLegendContext(
-        drawing=drawing(small_graph(sample, period, cells.say(words.SAMPLE))),
+        drawing=drawing(trend_graph(sample, period, cells.say(words.SAMPLE), cells.language.decimal_sign)),
         terms=tuple((cells.say(term), cells.say(meaning)) for term, meaning in terms),
         paragraphs=(cells.say(steps), cells.say(method), cells.say(words.FORECAST_METHOD)),
     )
 
 
 def _sample() -> Trend:
-    entry = Entry(job="", night="", state=State.MADE)
+    entry = LedgerEntry(job="", night="", state=State.MADE)
     calibrations = tuple(
         Calibration(
             _FIRST + timedelta(days=91 * quarter),

@@ -1,29 +1,27 @@
-"""Cells of the overview's tables: names, values with their uncertainty, limits, states, drifts, small graphs.
-
-Every line of a graph has a shape of its own, and a class by which a style sheet gives it its colour.
-"""
+"""Cells of the overview's tables: names, values with their uncertainty, limits, states, drifts, graphs."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from datetime import date
 from pathlib import Path
 from urllib.parse import quote
 
+from zlmreport.document.typesetting.overview import LinkContext, OverviewCellContext, drawing
+from zlmreport.document.typesetting.templates import symbol
 from zlmreport.evaluation.evaluation import Quantity
-from zlmreport.figures.canvas import Fill, Segment, Stroke, SvgCanvas
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import cause_of
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
-from zlmreport.fleet.records import Entry
-from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Calibration, Series
+from zlmreport.fleet.records import LedgerEntry
+from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Series
+from zlmreport.fleet.trend_graph import Period, trend_graph
 from zlmreport.language import Language, Words
+from zlmreport.language.formatting import fixed_number, general_number, p_value, plain, rounded_pair
+from zlmreport.measurement.error_symbol import error_named
+from zlmreport.measurement.units import printed_symbol, with_unit
 from zlmreport.plugin.protocols import Standard
-from zlmreport.quantities.formatting import fixed_number, general_number, p_value, plain, rounded_pair
-from zlmreport.quantities.units import printed_symbol, with_unit
-from zlmreport.typesetting.overview import LinkContext, OverviewCellContext, drawing
-from zlmreport.typesetting.templates import symbol
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,158 +62,6 @@ class Names:
         return next((each for each in quantities if each.symbol == symbol), None)
 
 
-#: In points.
-WIDTH, HEIGHT = 150.0, 42.0
-_MARGIN = 4.0
-#: Of the time shown, kept free behind the last calibration: there a drift leads on.
-_AHEAD = 0.2
-#: Of the values' span, kept free above and below.
-_ROOM = 0.08
-#: Half the width of a point; of the last one; of the band about a single calibration.
-_POINT, _LAST, _SINGLE = 1.8, 2.7, 3.0
-
-_INK = (0.05, 0.29, 0.39)
-_ALARM = (0.63, 0.09, 0.09)
-_GREY = (0.55, 0.6, 0.64)
-
-
-@dataclass(frozen=True, slots=True)
-class Period:
-    """The time that all graphs of an overview show, so that they compare."""
-
-    first: date
-    last: date
-
-    @property
-    def days(self) -> int:
-        """How long it is; one day at the least."""
-        return max(1, (self.last - self.first).days)
-
-
-@dataclass(frozen=True, slots=True)
-class _Frame:
-    """Where dates and values lie on the drawing."""
-
-    period: Period
-    lower: float
-    upper: float
-
-    def x(self, day: float) -> float:
-        part = (day - self.period.first.toordinal()) / (self.period.days * (1 + _AHEAD))
-        return _MARGIN + part * (WIDTH - 2 * _MARGIN)
-
-    def y(self, value: float) -> float:
-        part = (value - self.lower) / (self.upper - self.lower)
-        return HEIGHT - part * HEIGHT
-
-
-def small_graph(trend: Trend, period: Period, alternative: str) -> str:
-    """Return the graph as SVG.
-
-    `trend`: What is shown. With a limit the graph is as high as the limit, or the largest value.
-    """
-    calibrations = trend.series.calibrations
-    frame = _Frame(period, *_span(calibrations))
-    canvas = SvgCanvas(WIDTH, HEIGHT, alternative)
-    canvas.outline("ground", _line((0, 0), (WIDTH, 0), (WIDTH, HEIGHT), (0, HEIGHT), closed=True), None, None)
-    limit = trend.series.latest.limit
-    if limit is not None:
-        _draw_limit(canvas, frame, limit)
-    if frame.lower <= 0:
-        canvas.outline("zero", _line((0, frame.y(0)), (WIDTH, frame.y(0))), Stroke(_GREY, 0.6), None)
-    _draw_band(canvas, frame, calibrations)
-    _draw_steps(canvas, frame, trend)
-    if trend.drifts:
-        _draw_drift(canvas, frame, trend)
-    _draw_values(canvas, frame, calibrations)
-    return canvas.image()
-
-
-def _span(calibrations: Sequence[Calibration]) -> tuple[float, float]:
-    """Return the least and the largest value shown: zero, the limit, every value with its uncertainty."""
-    reached = [
-        each.parameter.value + sign * (each.parameter.expanded_uncertainty or 0.0)
-        for each in calibrations
-        for sign in (-1, 1)
-    ]
-    limit = calibrations[-1].parameter.limit
-    lower, upper = min(0.0, *reached), max(0.0, *reached)
-    if min(each.parameter.value for each in calibrations) >= 0:
-        lower = 0.0
-    if limit is not None:
-        lower, upper = (min(lower, -limit) if lower < 0 else lower), max(upper, limit)
-    room = _ROOM * ((upper - lower) or 1.0)
-    return lower - (room if lower < 0 else 0.0), upper + room
-
-
-def _draw_limit(canvas: SvgCanvas, frame: _Frame, limit: float) -> None:
-    for bound, edge in ((limit, 0.0), (-limit, HEIGHT)):
-        y = frame.y(bound)
-        if 0 <= y < HEIGHT:
-            beyond = _line((0, edge), (WIDTH, edge), (WIDTH, y), (0, y), closed=True)
-            canvas.outline("beyond", beyond, None, Fill(_ALARM, 0.1))
-            canvas.outline("limit", _line((0, y), (WIDTH, y)), Stroke(_ALARM, 0.9, (6.0, 2.0)), None)
-
-
-def _draw_band(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibration]) -> None:
-    upper, lower = [], []
-    for each in calibrations:
-        uncertainty = each.parameter.expanded_uncertainty
-        if uncertainty is None:
-            continue
-        x = frame.x(each.measured.toordinal())
-        upper.append((x, frame.y(each.parameter.value + uncertainty)))
-        lower.append((x, frame.y(each.parameter.value - uncertainty)))
-    if len(upper) == 1:
-        upper = [(upper[0][0] + step, upper[0][1]) for step in (-_SINGLE, _SINGLE)]
-        lower = [(lower[0][0] + step, lower[0][1]) for step in (-_SINGLE, _SINGLE)]
-    if upper:
-        canvas.outline("band", _line(*upper, *reversed(lower), closed=True), None, Fill(_INK, 0.18))
-
-
-def _draw_steps(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
-    """Draw an upright line before the first test after each step."""
-    steps = trend.course.steps if trend.course else ()
-    calibrations = trend.series.calibrations
-    for index in sorted({each.index for each in (*steps, *([trend.step] if trend.step else ()))}):
-        days = [calibrations[each].measured.toordinal() for each in (index - 1, index)]
-        x = frame.x(sum(days) / 2)
-        canvas.outline("step", _line((x, 0), (x, HEIGHT)), Stroke(_ALARM, 0.9, (1.5, 1.5)), None)
-
-
-def _draw_drift(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
-    line, calibrations = trend.line, trend.series.calibrations
-    if line is None:
-        return
-    first = calibrations[0].measured
-    last = date.fromordinal(frame.period.last.toordinal() + round(frame.period.days * _AHEAD))
-    ends = [(frame.x(day.toordinal()), frame.y(line.at(day))) for day in (first, last)]
-    canvas.outline("drift", _line(*ends), Stroke(_ALARM, 1.2, (5.0, 1.6, 1.2, 1.6)), None)
-
-
-def _draw_values(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibration]) -> None:
-    places = [(frame.x(each.measured.toordinal()), frame.y(each.parameter.value)) for each in calibrations]
-    if len(places) > 1:
-        canvas.outline("course", _line(*places), Stroke(_INK, 0.9), None)
-    for each, (x, y) in zip(calibrations, places, strict=True):
-        half = _LAST if each is calibrations[-1] else _POINT
-        if each.parameter.conforms is False:
-            cross = (
-                *_line((x - half, y - half), (x + half, y + half)),
-                *_line((x - half, y + half), (x + half, y - half)),
-            )
-            canvas.outline("point not-met", cross, Stroke(_ALARM, 1.4), None)
-        else:
-            diamond = _line((x - half, y), (x, y - half), (x + half, y), (x, y + half), closed=True)
-            canvas.outline("point", diamond, None, Fill(_INK))
-
-
-def _line(*points: tuple[float, float], closed: bool = False) -> tuple[Segment, ...]:
-    first, *others = points
-    rest = tuple(("L", point) for point in others)
-    return (("M", first), *rest, *((("Z", ()),) if closed else ()))
-
-
 _DECIMALS = 2
 #: The test of a trend knows no tail beyond it.
 _LEAST_P = 1e-4
@@ -230,6 +76,8 @@ class Cells:
     period: Period  #: That all graphs show.
     files: str  #: Folder of the certificates, as seen from the page.
     effects: Sequence[Series]  #: Parameters of the error models of all axes over time.
+    #: Anchors of the trends that are shown in full, by machine, axis, standard and symbol.
+    anchors: Mapping[tuple[str, str, str, str], str] = field(default_factory=dict)
 
     def say(self, phrase: Words) -> str:
         """Return a phrase in the page's language."""
@@ -273,9 +121,13 @@ class Cells:
         return OverviewCellContext(self.say(word), style=f"state {style}")
 
     def course(self, trend: Trend) -> OverviewCellContext:
-        """Return the small graph."""
-        image = small_graph(trend, self.period, self._alternative(trend))
-        return OverviewCellContext(drawing=drawing(image), style="course")
+        """Return the small graph, which leads to the trend in full."""
+        alternative = self.alternative(trend)
+        image = trend_graph(trend, self.period, alternative, self.language.decimal_sign)
+        anchor = self.anchors.get(key_of(trend.series), "")
+        return OverviewCellContext(
+            drawing=drawing(image), style="course", address=f"#{anchor}" if anchor else "", title=alternative
+        )
 
     def drift(self, trend: Trend) -> OverviewCellContext:
         """Return the drift of a parameter that drifts, and else why none is stated."""
@@ -363,19 +215,49 @@ class Cells:
 
     def axis(self, trend: Trend) -> OverviewCellContext:
         """Return machine and axis."""
-        series = trend.series
-        return OverviewCellContext(series.axis, note=series.machine or self.say(words.NO_MACHINE))
+        return OverviewCellContext(trend.series.axis, note=self.machine(trend.series))
+
+    def machine(self, series: Series) -> str:
+        """Return the machine, or that it is not named."""
+        return series.machine or self.say(words.NO_MACHINE)
+
+    def quantity(self, trend: Trend) -> OverviewCellContext:
+        """Return the axis; of an error that is not its positioning the symbol, with what it is."""
+        axis = trend.series.axis
+        try:
+            found = error_named(axis)
+        except ValueError:
+            return OverviewCellContext(axis)
+        return OverviewCellContext(axis, note=self.say(found.measurand.title))
+
+    def brief(self, trend: Trend) -> OverviewCellContext:
+        """Return the symbol and its standard on one line."""
+        cell = self.parameter(trend)
+        return replace(cell, style="parameter brief")
+
+    def change_in_brief(self, trend: Trend) -> OverviewCellContext:
+        """Return the change or the drift without what stands below it."""
+        return replace(self.change_or_drift(trend), note="")
+
+    def measured(self, trend: Trend, due: date | None) -> OverviewCellContext:
+        """Return when it was measured last, with the certificate behind it, and when it is due."""
+        latest = trend.series.calibrations[-1]
+        links = self.links(latest.entry)[:1]
+        day = latest.measured.isoformat()
+        shown = tuple(replace(each, text=day) for each in links)
+        note = self.say(words.DUE_ON.given(due=due.isoformat())) if due else ""
+        return OverviewCellContext("" if shown else day, style="date", note=note, links=shown)
 
     def latest(self, trend: Trend) -> OverviewCellContext:
         """Return the number and the date of the latest certificate, with links to its files."""
         entry = trend.series.calibrations[-1].entry
         return OverviewCellContext(entry.number, note=entry.measured, links=self.links(entry))
 
-    def issued(self, entry: Entry) -> OverviewCellContext:
+    def issued(self, entry: LedgerEntry) -> OverviewCellContext:
         """Return the number and the axis of a certificate, with links to its files."""
         return OverviewCellContext(entry.number, note=entry.of_axis, links=self.links(entry))
 
-    def links(self, entry: Entry) -> tuple[LinkContext, ...]:
+    def links(self, entry: LedgerEntry) -> tuple[LinkContext, ...]:
         """Return a link to each file of a certificate, by the name of its format."""
         formats = [Path(file).suffix.removeprefix(".").upper() or file for file in entry.files]
         return tuple(
@@ -388,7 +270,8 @@ class Cells:
         notations = [self.names.notation(each.series.standard, each.series.symbol) for each in trends]
         return ", ".join(dict.fromkeys(map(plain, notations)))
 
-    def _alternative(self, trend: Trend) -> str:
+    def alternative(self, trend: Trend) -> str:
+        """Return what a graph of a trend shows, in a sentence or two."""
         series = trend.series
         text = self.say(
             words.ALTERNATIVE.given(
@@ -406,6 +289,11 @@ class Cells:
             change = self._number(trend.line.slope, _DECIMALS, series.unit)
             text += self.say(words.ALTERNATIVE_DRIFT.given(change=change))
         return text
+
+
+def key_of(series: Series) -> tuple[str, str, str, str]:
+    """Return what tells a parameter of an axis from every other."""
+    return series.machine, series.axis, series.standard, series.symbol
 
 
 def _month(day: date) -> str:

@@ -12,6 +12,7 @@ TITLE = Words(en="Fleet overview", de="Flottenübersicht")
 LAST_RUN = Words(en="Last run", de="Letzter Lauf")
 NEVER = Words(en="not yet", de="noch keiner")
 INTERRUPTED = Words(en="{began}, interrupted", de="{began}, abgebrochen")
+AT_WORK = Words(en="{began}, at work: {done} jobs so far", de="{began}, läuft noch: bisher {done} Aufträge")
 RAN = Words(en="{began}, {duration}", de="{began}, {duration}")
 SECONDS = Words(en="{number} s", de="{number} s")
 MINUTES = Words(en="{minutes} min {seconds} s", de="{minutes} min {seconds} s")
@@ -37,7 +38,7 @@ NO_NIGHT = Words(
     en="The ledger is empty: the fleet has not run yet.",
     de="Noch ist nichts verzeichnet: Die Flotte ist noch nicht gelaufen.",
 )
-NOTICED = Words(en="The whole night", de="Der ganze Lauf")
+NOTICED = Words(en="Notices on the run", de="Hinweise zum Lauf")
 NOTICED_CAPTION = Words(
     en="What concerns the last run as a whole",
     de="Was den letzten Lauf als ganzen betrifft",
@@ -123,9 +124,9 @@ MACHINE_CAPTION = Words(
     de="Letzte Werte und ihr Verlauf seit {first}",
 )
 NO_MACHINE = Words(en="Machine not named", de="Maschine nicht benannt")
-MEASURED = Words(en="measured {date}", de="gemessen {date}")
-
-MEASURED_DUE = Words(en="measured {date}\ndue {due}", de="gemessen {date}\nfällig {due}")
+COUNTED_AXES = Words(en="{number} axes", de="{number} Achsen")
+ONE_AXIS = Words(en="1 axis", de="1 Achse")
+DUE_ON = Words(en="due {due}", de="fällig {due}")
 SEARCH = Words(en="Search machine, axis or certificate", de="Maschine, Achse oder Kalibrierschein suchen")
 CHOICE = Words(en="Show", de="Anzeigen")
 ALL_AXES = Words(en="All axes", de="Alle Achsen")
@@ -161,6 +162,23 @@ MET = Words(en="met", de="eingehalten")
 IS_NOT_MET = Words(en="not met", de="nicht eingehalten")
 IS_OPEN = Words(en="undecided", de="ohne Aussage")
 NO_LIMIT = Words(en="no limit", de="kein Grenzwert")
+
+# Trends in full
+
+CLOSE = Words(en="Back to the fleet", de="Zurück zur Flotte")
+TREND = Words(en="{axis} of {machine}", de="{axis} von {machine}")
+TESTS = Words(en="Tests", de="Messungen")
+TESTS_CAPTION = Words(
+    en="Every test that counts, the latest first", de="Alle gültigen Messungen, die letzte zuerst"
+)
+CHANGE_FACT = Words(en="Change", de="Änderung")
+DRIFT_FACT = Words(en="Drift", de="Drift")
+EFFECTS = Words(en="Effects", de="Einflüsse")
+EFFECTS_CAPTION = Words(
+    en="Parameters of this axis’s error model, by the latest test",
+    de="Kenngrößen des Fehlermodells dieser Achse nach der letzten Messung",
+)
+INSTRUMENT_USED = Words(en="Instrument", de="Messgerät")
 
 # Steps
 

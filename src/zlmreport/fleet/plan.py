@@ -11,7 +11,7 @@ from enum import Enum
 from pathlib import Path
 
 from zlmreport.errors import Place, Problem, ZlmreportError
-from zlmreport.fleet.basis import Basis, Disk, KnownFile, changes, is_intact, path_in, sha256_of
+from zlmreport.fleet.basis import CertificateBasis, Disk, KnownFile, changes, is_intact, path_in, sha256_of
 from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
 from zlmreport.job.extends import compose
@@ -32,7 +32,7 @@ class Due(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Planned:
+class PlannedJob:
     """A job of tonight."""
 
     path: Path  #: The job file.
@@ -52,7 +52,7 @@ class Evening:
     jobs: Sequence[Path]  #: Its job files.
     standings: Mapping[str, Standing]  #: What the ledger knows of jobs, by their paths.
     certificates: Mapping[str, Issued]  #: Every certificate that was issued, by its number.
-    now: Basis  #: Programs, formats and defaults of tonight.
+    now: CertificateBasis  #: Programs, formats and defaults of tonight.
 
     def job_of(self, path: Path) -> str:
         """Return a job file as the ledger names it."""
@@ -68,7 +68,7 @@ def reasons(evening: Evening) -> Mapping[Path, str]:
     }
 
 
-def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[Planned, ...]:
+def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[PlannedJob, ...]:
     """Return every job with what is due about it, in the order of job files."""
     planned = [_planned(path, why[path], evening) for path in evening.jobs]
     return tuple(_without_shared_numbers(planned, evening))
@@ -108,20 +108,20 @@ def damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[st
             yield f"{file.path} is not as it was issued"
 
 
-def _planned(path: Path, why: str, evening: Evening) -> Planned:
+def _planned(path: Path, why: str, evening: Evening) -> PlannedJob:
     """Return what is due about a job, with what its number means."""
     job = evening.job_of(path)
     standing = evening.standings.get(job)
     if not why and standing:
-        return Planned(path, job, Due.NOTHING, number=standing.number)
+        return PlannedJob(path, job, Due.NOTHING, number=standing.number)
     if standing and standing.state is State.SET_ASIDE and standing.digest == inputs_digest(path, evening):
-        return Planned(path, job, Due.SET_ASIDE, why, standing.number)
+        return PlannedJob(path, job, Due.SET_ASIDE, why, standing.number)
     try:
         number, place = number_of(path, evening.fleet.defaults)
     except ZlmreportError as error:
-        return Planned(path, job, Due.REFUSAL, why, problems=error.problems)
+        return PlannedJob(path, job, Due.REFUSAL, why, problems=error.problems)
     issued = evening.certificates.get(number)
-    planned = Planned(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
+    planned = PlannedJob(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
     refusal = _refusal(issued, evening) if issued else ""
     return _refused(planned, Problem(place, refusal)) if refusal else planned
 
@@ -162,9 +162,9 @@ def _refusal(issued: Issued, evening: Evening) -> str:
     return ""
 
 
-def _without_shared_numbers(planned: Sequence[Planned], evening: Evening) -> Iterator[Planned]:
+def _without_shared_numbers(planned: Sequence[PlannedJob], evening: Evening) -> Iterator[PlannedJob]:
     """Yield the jobs, refusing those that have another's number; the one issued with it keeps it."""
-    by_number: dict[str, list[Planned]] = defaultdict(list)
+    by_number: dict[str, list[PlannedJob]] = defaultdict(list)
     for each in planned:
         by_number[each.number].append(each)
     for each in planned:
@@ -189,11 +189,11 @@ def _number_place(path: Path, fleet: FleetFile) -> Place:
     return place
 
 
-def _refused(planned: Planned, problem: Problem) -> Planned:
+def _refused(planned: PlannedJob, problem: Problem) -> PlannedJob:
     return replace(planned, due=Due.REFUSAL, problems=(problem,))
 
 
-def _holds(each: Planned) -> bool:
+def _holds(each: PlannedJob) -> bool:
     """Whether a number is rightly this job's, whoever else states it."""
     return each.due is Due.NOTHING or (each.issued is not None and each.issued.job == each.job)
 

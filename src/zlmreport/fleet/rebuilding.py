@@ -12,13 +12,13 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
-from zlmreport.fleet.basis import KnownFile, Look, path_in, sha256_of
+from zlmreport.fleet.basis import FileStamp, KnownFile, path_in, sha256_of
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.making import MARK
-from zlmreport.fleet.records import Entry, RecordedParameter, State, Subject, parameters_of_model
+from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State, Subject, parameters_of_model
 from zlmreport.job.fleet import FleetFile, job_files, number_of
 from zlmreport.job.loading import load
-from zlmreport.plugins import Registry
+from zlmreport.plugin.registry import Registry
 from zlmreport.verification.attached import SCHEMA, stated_by
 from zlmreport.verification.carrier import opened, read_file
 
@@ -91,10 +91,10 @@ def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, ni
     with contextlib.suppress(ZlmreportError):
         subject = Subject.of(load(job, registry, defaults=fleet.defaults))
     known = tuple(
-        KnownFile(path.suffix, path.relative_to(fleet.output).as_posix(), sha256_of(path), Look.at(path))
+        KnownFile(path.suffix, path.relative_to(fleet.output).as_posix(), sha256_of(path), FileStamp.at(path))
         for path in files
     )
-    entry = Entry(
+    entry = LedgerEntry(
         **asdict(replace(subject, number=files[0].stem)),
         job=path_in(fleet.path.parent, job),
         night=night.began,

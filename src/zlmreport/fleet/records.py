@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date, datetime, timedelta
 from enum import StrEnum
 from pathlib import PurePosixPath
 from typing import Any, Self
 
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Machine
 from zlmreport.language import Language, Words
-from zlmreport.quantities.units import Unit
+from zlmreport.measurement.units import Unit
 
 
 class State(StrEnum):
@@ -75,7 +75,7 @@ class About(StrEnum):
         return self not in {About.BROKEN, About.STUCK, About.CLOCK, About.JOBS, About.DOCUMENTS}
 
 
-class Kind(StrEnum):
+class NewsKind(StrEnum):
     """Of news, in the order in which they are told."""
 
     NIGHT = "the whole night"
@@ -89,20 +89,20 @@ class Kind(StrEnum):
     @property
     def is_condition(self) -> bool:
         """Whether it ends, and is news again if it comes back; what a measurement says is news once."""
-        return self in {Kind.NIGHT, Kind.FAILED, Kind.NOT_MET, Kind.DRAFT}
+        return self in {NewsKind.NIGHT, NewsKind.FAILED, NewsKind.NOT_MET, NewsKind.DRAFT}
 
 
 @dataclass(frozen=True, slots=True)
 class News:
     """One event."""
 
-    kind: Kind  #: Of the event.
+    kind: NewsKind  #: Of the event.
     subject: str  #: What makes it this event and no other.
     text: str  #: For people, in one line.
 
 
 @dataclass(frozen=True, slots=True)
-class Notice:
+class NightNotice:
     """What concerns a whole night, and is not as it should be."""
 
     about: About
@@ -114,20 +114,35 @@ class Notice:
         return self.text.in_language(Language.ENGLISH)
 
 
+#: A night that has given no sign of life for so long does nothing any more.
+SILENT = timedelta(minutes=15)
+
+
 @dataclass(frozen=True, slots=True)
 class PastNight:
     """A run of a fleet."""
 
     began: datetime  #: With its offset from UTC.
     ended: datetime | None  #: None for a run that is at work, or was interrupted.
-    notices: tuple[Notice, ...] = ()  #: What concerned all of it.
+    notices: tuple[NightNotice, ...] = ()  #: What concerned all of it.
     came_to: Mapping[State, int] = field(default_factory=dict)  #: How many jobs became what in it.
     beat: datetime | None = None  #: When it gave its last sign of life.
+    is_at_work: bool = False  #: Whether it still goes on; as somebody with a clock says, `seen_at`.
 
     @property
     def seconds(self) -> float | None:
         """How long it took."""
         return (self.ended - self.began).total_seconds() if self.ended else None
+
+    def seen_at(self, now: datetime) -> Self:
+        """Return the same as it is now: at work if it has not ended, and gave a sign of life lately."""
+        is_at_work = self.ended is None and self.beat is not None and now - self.beat < SILENT
+        return replace(self, is_at_work=is_at_work)
+
+    @property
+    def done(self) -> int:
+        """How many jobs it has come to an end with."""
+        return sum(self.came_to.values())
 
 
 @dataclass(frozen=True, slots=True)
@@ -228,11 +243,16 @@ class Subject:
         stated = (used.manufacturer, used.name, used.serial) if used else ()
         instrument = " ".join(part for part in stated if part)
         number, interval = keys.certificate.number, keys.fleet.interval
-        return cls(number, machine, keys.axis.name, measured, interval, instrument, keys.machine.type)
+        return cls(number, machine, _quantity(job), measured, interval, instrument, keys.machine.type)
+
+
+def _quantity(job: Job) -> str:
+    """Return what was measured of a machine: an axis, whose positioning it is, or the symbol of an error."""
+    return job.axis.name if job.axis.measurand.is_position else job.axis.error or job.axis.name
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Entry(Subject):
+class LedgerEntry(Subject):
     """One line of the ledger: what became of one job in one night, and what it is about."""
 
     job: str  #: Path of the job file, relative to the fleet file's folder.
@@ -248,8 +268,9 @@ class Entry(Subject):
 def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
     """Yield every parameter by every standard, in the units of the results file."""
     for evaluation in certificate.evaluations:
-        unit = evaluation.measurements.axis.deviation_unit
+        usual = evaluation.measurements.axis.deviation_unit
         for each in evaluation.parameters:
+            unit = each.quantity.unit_or(usual)
             yield RecordedParameter(
                 standard=evaluation.standard,
                 symbol=each.quantity.symbol,
@@ -260,7 +281,7 @@ def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
                 conforms=None if each.conforms is None else bool(each.conforms),
             )
     if certificate.diagnosis:
-        from zlmreport.model.report import report_model  # noqa: PLC0415 - only where there is a model
+        from zlmreport.model.diagnosis.report import report_model  # noqa: PLC0415 - only where there is a model
 
         yield from parameters_of_model(report_model(certificate.diagnosis.fit))
 

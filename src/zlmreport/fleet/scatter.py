@@ -20,8 +20,8 @@ from statistics import NormalDist
 
 import numpy as np
 
-from zlmreport.model.distributions import chi_square_tail, normal_tail
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.fitting.distributions import chi_square_tail, normal_tail
 
 #: No scatter is taken for smaller, in parts of the limit.
 _LEAST = 1e-3
@@ -38,7 +38,7 @@ _PRECISION = 1e-3
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Scatter:
+class ScatterLikelihood:
     """How likely each scatter is."""
 
     deviations: FloatArray  #: Rising.
@@ -50,13 +50,13 @@ class Scatter:
         """The root of the mean variance."""
         return math.sqrt(float(self.weights @ self.deviations**2))
 
-    def after(self, squares: float, degrees: int) -> Scatter:
+    def after(self, squares: float, degrees: int) -> ScatterLikelihood:
         """Return what is known after tests with a sum of squares of so many degrees of freedom."""
         logarithms = self._logarithms(squares, degrees)
         likely = np.exp(logarithms - logarithms.max())
         kept = likely > _NEGLIGIBLE
         weights = likely[kept]
-        return Scatter(self.deviations[kept], weights / weights.sum(), self.degrees + degrees)
+        return ScatterLikelihood(self.deviations[kept], weights / weights.sum(), self.degrees + degrees)
 
     def exceeds(self, change: float) -> float:
         """Return the chance that a normal value of this scatter exceeds a change."""
@@ -89,7 +89,7 @@ class Scatter:
         return logarithms
 
 
-def learned(samples: Iterable[tuple[float, int]]) -> tuple[Scatter, ...]:
+def learned(samples: Iterable[tuple[float, int]]) -> tuple[ScatterLikelihood, ...]:
     """Return, for each axis of a fleet, what the others let expect.
 
     `samples`: Of each axis a sum of squares about a mean, and its degrees of freedom, which may be none.
@@ -108,4 +108,6 @@ def learned(samples: Iterable[tuple[float, int]]) -> tuple[Scatter, ...]:
         others = own.sum(axis=0) + _IGNORANCE / len(lattice) - own
     others /= others.sum(axis=1, keepdims=True)
     known = degrees.sum() - degrees
-    return tuple(Scatter(lattice, weights, int(each)) for weights, each in zip(others, known, strict=True))
+    return tuple(
+        ScatterLikelihood(lattice, weights, int(each)) for weights, each in zip(others, known, strict=True)
+    )

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
 from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import MODEL, Entry, Notice, PastNight, State, due_date
+from zlmreport.fleet.records import MODEL, LedgerEntry, NightNotice, PastNight, State, due_date
 from zlmreport.fleet.trend import Series, series_of, standing
 
 #: What is due within this time may be planned now.
@@ -15,18 +15,18 @@ SOON = timedelta(days=90)
 
 
 @dataclass(frozen=True, slots=True)
-class Failure:
+class FailingJob:
     """A job that was not made, and the night since which it is not."""
 
-    entry: Entry
+    entry: LedgerEntry
     since: str
 
 
 @dataclass(frozen=True, slots=True)
-class Term:
+class DueDate:
     """By when an axis is to be measured again."""
 
-    entry: Entry  #: Its latest certificate.
+    entry: LedgerEntry  #: Its latest certificate.
     due: date  #: The day.
     is_over: bool  #: Whether it was over when the last run began.
 
@@ -40,25 +40,25 @@ class FleetState:
     jobs: int  #: How many jobs the fleet has.
     made: int  #: How many of them the last run made.
     #: failures and drafts: Jobs whose last entry is one, in the order of jobs.
-    failures: tuple[Failure, ...]
-    drafts: tuple[Entry, ...]
-    certificates: tuple[Entry, ...]  #: That stand, in the order of measurement.
+    failures: tuple[FailingJob, ...]
+    drafts: tuple[LedgerEntry, ...]
+    certificates: tuple[LedgerEntry, ...]  #: That stand, in the order of measurement.
     trends: tuple[Trend, ...]  #: Every parameter of every axis, machine by machine.
     effects: tuple[Series, ...] = ()  #: Parameters of the error models over time, where jobs name effects.
-    terms: tuple[Term, ...] = ()  #: Of every axis that has one, the earliest first.
+    terms: tuple[DueDate, ...] = ()  #: Of every axis that has one, the earliest first.
 
     @property
-    def notices(self) -> tuple[Notice, ...]:
+    def notices(self) -> tuple[NightNotice, ...]:
         """What concerned the whole of the last run."""
         return self.night.notices if self.night else ()
 
     @property
-    def overdue(self) -> tuple[Term, ...]:
+    def overdue(self) -> tuple[DueDate, ...]:
         """Those that are over."""
         return tuple(term for term in self.terms if term.is_over)
 
     @property
-    def soon(self) -> tuple[Term, ...]:
+    def soon(self) -> tuple[DueDate, ...]:
         """Those that end within `SOON` after the last run."""
         last = self.night.began.date() + SOON if self.night else date.min
         return tuple(term for term in self.terms if not term.is_over and term.due <= last)
@@ -115,7 +115,7 @@ class Rules:
 
 def state_of(
     name: str,
-    entries: Iterable[Entry],
+    entries: Iterable[LedgerEntry],
     jobs: Sequence[str],
     night: PastNight | None,
     rules: Rules = Rules(),
@@ -144,7 +144,7 @@ def state_of(
             entry.state is State.MADE and datetime.fromisoformat(entry.night) == began for entry in current
         ),
         failures=tuple(
-            Failure(entry, _failing_since(entry, history))
+            FailingJob(entry, _failing_since(entry, history))
             for entry in (*current, *missing)
             if entry.state.is_failure
         ),
@@ -156,18 +156,18 @@ def state_of(
     )
 
 
-def _terms(certificates: Sequence[Entry], rules: Rules, now: datetime | None) -> tuple[Term, ...]:
+def _terms(certificates: Sequence[LedgerEntry], rules: Rules, now: datetime | None) -> tuple[DueDate, ...]:
     standing = [entry for entry in certificates if not rules.is_retired(entry.job)]
     latest = {(entry.machine, entry.axis): entry for entry in standing}
     stated = (
         (entry, due_date(entry.measured, entry.interval or rules.interval)) for entry in latest.values()
     )
     days = [(entry, date.fromisoformat(day)) for entry, day in stated if day]
-    terms = [Term(entry, day, is_over=now is not None and day <= now.date()) for entry, day in days]
+    terms = [DueDate(entry, day, is_over=now is not None and day <= now.date()) for entry, day in days]
     return tuple(sorted(terms, key=lambda term: (term.due, term.entry.machine, term.entry.axis)))
 
 
-def _failing_since(failed: Entry, history: Sequence[Entry]) -> str:
+def _failing_since(failed: LedgerEntry, history: Sequence[LedgerEntry]) -> str:
     """Return the night from which on a job has not been made."""
     since = failed.night
     for entry in reversed([each for each in history if each.job == failed.job]):

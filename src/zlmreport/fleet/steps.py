@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import fmean
 
-from zlmreport.fleet.scatter import Scatter
-from zlmreport.model.distributions import normal_tail
+from zlmreport.fleet.scatter import ScatterLikelihood
+from zlmreport.model.fitting.distributions import normal_tail
 
 #: What is less than this part of the limit is no news.
 SMALL = 0.1
@@ -44,7 +44,7 @@ _WINDOW, _SCATTER_LEVEL = 4, 1 / 4000
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class ParameterStep:
     """A change of a parameter from one test to the next."""
 
     index: int  #: Of the first test after it.
@@ -54,14 +54,14 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class ParameterCourse:
     """What the tests of a parameter, one after another, say of steps."""
 
-    steps: tuple[Step, ...]  #: That were borne out by the next test, and one of the latest test.
+    steps: tuple[ParameterStep, ...]  #: That were borne out by the next test, and one of the latest test.
     #: Tests since the last step that was borne out; odd ones, and a step of the latest, are left out.
     since: tuple[int, ...]
     is_wilder: bool  #: Whether the latest tests scatter more than those before.
-    scatter: Scatter  #: Between the tests since the last step, the whole fleet's in view.
+    scatter: ScatterLikelihood  #: Between the tests since the last step, the whole fleet's in view.
     share: float  #: Of the chance for a false alarm.
 
     @property
@@ -78,13 +78,13 @@ class Course:
         return max(SMALL, threshold + wider * self.scatter.quantile(_MISSED))
 
 
-def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Course:
+def course(values: Sequence[float], fleet: ScatterLikelihood, share: float = 1.0) -> ParameterCourse:
     """Return the course of a parameter.
 
     `values`: In the order of measurement, one at the least.
     `share`: Of the chance for a false alarm, where an axis has several parameters.
     """
-    steps: list[Step] = []
+    steps: list[ParameterStep] = []
     first, base = 0, [0]
     for index in range(1, len(values)):
         before = [values[each] for each in base]
@@ -98,15 +98,15 @@ def course(values: Sequence[float], fleet: Scatter, share: float = 1.0) -> Cours
             base.append(index)
         else:
             change = values[index] - fmean(before)
-            steps.append(Step(index, change, chances([*before, values[index]], fleet).last_step))
+            steps.append(ParameterStep(index, change, chances([*before, values[index]], fleet).last_step))
             if not is_latest:
                 first, base = index, [index]
     since = [values[each] for each in base]
     scatter = fleet.after(squares_about_mean(since), len(since) - 1)
-    return Course(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
+    return ParameterCourse(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
 
 
-def stands_out(before: Sequence[float], value: float, fleet: Scatter, share: float = 1.0) -> bool:
+def stands_out(before: Sequence[float], value: float, fleet: ScatterLikelihood, share: float = 1.0) -> bool:
     """Whether a test differs from those before it, and from a drift that these show.
 
     `fleet`, `share`: As `course` has them.
@@ -160,7 +160,7 @@ class Chances:
         return self.steps[-1]
 
 
-def chances(values: Sequence[float], fleet: Scatter) -> Chances:
+def chances(values: Sequence[float], fleet: ScatterLikelihood) -> Chances:
     """Return how likely nothing, a step, and a drift are, each taken for as likely beforehand as any other.
 
     The mean may be any, an effect is normal with a standard deviation of five scatters at its largest; so the
@@ -177,7 +177,7 @@ def chances(values: Sequence[float], fleet: Scatter) -> Chances:
     return Chances(1.0 / total, (0.0, *(each / total for each in weights[:-1])), weights[-1] / total)
 
 
-def _odds(values: Sequence[float], shape: Sequence[float], fleet: Scatter) -> float:
+def _odds(values: Sequence[float], shape: Sequence[float], fleet: ScatterLikelihood) -> float:
     """Return the evidence of an effect of this shape over that of nothing."""
     number = len(values)
     mean, middle = fmean(values), fmean(shape)
@@ -190,7 +190,7 @@ def _odds(values: Sequence[float], shape: Sequence[float], fleet: Scatter) -> fl
     return math.exp(min(600.0, more - 0.5 * math.log(gain)))
 
 
-def squares_between(values: Sequence[float], steps: Sequence[Step]) -> tuple[float, int]:
+def squares_between(values: Sequence[float], steps: Sequence[ParameterStep]) -> tuple[float, int]:
     """Return the sum of squares of what lies between steps, and its degrees of freedom.
 
     Odd ones are in it: to leave out what is far off would make the scatter look smaller than it is.
@@ -206,7 +206,7 @@ def squares_about_mean(values: Sequence[float]) -> float:
     return math.fsum((value - mean) ** 2 for value in values)
 
 
-def _is_rather_drift(before: Sequence[float], after: Sequence[float], fleet: Scatter) -> bool:
+def _is_rather_drift(before: Sequence[float], after: Sequence[float], fleet: ScatterLikelihood) -> bool:
     """Whether a drift explains a test that stands out, and those after it, better than a step there does."""
     likely = chances([*before, *after], fleet)
     return likely.drift > likely.steps[len(before)]
@@ -222,7 +222,7 @@ def _least(deviation: float) -> float:
     return WANTED - _POWER * deviation
 
 
-def _is_wilder(values: Sequence[float], fleet: Scatter) -> bool:
+def _is_wilder(values: Sequence[float], fleet: ScatterLikelihood) -> bool:
     latest, before = values[-_WINDOW:], values[:-_WINDOW]
     if len(before) < _WINDOW:
         return False

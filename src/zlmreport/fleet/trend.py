@@ -20,8 +20,8 @@ from itertools import combinations
 
 import numpy as np
 
-from zlmreport.fleet.records import Entry, RecordedParameter, State
-from zlmreport.model.distributions import f_tail, normal_tail, t_quantile
+from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State
+from zlmreport.model.fitting.distributions import f_tail, normal_tail, t_quantile
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Calibration:
     """One point of a series."""
 
     measured: date  #: Date of the measurement.
-    entry: Entry  #: The certificate.
+    entry: LedgerEntry  #: The certificate.
     parameter: RecordedParameter  #: What it states.
 
 
@@ -47,12 +47,17 @@ class Series:
     calibrations: tuple[Calibration, ...]  #: In the order of measurement; at least one.
 
     @property
+    def axis_key(self) -> tuple[str, str]:
+        """What tells its axis from others, as of a `Subject`."""
+        return self.machine, self.axis
+
+    @property
     def latest(self) -> RecordedParameter:
         """What the latest certificate states."""
         return self.calibrations[-1].parameter
 
 
-def standing(entries: Iterable[Entry]) -> tuple[Entry, ...]:
+def standing(entries: Iterable[LedgerEntry]) -> tuple[LedgerEntry, ...]:
     """Return the certificates that stand, in the order of measurement.
 
     A job that was made again, and one that amends, replaces what it said of the same measurement before.
@@ -60,14 +65,14 @@ def standing(entries: Iterable[Entry]) -> tuple[Entry, ...]:
 
     `entries`: Of the ledger, in its order.
     """
-    standing: dict[tuple[str, str], Entry] = {}
+    standing: dict[tuple[str, str], LedgerEntry] = {}
     for entry in entries:  # not by the night: its clock may have been set back
         if entry.state is State.MADE and entry.measured:
             standing[entry.job, entry.measured] = entry
     return tuple(sorted(standing.values(), key=lambda entry: (entry.measured, entry.number)))
 
 
-def series_of(certificates: Iterable[Entry]) -> tuple[Series, ...]:
+def series_of(certificates: Iterable[LedgerEntry]) -> tuple[Series, ...]:
     """Return every parameter of every axis over time, machine by machine."""
     found: defaultdict[tuple[str, str, str, str, str], list[Calibration]] = defaultdict(list)
     for entry in certificates:
@@ -126,7 +131,7 @@ _RESOLUTION = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class TrendLine:
     """A straight line, about the weighted mean of its dates, where level and slope are not correlated."""
 
     origin: float  #: Mean date t̄, in days of the calendar (`date.toordinal`).
@@ -155,7 +160,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
-class Forecast:
+class LimitCrossing:
     """When a line meets a limit."""
 
     expected: date  #: Where the line itself meets it.
@@ -165,7 +170,7 @@ class Forecast:
     latest: date | None
 
 
-def line_through(series: Series) -> Line:
+def line_through(series: Series) -> TrendLine:
     """Return the line of weighted least squares through a series of three or more calibrations."""
     days = [float(each.measured.toordinal()) for each in series.calibrations]
     values = [each.parameter.value for each in series.calibrations]
@@ -182,10 +187,10 @@ def line_through(series: Series) -> Line:
     )
     degrees = len(days) - 2
     scatter = max(rest / degrees, (_RESOLUTION * max(map(abs, values))) ** 2)
-    return Line(origin, level, slope, scatter / total, scatter / spread, degrees)
+    return TrendLine(origin, level, slope, scatter / total, scatter / spread, degrees)
 
 
-def forecast(line: Line, limit: float, last: date) -> Forecast | None:
+def forecast(line: TrendLine, limit: float, last: date) -> LimitCrossing | None:
     """Return when the amount of a parameter meets its limit, by Fieller's theorem.
 
     Of the line, and so of values as the next calibrations of the same kind will state them.
@@ -215,7 +220,7 @@ def forecast(line: Line, limit: float, last: date) -> Forecast | None:
     if days[0] > latest_day:
         return None
     expected, earliest, latest = days
-    return Forecast(_day(expected), _day(earliest), _day(latest) if latest <= latest_day else None)
+    return LimitCrossing(_day(expected), _day(earliest), _day(latest) if latest <= latest_day else None)
 
 
 def _weights(uncertainties: Sequence[float | None]) -> list[float]:

@@ -20,7 +20,8 @@ from pathlib import Path
 from typing import Any, Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.fleet.making import BEAT, Failed, Made, Task, late, warm, work
+from zlmreport.fleet.making import BEAT, Failed, MadeCertificate, Task, late, warm, work
+from zlmreport.plugin.presence import PRESENCE, SIZE, Presence
 
 #: After its task should have been ended by the night, a worker ends itself, s: the night may be gone.
 _GRACE = 60
@@ -35,6 +36,7 @@ class _Worker:
     process: BaseProcess
     line: Connection
     is_ready: Event  # whether it came so far that it waited for a task
+    presence: Presence  # which plugin is at work in it
     task: Task | None = None
     deadline: float = 0.0
     done: int = 0
@@ -46,12 +48,15 @@ class _Ended:
 
     code: int
     was_ready: bool
+    called: str  # the plugin that was at work; empty for none
 
     def failed(self, task: Task) -> Failed:
         """Return the answer of a task that had two such workers, the second while nothing else was done."""
         code = self.code
         how = f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
         when = "while it made this certificate, twice" if self.was_ready else "before it was ready, twice"
+        if self.called:
+            when = f"while this plugin was at work, twice: {self.called}"
         hint = "; the system may have run out of memory" if code == -signal.SIGKILL else ""
         problem = Problem(Place(str(task.job)), f"the worker process {how} {when}{hint}")
         return Failed((problem,), is_stopped=self.was_ready)
@@ -82,11 +87,11 @@ class Pool:
             self._dismiss(worker)
         self._staff.clear()
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         """Yield what became of each task, as it is done; tasks are taken as workers have time for them."""
         killers: list[Task] = []
         for task, result in self._worked(iter(tasks), self.workers):
-            if isinstance(result, Failed | Made):
+            if isinstance(result, Failed | MadeCertificate):
                 yield task, result
             else:
                 killers.append(task)
@@ -94,7 +99,9 @@ class Pool:
             for _, again in self._worked(iter([task]), 1):
                 yield task, again.failed(task) if isinstance(again, _Ended) else again
 
-    def _worked(self, tasks: Iterator[Task], most: int) -> Iterator[tuple[Task, Made | Failed | _Ended]]:
+    def _worked(
+        self, tasks: Iterator[Task], most: int
+    ) -> Iterator[tuple[Task, MadeCertificate | Failed | _Ended]]:
         """Yield each task with its result, or with how the worker that had it ended."""
         free = deque(self._staff)
         busy: dict[Connection, _Worker] = {}
@@ -138,18 +145,19 @@ class Pool:
         with contextlib.suppress(OSError):  # one that is gone is noticed where its answer is awaited
             worker.line.send(task)
 
-    def _received(self, worker: _Worker) -> tuple[Task, Made | Failed | _Ended]:
+    def _received(self, worker: _Worker) -> tuple[Task, MadeCertificate | Failed | _Ended]:
         """Return a worker's answer, or how it ended if it is gone."""
         task, worker.task = worker.task, None
         if task is None:
             raise RuntimeError("a worker answers that was asked nothing")
         try:
-            result: Made | Failed = worker.line.recv()
+            result: MadeCertificate | Failed = worker.line.recv()
         except (EOFError, OSError):
             worker.process.join()
             if worker.deadline <= time.monotonic():
                 return task, late(task)
-            return task, _Ended(worker.process.exitcode or 0, was_ready=worker.is_ready.is_set())
+            code, called = worker.process.exitcode or 0, worker.presence.wrong or worker.presence.called
+            return task, _Ended(code, worker.is_ready.is_set(), called)
         worker.done += 1
         return task, result
 
@@ -157,11 +165,11 @@ class Pool:
         context = get_context("forkserver")
         context.set_forkserver_preload([_serve.__module__])  # what all need is loaded once, plugins apart
         ours, theirs = context.Pipe()
-        is_ready = context.Event()
-        process = context.Process(target=_serve, args=(theirs, is_ready, self.plugins), daemon=True)
+        is_ready, memory = context.Event(), context.RawArray("B", SIZE)
+        process = context.Process(target=_serve, args=(theirs, is_ready, memory, self.plugins), daemon=True)
         process.start()
         theirs.close()
-        return _Worker(process, ours, is_ready)
+        return _Worker(process, ours, is_ready, Presence(memoryview(memory).cast("B")))
 
     def _replaced(self, worker: _Worker) -> _Worker:
         self._dismiss(worker)
@@ -177,8 +185,12 @@ class Pool:
         worker.process.join()
 
 
-def _serve(line: Connection, is_ready: Event, plugins: tuple[Path, ...]) -> None:
-    """Answer tasks until the line is closed, by whatever end of the other side."""
+def _serve(line: Connection, is_ready: Event, memory: Any, plugins: tuple[Path, ...]) -> None:
+    """Answer tasks until the line is closed, by whatever end of the other side.
+
+    `memory`: In which it notes which plugin is at work.
+    """
+    PRESENCE.use(memoryview(memory).cast("B"))
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # of a terminal: the night decides what it means
     with contextlib.suppress(Exception):  # what is wrong with a plugin is said of each job
         warm(plugins)
@@ -265,7 +277,7 @@ class Cluster:
             self._client.close()
             self._client = None
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed]]:
+    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         """Yield what became of each task, as it is done; tasks are taken as workers have time for them.
 
         A worker that is killed takes with it what waited there, too, and a scheduler suspects them all. So
@@ -281,7 +293,7 @@ class Cluster:
             for task, result in self._done([suspect]):
                 yield task, result.failed(task) if isinstance(result, _Lost) else result
 
-    def _done(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, Made | Failed | _Lost]]:
+    def _done(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed | _Lost]]:
         from distributed import wait as first_of  # noqa: PLC0415 - as above
 
         waiting = iter(tasks)
@@ -327,9 +339,9 @@ class Cluster:
             self._client.restart_workers(workers, timeout=_PATIENCE)
         return late(task)
 
-    def _result(self, future: Any) -> Made | Failed | _Lost:
+    def _result(self, future: Any) -> MadeCertificate | Failed | _Lost:
         if future.status == "finished":
-            result: Made | Failed = future.result()
+            result: MadeCertificate | Failed = future.result()
             return result
         if future.status == "error":
             return _Lost(str(future.exception()))

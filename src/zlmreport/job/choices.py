@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Self, TypeAlias
 
@@ -11,12 +11,13 @@ from pydantic import BaseModel, Field, create_model, model_validator
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
+from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
+from zlmreport.job.formula_parts import refuse_unsound
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram, WithKeys
 from zlmreport.job.sentences import shown
 from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of
 from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, keys_in, model_in
-from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,11 +110,45 @@ class EffectChoice:
     place: Place  #: Where the file names the effect.
     #: What else is known of parameters, by name, in the users' units.
     limits: Mapping[str, ParameterLimits] = field(default_factory=dict)
+    number: int = 1  #: For which time the effect stands in the list.
+
+    @property
+    def installed(self) -> str:
+        """The identifier of the installed effect: that of ``scale-joint-2`` is ``scale-joint``."""
+        return self.identifier.removesuffix(f"-{self.number}") if self.number > 1 else self.identifier
+
+    def numbered(self, number: int) -> EffectChoice:
+        """Return the same effect for another time in a list."""
+        return replace(self, identifier=numbered(self.installed, number), number=number)
 
     @property
     def is_formula(self) -> bool:
         """Whether no plugin provides it."""
         return isinstance(self.settings, FormulaKeys)
+
+
+def numbered(identifier: str, number: int) -> str:
+    """Return what an effect is called that stands in a list for the n-th time.
+
+    >>> numbered("scale-joint", 1), numbered("scale-joint", 2)
+    ('scale-joint', 'scale-joint-2')
+    """
+    return identifier if number == 1 else f"{identifier}-{number}"
+
+
+def parted(identifier: str) -> tuple[str, int]:
+    """Return the effect and the number of a name such as ``scale-joint-2``; 1 where it has none.
+
+    >>> parted("scale-joint-2"), parted("scale-joint"), parted("scale-joint-1")
+    (('scale-joint', 2), ('scale-joint', 1), ('scale-joint-1', 1))
+    """
+    name, _, number = identifier.rpartition("-")
+    return (name, int(number)) if name and number.isdecimal() and int(number) > 1 else (identifier, 1)
+
+
+def next_number(identifier: str, choices: Iterable[EffectChoice]) -> int:
+    """Return the number of an installed effect that is added to a list of others."""
+    return max((each.number for each in choices if each.installed == identifier), default=0) + 1
 
 
 def effect_choices(
@@ -130,6 +165,7 @@ def effect_choices(
 def _effects(
     items: Sequence[Node], registry: Installed, problems: list[Problem], within: str
 ) -> Iterator[EffectChoice]:
+    found: list[EffectChoice] = []
     for item in items:
         if isinstance(item, Keys) and "formula" in item.entries:
             choice = _formula(item, registry, problems, within)
@@ -148,6 +184,10 @@ def _effects(
             continue
         choice = _effect(effect, replace(keys, place=item.place), problems, f"{within}.{identifier}")
         if choice:
+            taken = [each.identifier for each in found]
+            if effect.several and choice.identifier in taken:
+                choice = choice.numbered(next_number(choice.installed, found))
+            found.append(choice)
             yield choice
 
 
@@ -165,6 +205,12 @@ def _formula(item: Keys, registry: Installed, problems: list[Problem], within: s
     """Return an effect that is written as a formula."""
     keys = validate(FormulaKeys, item, problems, within=within)
     if keys is None:
+        return None
+    try:
+        refuse_unsound(keys)
+    except FormulaError as error:
+        sentence = f"{within}.formula: {keys.name}: {error}"
+        problems.append(Problem(item.entries["formula"].value.place, sentence))
         return None
     if keys.name in {effect.identifier for effect in registry.effects}:
         sentence = f"{within}.name: {keys.name} is an installed effect; call the formula otherwise"
@@ -215,7 +261,8 @@ def _effect(effect: InstalledEffect, keys: Keys, problems: list[Problem], within
     stated = {name: value for name, value in values if value is not None}
     limits = {name: value for name, value in stated.items() if isinstance(value, ParameterLimits)}
     given = {name: value for name, value in stated.items() if name not in limits}
-    return EffectChoice(effect.identifier, settings, given, keys.place, limits)
+    number = parted(effect.identifier)[1] if effect.several else 1
+    return EffectChoice(effect.identifier, settings, given, keys.place, limits, number)
 
 
 def _model_of_parameters(names: Sequence[str]) -> type[Options]:

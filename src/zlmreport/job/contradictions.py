@@ -138,7 +138,9 @@ def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
     for key, message in plan_contradictions(keys.plan.targets):
         yield ("plan", "targets", key), message
-    for steps, message in uncertainty_contradictions(keys.uncertainty, keys.axis.kind):
+    for steps, message in uncertainty_contradictions(
+        keys.uncertainty, keys.axis.kind, is_circle=keys.circle is not None
+    ):
         yield ("uncertainty", *steps), message
     per_metre = keys.instrument and keys.instrument.expanded_uncertainty_per_metre
     if per_metre and keys.axis.kind is AxisKind.ROTARY:
@@ -216,6 +218,7 @@ _PARTS = frozenset(
         "customer",
         "machine",
         "axis",
+        "circle",
         "location",
         "dates",
         "sampling",
@@ -230,10 +233,18 @@ _PARTS = frozenset(
 )
 
 
+#: Keys of which each test has its own: their values are marked as those of the job's measurement.
+_NAMED_TESTS = ("measurement.tests", "as_found.measurement.tests")
+
+
 @cache
 def markable_keys() -> tuple[str, ...]:
     """Return the dotted names of all keys whose values may come from others; lists have no index in them."""
-    return tuple(key for key in _names(JobKeys, "") if key.partition(".")[0] in _PARTS)
+    return tuple(
+        key
+        for key in _names(JobKeys, "")
+        if key.partition(".")[0] in _PARTS and not key.startswith(_NAMED_TESTS)
+    )
 
 
 def supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:

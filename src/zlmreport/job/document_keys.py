@@ -9,6 +9,7 @@ from pydantic import AfterValidator, Field, field_validator, model_validator
 from zlmreport.errors import quoted
 from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, file_stem
 from zlmreport.language import Language
+from zlmreport.measurement.axis import AxisKind
 
 
 class Person(JobPart):
@@ -118,7 +119,9 @@ class Agreement(JobPart):
 
 #: Unique identification of a document, that also names its files.
 Number = Annotated[
-    Text, AfterValidator(file_stem), Field(json_schema_extra={"pattern": r"^[A-Za-z0-9][A-Za-z0-9._-]*$"})
+    Text,
+    AfterValidator(file_stem),
+    Field(json_schema_extra={"pattern": r"^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$"}),
 ]
 
 
@@ -169,7 +172,10 @@ class Style(JobPart):
     """The look of the document."""
 
     accent: Annotated[str, AfterValidator(_readable)] = Field(
-        "#0d4a63", description="Colour of headings and of the lines that part them.", examples=["#5c1a33"]
+        "#0d4a63",
+        json_schema_extra={"pattern": "^#[0-9A-Fa-f]{6}$"},
+        description="Colour of headings and of the lines that part them.",
+        examples=["#5c1a33"],
     )
     logo: Literal["left", "right"] = Field(
         "right", description="Side of the letterhead on which the logo stands."
@@ -248,6 +254,7 @@ class CertificateKeys(JobPart):
         examples=[
             ["results", "uncertainty", "conditions", {"title": "Note", "text": "Valid with its annex."}]
         ],
+        json_schema_extra={"uniqueItems": True, "contains": {"const": "results"}},
     )
 
     @field_validator("sections")
@@ -276,6 +283,20 @@ class Capability(JobPart):
     constant: NotNegative = Field(0.0, description="Micrometres (arc seconds).", examples=[0.3])
     per_metre: NotNegative = Field(
         0.0, description="What it gains with each metre of measured length, micrometres/m.", examples=[0.5]
+    )
+    length: Annotated[float, Field(gt=0)] | None = Field(
+        None,
+        description="Longest measured length of the accredited scope, mm (degrees): results beyond it are "
+        "marked.",
+        examples=[2000],
+    )
+    kind: AxisKind | None = Field(
+        None, description="Kind of axes of the accredited scope: results of others are marked."
+    )
+    standards: list[Text] | None = Field(
+        None,
+        description="Standards of the accredited scope, by their identifiers: results by others are marked.",
+        examples=[["iso230-2:2014"]],
     )
 
 

@@ -98,18 +98,18 @@ def edit_effects(
     job: Job,
     registry: Installed,
     *,
-    add: NamedEffect | None = None,
+    add: Sequence[NamedEffect] = (),
     remove: Collection[str] = (),
 ) -> Edit:
-    """Return the change of a job that adds an effect at the end of its model, or takes effects out.
+    """Return the change of a job that adds effects at the end of its model, and takes effects out.
 
     Raises `InputError` if the file has changed since it was loaded, or its list of effects is written in a
     way in which nothing can be changed without changing more; `AccessError` if the file cannot be read.
     """
     removed = [index for index, choice in enumerate(job.effects) if choice.identifier in remove]
     kept = [choice for choice in job.effects if choice.identifier not in remove]
-    wanted = meaning([*kept, add.choice] if add else kept)
-    change = ListChange(EFFECTS, removed, added=[add.node] if add else [])
+    wanted = meaning([*kept, *(each.choice for each in add)])
+    change = ListChange(EFFECTS, removed, added=[each.node for each in add])
     return edit_list(path, job, registry, change, lambda after: meaning(after.effects) == wanted)
 
 

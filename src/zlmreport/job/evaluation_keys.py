@@ -1,10 +1,11 @@
 """The keys of a job on what is made of readings, standards to error model; and of a test still to be done."""
 
 from collections.abc import Iterator
-from typing import Any, Literal, Self, TypeAlias
+from typing import Annotated, Any, Literal, Self, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from zlmreport.job.circle_keys import CirclePlanKeys
 from zlmreport.job.types import (
     Finite,
     JobPart,
@@ -15,12 +16,14 @@ from zlmreport.job.types import (
 )
 from zlmreport.measurement.axis import AxisKind
 
-#: `zlmreport.uncertainty.budget.Acts`, by its values.
+#: `zlmreport.evaluation.uncertainty.budget.Acts`, by its values.
 ActsName: TypeAlias = Literal[
     "along-the-length",
     "between-directions",
     "at-the-datum",
     "at-each-position",
+    "round-the-circle",
+    "off-centre",
     "at-each-approach",
     "in-time",
     "at-each-reading",
@@ -36,6 +39,8 @@ ContributorName: TypeAlias = Literal[
     "air_temperature",
     "air_pressure",
     "relative_humidity",
+    "calibrated_length",
+    "centring",
     "environmental_variation",
     "resolution",
 ]
@@ -56,8 +61,9 @@ class ContributionKeys(JobPart):
     )
     acts: ActsName = Field(
         description="Which readings share it: all in proportion to their distance from the first target, all "
-        "of the negative direction, all alike, those of a target, those of a target in one "
-        "direction, those that are near in time (a drift of that range), or none.",
+        "of the negative direction, all alike, those of a target, those of an angle and nearly those beside "
+        "it on a circle, those of a circle off its centre, those of a target in one direction, those that "
+        "are near in time (a drift of that range), or none.",
         examples=["at-each-reading"],
     )
     distribution: Literal["normal", "rectangular", "triangular", "one-sided"] | None = Field(
@@ -103,6 +109,18 @@ class UncertaintyKeys(JobPart):
     relative_humidity: NotNegative | None = Field(
         None, description="Likewise of the relative humidity, %.", examples=[10]
     )
+    calibrated_length: NotNegative | None = Field(
+        None,
+        description="Of a circular test: expanded uncertainty (k = 2) of the instrument's calibrated length, "
+        "micrometres.",
+        examples=[0.8],
+    )
+    centring: NotNegative | None = Field(
+        None,
+        description="Of a circular test: range of error of the centre, micrometres. Without it, of a full "
+        "turn, what the centre that the readings tell leaves.",
+        examples=[2],
+    )
     environmental_variation: NotNegative | None = Field(
         None,
         description="Range of the readings of the axis at rest over the time of the test, micrometres (arc "
@@ -142,17 +160,44 @@ _OF_LINEAR_AXES = (
     "expansion_coefficient",
     "device_expansion_coefficient",
 )
+#: Keys that speak of a circle, and those of axes that none has.
+_OF_CIRCLES = ("calibrated_length", "centring")
+#: Ways to share an error that only a circle has, and the one that it has not.
+_ACTS_OF_CIRCLES = ("round-the-circle", "off-centre")
+_ACTS_OF_LENGTHS = ("along-the-length",)
 _SIZES = ("expanded_uncertainty", "standard_uncertainty", "range")
 
 
+def _not_of(kind: AxisKind, *, is_circle: bool) -> Iterator[tuple[tuple[str, ...], str]]:
+    """Yield keys that speak of something else than was measured, and what to do with them."""
+    if kind is AxisKind.ROTARY:
+        yield _OF_LINEAR_AXES, "belongs to a linear axis; take it out, or state contributions of this axis"
+    if is_circle:
+        yield ("misalignment",), "belongs to a line along an axis, and this job is on a circle; take it out"
+    else:
+        yield _OF_CIRCLES, "belongs to a circular test (circle: …); take it out"
+
+
+def _foreign_acts(keys: UncertaintyKeys, *, is_circle: bool) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Yield ways to share an error that what was measured does not have."""
+    foreign = _ACTS_OF_LENGTHS if is_circle else _ACTS_OF_CIRCLES
+    what = "a circle has no length along an axis" if is_circle else "this job is on no circle"
+    if keys.instrument_acts in foreign:
+        yield ("instrument_acts",), f"{keys.instrument_acts} does not fit: {what}"
+    for index, each in enumerate(keys.contributions):
+        if each.acts in foreign:
+            yield ("contributions", index, "acts"), f"{each.acts} does not fit: {what}"
+
+
 def uncertainty_contradictions(
-    keys: UncertaintyKeys, kind: AxisKind
+    keys: UncertaintyKeys, kind: AxisKind, *, is_circle: bool = False
 ) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Yield what no single key shows to be wrong: the path of a key, and a sentence."""
-    if kind is AxisKind.ROTARY:
-        for name in _OF_LINEAR_AXES:
+    for names, why in _not_of(kind, is_circle=is_circle):
+        for name in names:
             if getattr(keys, name) is not None:
-                yield (name,), "belongs to a linear axis; take it out, or state contributions of this axis"
+                yield (name,), why
+    yield from _foreign_acts(keys, is_circle=is_circle)
     for name in keys.negligible:
         if getattr(keys, name, None) is not None:
             yield ("negligible", name), f"is stated as uncertainty.{name} too; take one of them out"
@@ -178,6 +223,11 @@ class StandardKeys(BaseModel):
         {},
         description="Limits by the symbols of the results file, micrometres (arc seconds).",
         examples=[{"A": 20}],
+    )
+    specification: Text | None = Field(
+        None,
+        description="Where these limits stand: the document that they are the specification of.",
+        examples=["Acceptance protocol 4711, section 3"],
     )
 
     @model_validator(mode="before")
@@ -233,7 +283,7 @@ class Model(JobPart):
     )
 
 
-#: `zlmreport.model.noise.NoiseSource`, by its values.
+#: `zlmreport.model.fitting.noise.NoiseSource`, by its values.
 SourceName: TypeAlias = Literal["position", "position_and_direction", "run", "time"]
 
 
@@ -323,6 +373,17 @@ class PauseKeys(JobPart):
     )
 
 
+class CaptureKeys(JobPart):
+    """What `zlmreport capture` takes for a reading."""
+
+    settle: Annotated[float, Field(gt=0, le=600)] | None = Field(
+        None,
+        description="How long the axis must stand still at least, s. The reading of a visit is the last "
+        "standstill of so long before the axis leaves. Without it `dwell` of the data source.",
+        examples=[2],
+    )
+
+
 class PlanKeys(JobPart):
     """The test before it is done, for `zlmreport plan`."""
 
@@ -358,6 +419,9 @@ class PlanKeys(JobPart):
         None,
         description="A rest half-way, between two runs where the method goes run by run.",
         examples=[{"minutes": 60, "change": 3}],
+    )
+    circle: CirclePlanKeys | None = Field(
+        None, description="Of a circular test: its path.", examples=[{"arc": 90, "feeds": [500, 2000]}]
     )
     programs: list[ProgramKeys] = Field(
         [],

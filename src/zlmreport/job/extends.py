@@ -29,6 +29,7 @@ class FileFormat:
 JOB = FileFormat("zlmreport/job/1", "a job", "zlmreport JOB.yaml")
 SIMULATION = FileFormat("zlmreport/simulation/1", "the description of a simulated test", "zlmreport simulate")
 FLEET = FileFormat("zlmreport/fleet/1", "a fleet of jobs", "zlmreport fleet FLEET.yaml")
+MACHINE = FileFormat("zlmreport/machine/1", "a machine", "zlmreport machine")
 PRIORS = FileFormat("zlmreport/priors/1", "what earlier tests taught", "model.priors of a job")
 
 
@@ -45,7 +46,7 @@ def refuse_other_format(
     named = entry.value if entry else None
     if not isinstance(named, Scalar) or named.text == expected.schema:
         return
-    own = (JOB, SIMULATION, FLEET, PRIORS)
+    own = (JOB, SIMULATION, FLEET, MACHINE, PRIORS)
     known = own if any(each.schema == named.text for each in own) else tuple(others())
     for each in known:
         if each.schema == named.text:
@@ -79,11 +80,11 @@ class Defaults:
 
     def as_yaml(self) -> str:
         """Return the keys as a file of their own."""
-        return "".join(f"{line}\n" for line in _lines(self.keys, ""))
+        return "".join(f"{line}\n" for line in yaml_lines(self.keys, ""))
 
 
-def _lines(node: Keys | Items, indent: str) -> Iterator[str]:
-    """Yield a group or a list, a value a line."""
+def yaml_lines(node: Keys | Items, indent: str) -> Iterator[str]:
+    """Yield the lines of a group or a list as YAML, a value a line."""
     if isinstance(node, Items):
         labelled: list[tuple[str, Node]] = [("-", item) for item in node.items]
     else:
@@ -91,9 +92,9 @@ def _lines(node: Keys | Items, indent: str) -> Iterator[str]:
     for label, value in labelled:
         if isinstance(value, Scalar):
             yield f"{indent}{label} {_scalar(value)}".rstrip()
-        elif list(_lines(value, "")):
+        elif list(yaml_lines(value, "")):
             yield f"{indent}{label}"
-            yield from _lines(value, f"{indent}  ")
+            yield from yaml_lines(value, f"{indent}  ")
         else:
             yield f"{indent}{label} {'[]' if isinstance(value, Items) else '{}'}"
 

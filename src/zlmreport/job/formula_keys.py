@@ -1,75 +1,125 @@
-"""An effect that a file writes as a formula: its keys, held against the units of what stands in it."""
+"""The keys of an effect that is written as a formula: in a job, or as an entry of a catalogue of effects."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
-from fractions import Fraction
-from functools import reduce
+from enum import StrEnum
 from types import MappingProxyType
-from typing import Annotated, TypeAlias, TypeGuard
+from typing import Annotated, Any, Literal, TypeAlias
 
-import numpy as np
-from pydantic import Field, ValidationInfo, field_validator
+from pydantic import Field, PlainSerializer, PlainValidator, WithJsonSchema, field_validator
 
-from zlmreport.job.types import Finite, JobPart, Options, Text
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.quantities import formula as parsing
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.formula import (
-    NUMBER,
-    TEMPERATURE,
-    TIME,
-    TRAVEL,
-    Call,
-    FormulaError,
-    Name,
-    Number,
-    Tree,
-    UnitOf,
-    computed,
-    in_si,
-    names_in,
-    parse_formula,
-    terms_of,
-)
-from zlmreport.quantities.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE
+from zlmreport.errors import did_you_mean
+from zlmreport.job.types import Finite, JobPart, Options, Positive, Text
+from zlmreport.language import Language, Words, same
+from zlmreport.measurement.measurand import OF_SYMBOLS, POSITIONING, Measurand
 
-#: The names of the readings: target position, direction, time, run, feed.
-VARIABLES = ("P", "D", "t", "run", "v")
-_NAME = re.compile(r"[^\W\d]\w*", re.ASCII)
-_PER_KELVIN = TEMPERATURE.raised(Fraction(-1))
-_ANY_AXIS = {"s": UnitOf(TIME), "1": UnitOf(NUMBER)}
-#: Units in which parameters are given, by the kind of axis: those in which results print them.
-UNITS: Mapping[AxisKind, Mapping[str, UnitOf]] = MappingProxyType(
+_LANGUAGES = tuple(language.value for language in Language)
+_NAME = r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$"
+
+
+def _phrase(value: Any) -> Words:
+    """Return a text in every language; one that is written once is alike in all of them."""
+    if isinstance(value, Words):
+        return value
+    if isinstance(value, Mapping):
+        lacking = [name for name in _LANGUAGES if not str(value.get(name) or "").strip()]
+        unknown = [name for name in value if name not in _LANGUAGES]
+        if lacking or unknown:
+            wrong = f"{', '.join(lacking)} is missing" if lacking else f"{unknown[0]} is no language"
+            raise ValueError(f"a text is {{en: …, de: …}}; {wrong}")
+        texts = {name: " ".join(str(value[name]).split()) for name in _LANGUAGES}
+        return Words(en=texts["en"], de=texts["de"])
+    if not isinstance(value, str) or not value.strip():
+        raise ValueError("a text is expected, or {en: …, de: …}")
+    return same(" ".join(value.split()))
+
+
+#: A text in every language, ``{en: …, de: …}``; or one text that stands for all.
+Phrase: TypeAlias = Annotated[
+    Words,
+    PlainValidator(_phrase),
+    PlainSerializer(lambda words: {each.value: words.in_language(each) for each in Language}),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "string"},
+                {
+                    "type": "object",
+                    "properties": {name: {"type": "string"} for name in _LANGUAGES},
+                    "required": list(_LANGUAGES),
+                    "additionalProperties": False,
+                },
+            ]
+        }
+    ),
+]
+#: A parameter of an effect of the model.
+ParameterName: TypeAlias = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*\.\w+$")]
+
+#: Units of parameters on a linear axis, and what each is on a rotary one.
+UNITS_OF_PARAMETERS: Mapping[str, str] = MappingProxyType(
     {
-        AxisKind.LINEAR: {
-            "um": UnitOf(TRAVEL, MICROMETRE.per_si),
-            "mm": UnitOf(TRAVEL, MILLIMETRE.per_si),
-            "um/m": UnitOf(NUMBER, 1e6),
-            "um/K": UnitOf(TRAVEL.combined(_PER_KELVIN), 1e6),
-            "um/(m K)": UnitOf(_PER_KELVIN, 1e6),
-            "deg": UnitOf(NUMBER, DEGREE.per_si),
-            **_ANY_AXIS,
-        },
-        AxisKind.ROTARY: {
-            "arcsec": UnitOf(TRAVEL, ARCSECOND.per_si),
-            "deg": UnitOf(TRAVEL, DEGREE.per_si),
-            "arcsec/deg": UnitOf(NUMBER, ARCSECOND.per_si / DEGREE.per_si),
-            "arcsec/K": UnitOf(TRAVEL.combined(_PER_KELVIN), ARCSECOND.per_si),
-            "arcsec/(deg K)": UnitOf(_PER_KELVIN, ARCSECOND.per_si / DEGREE.per_si),
-            **_ANY_AXIS,
-        },
+        "um": "arcsec",
+        "mm": "deg",
+        "um/m": "arcsec/deg",
+        "um/K": "arcsec/K",
+        "um/(m K)": "arcsec/(deg K)",
+        "deg": "deg",
+        "s": "s",
+        "1": "1",
     }
 )
 _SPELLINGS = (("µ", "u"), ("μ", "u"), ("″", "arcsec"), ("°", "deg"), ("*", " "), ("·", " "))
-_SAMPLES, _STEP, _DEPENDENT, _SEED = 60, 1e-4, 1e-7, 20_261_122
-#: Between which positions formulas are tried, m or rad. A step at 1.8 m or at -0.5 m shows on no first metre.
-_POSITIONS = ((0.05, 1.0), (-1.0, 1.0), (-10.0, 10.0), (-100.0, 100.0))
 
 
-#: A parameter of an effect of the model.
-ParameterName: TypeAlias = Annotated[str, Field(pattern=r"^[a-z][a-z0-9-]*\.\w+$")]
+class Search(StrEnum):
+    """What a searched parameter is, and so which of its values a search begins with."""
+
+    FADING_LENGTH = "fading-length"  #: Shares of the travel, from a hundredth to a fifth.
+    TIME_CONSTANT = "time-constant"  #: Shares of the test's time, from a twentieth to one and a half.
+    WAVE_LENGTH = "wave-length"  #: From one wave in the travel to half as many as there are targets.
+    WAVE_TIME = "wave-time"  #: From one wave in the test to nine.
+    JOINT = "joint"  #: Between any two targets but the outermost.
+    MOMENT = "moment"  #: Between any two readings but the outermost.
+    KINK = "kink"  #: Anywhere in the travel but near its ends.
+    WHOLE_NUMBER = "whole-number"  #: As many waves a turn as the targets can tell.
+    RUN = "run"  #: Any run but the first.
+    PAUSE = "pause"  #: The first reading after any of the three longest pauses.
+    PLACE = "place"  #: Anywhere in the travel, its ends too.
+    WIDTH = "width"  #: Shares of the travel, from a fifth to nearly a half.
+    PEAK = "peak"  #: Anywhere in the test's time.
+    SPELL = "spell"  #: Shares of the test's time, from a third to four fifths.
+    LAG = "lag"  #: Shares of the test's time, from a fiftieth to a half.
+    FIXED_POINT = "fixed-point"  #: Places in the travel but the zero of the axis.
+
+
+class Meaning(JobPart):
+    """A value that has a name of its own."""
+
+    between: tuple[Finite, Finite] = Field(description="From where to where the value has it.")
+    says: Phrase = Field(description="What happened then.")
+
+
+class Possible(JobPart):
+    """Between which values physics allows a parameter; others are not asked for, but refused."""
+
+    least: Finite | Text | None = Field(
+        None,
+        description="The least value, or a formula of it: temperature_rise is the largest logged rise in K.",
+    )
+    most: Finite | Text | None = Field(None, description="The largest value, or a formula of it.")
+    because: Phrase = Field(description="Why, as a sentence without a full stop.")
+
+
+class Instead(JobPart):
+    """Values that are tried although a key of the axis states another: the key may be wrong."""
+
+    key: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")] = Field(
+        description="The key of the effect that asks for it: stated (the usual), or other."
+    )
+    description: Text = Field(description="What the key chooses.")
+    values: tuple[Finite, ...] = Field(description="The values.", min_length=1)
 
 
 class FormulaParameter(JobPart):
@@ -81,9 +131,9 @@ class FormulaParameter(JobPart):
         "arcsec/deg, arcsec/K, arcsec/(deg K), s or 1.",
         examples=["um"],
     )
-    range: tuple[Finite, Finite] | None = Field(
+    range: tuple[Finite | None, Finite | None] | None = Field(
         None,
-        description="Smallest and largest plausible value; a parameter that is no factor of a whole term "
+        description="Smallest and largest usual value; a parameter that is no factor of a whole term "
         "must have them, and is searched between them.",
     )
     value: Finite | None = Field(None, description="The value, where it is known and not estimated.")
@@ -92,24 +142,64 @@ class FormulaParameter(JobPart):
         description="The parameter of another effect that it is: both are estimated as one.",
         examples=["screw-pitch.period"],
     )
+    notation: Text | None = Field(None, description="As it is printed, p_{0}; its name without it.")
+    meaning: Phrase | None = Field(None, description="What it is, in words.")
+    search: Search | None = Field(
+        None, description="What it is that is searched: where a search begins follows from the test."
+    )
+    step: Positive | None = Field(
+        None, description="Between the ends of the range only multiples of it from the first make sense."
+    )
+    values: tuple[Finite, ...] = Field((), description="The only values that make sense.")
+    stated: Text | None = Field(
+        None,
+        description="The key of the axis that states it, or a formula of such keys; then it is not searched.",
+        examples=["screw_pitch"],
+    )
+    expected: Finite | None = Field(
+        None, description="The value that it has if the effect is the cause, for comparison."
+    )
+    usual: tuple[Finite, Finite] | None = Field(
+        None, description="Smallest and largest value that machines have; its range without it."
+    )
+    usual_on_rotary: tuple[Finite, Finite] | None = Field(
+        None,
+        description="The same on a rotary axis, in arcsec or deg; without it as many radians as metres.",
+    )
+    question: Phrase | None = Field(
+        None,
+        description="What is asked of a value far beyond what is usual; {value} and {times} stand for it and "
+        "for how many times the usual it is.",
+    )
+    question_below: Phrase | None = Field(
+        None, description="The same of a value that is too small, where it is another question."
+    )
+    meanings: tuple[Meaning, ...] = Field((), description="Values that have a name of their own.")
+    possible: Possible | None = Field(None, description="Between which values physics allows it.")
+    instead: Instead | None = Field(None, description="Values that are tried although a key states another.")
+    unstated: Phrase | None = Field(
+        None, description="What is said where no key states it: which values are tried then."
+    )
 
     @property
     def spelled(self) -> str:
-        """The unit as `UNITS` has it."""
+        """The unit as `UNITS_OF_PARAMETERS` has it."""
         return _spelled(self.unit)
 
     @field_validator("unit")
     @classmethod
     def _is_a_unit(cls, unit: str) -> str:
-        if not any(_spelled(unit) in UNITS[kind] for kind in AxisKind):
-            listed = ", ".join(UNITS[AxisKind.LINEAR])
-            raise ValueError(f"{unit!r} is no unit of a parameter; there are {listed}")
+        if _spelled(unit) not in {*UNITS_OF_PARAMETERS, *UNITS_OF_PARAMETERS.values()}:
+            there_are = ", ".join(UNITS_OF_PARAMETERS)
+            raise ValueError(f"{unit!r} is no unit of a parameter; there are {there_are}")
         return unit
 
     @field_validator("range")
     @classmethod
-    def _rises(cls, ends: tuple[float, float] | None) -> tuple[float, float] | None:
-        if ends is not None and not ends[0] < ends[1]:
+    def _rises(
+        cls, ends: tuple[float | None, float | None] | None
+    ) -> tuple[float | None, float | None] | None:
+        if ends is not None and None not in ends and not ends[0] < ends[1]:  # type: ignore[operator]
             raise ValueError("the first end of its range must be less than the second")
         return ends
 
@@ -120,10 +210,47 @@ def _spelled(unit: str) -> str:
     return " ".join(unit.split())
 
 
+class Needs(JobPart):
+    """What an effect needs beside what stands in its formula: logged columns, keys of the axis, time."""
+
+    axis: Literal["linear", "rotary"] | None = Field(
+        None, description="The kind of axis; without it any that its units fit."
+    )
+    both_directions: bool = Field(default=False, description="Targets approached from both directions.")
+    targets: int | None = Field(None, ge=2, description="The least number of target positions.")
+    runs: int | None = Field(None, ge=2, description="The least number of runs.")
+    whole_period: Literal["screw_pitch", "signal_period", "scale_element", "pole_pitch"] | None = Field(
+        None, description="The key of the axis whose period the measured travel must hold."
+    )
+
+
+class Harmonics(JobPart):
+    """The harmonics of a wave: the key ``harmonics`` of the effect chooses among them."""
+
+    usual: tuple[int, ...] = Field(description="Those that a job means which names none.", min_length=1)
+    tried: tuple[tuple[int, ...], ...] = Field(description="Those that a diagnosis tries.", min_length=1)
+    further: tuple[tuple[int, ...], ...] = Field(
+        (), description="Those that it tries where the effect stands in the model with fewer."
+    )
+
+
+class FormKey(JobPart):
+    """A key of the effect that chooses between forms of it."""
+
+    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")] = Field(
+        description="The key, as jobs write it."
+    )
+    description: Text = Field(description="What it chooses.")
+    choices: dict[str, dict[str, Text]] = Field(
+        description="Its values, the usual one first; and what names of the formula stand for with each.",
+        min_length=2,
+    )
+
+
 class FormulaKeys(Options):
     """An effect that is written as a formula."""
 
-    name: Annotated[str, Field(pattern=r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$", max_length=60)] = Field(
+    name: Annotated[str, Field(pattern=_NAME, max_length=60)] = Field(
         description="What the job and the results call it: small letters, digits and hyphens.",
         examples=["my-wave"],
     )
@@ -132,192 +259,57 @@ class FormulaKeys(Options):
     )
     formula: Text = Field(
         description="The deviation, of the parameters and P (target position), D (direction, +1 or −1), t "
-        "(time from the first reading), run, v (feed) and logged columns by their names (temperatures in "
-        "°C); with + − * / ^, pi, sin, cos, tan, atan, exp, log, tanh, sqrt, abs, min, max, sign and step. "
-        "It is parsed, never executed.",
+        "(time from the first reading), run, v (feed), since_reversal (distance since the last reversal), "
+        "middle and half_travel (of what was measured), travel_first and travel_last, turn (360°), air_index "
+        "(change of the refractive index), compensation (the table's value; compensation_next, "
+        "compensation_before), angular_error, keys of the axis (screw_pitch, signal_period, scale_element) "
+        "and logged columns by their names (temperatures in °C); with + − * / ^, pi, sin, cos, tan, atan, "
+        "exp, log, tanh, sqrt, abs, floor, min, max, sign and step; a*wave(P/L) is a wave of any phase. It "
+        "is parsed, never executed.",
         examples=["a*sin(2*pi*P/L)"],
     )
-    title: Text | None = Field(None, description="In words.")
-    remedy: Text | None = Field(None, description="What to do about it, and what a compensation can do.")
+    title: Phrase | None = Field(None, description="In words.")
+    remedy: Phrase | None = Field(None, description="What to do about it, and what a compensation can do.")
+    physics: Phrase | None = Field(None, description="What happens: how the cause becomes a deviation.")
+    equation: Text | None = Field(None, description="As it is printed; the formula without it.")
+    look: Phrase | None = Field(None, description="What it looks like in the residuals.")
+    needs: Needs = Field(default_factory=Needs, description="What it needs of a test.")
+    taken_for: dict[str, Phrase] = Field(
+        {}, description="Effects that look alike, each with the measurement that tells the two apart."
+    )
+    contains: tuple[Text, ...] = Field(
+        (), description="Effects that are always part of it: they cannot stand beside it in a model."
+    )
+    ranges_from: Phrase | None = Field(None, description="Where the ranges of its parameters come from.")
+    measurands: tuple[Text, ...] = Field(
+        (POSITIONING.identifier,), description="What it acts on.", examples=[["positioning", "straightness"]]
+    )
+    harmonics: Harmonics | None = Field(None, description="Of its wave; without it the first alone.")
+    keys: tuple[FormKey, ...] = Field((), description="Keys that choose between forms of it.")
+    several: bool = Field(
+        default=False, description="Whether it may stand in a model more than once, as joint, joint-2 …"
+    )
+    known: Literal["published", "derived", "experience"] = Field(
+        "experience",
+        description="How its form is known: from a publication, by derivation, or by experience without one.",
+    )
+    source: Phrase | None = Field(None, description="The publication, or what it is derived from.")
 
     def __hash__(self) -> int:
         """Let a fit be kept by what its model means."""
-        return hash((self.name, self.formula, self.title, self.remedy, *sorted(self.parameters)))
+        return hash((self.name, self.formula, *sorted(self.parameters)))
 
-    @field_validator("formula")
+    @field_validator("measurands")
     @classmethod
-    def _is_sound(cls, formula: str, others: ValidationInfo) -> str:
-        """Hold the formula against its parameters, which stand before it here and are sound themselves."""
-        parameters: dict[str, FormulaParameter] | None = others.data.get("parameters")
-        if parameters is None:
-            return formula
-        keys = cls.model_construct(name=others.data.get("name", ""), formula=formula, parameters=parameters)
-        units = [each.spelled for each in parameters.values()]
-        kinds = [kind for kind in AxisKind if all(each in UNITS[kind] for each in units)]
-        failed: FormulaError | None = None
-        for kind in kinds or [AxisKind.LINEAR]:
-            try:
-                Formula.of(keys, kind)
-            except FormulaError as error:
-                failed = failed or error
-            else:
-                return formula
-        raise ValueError(f"{keys.name}: {failed}")
-
-
-class Formula:
-    """A formula on one kind of axis: in SI, and parted into what is solved and what is searched."""
-
-    def __init__(self, keys: FormulaKeys, tree: Tree, units: Mapping[str, UnitOf]) -> None:
-        self.tree = tree  #: The formula.
-        self.units = units  #: Of all names.
-        self.names = names_in(tree)
-        known = {*keys.parameters, *VARIABLES}
-        #: Logged columns that stand in it.
-        self.columns = tuple(name for name in self.names if name not in known)
-        terms = terms_of(tree)
-        #: The parameters that are factors of whole terms, in the order of the file.
-        self.linear = _linear(terms, list(keys.parameters))
-        self.searched = tuple(name for name in keys.parameters if name not in self.linear)  #: The others.
-        #: Values of parameters that the file gives.
-        self.stated = {
-            name: each.value / units[name].per_si
-            for name, each in keys.parameters.items()
-            if each.value is not None
-        }
-        #: What each linear parameter is multiplied with.
-        self.multiplied = {name: _multiplied_with(name, terms) for name in self.linear}
-
-    @classmethod
-    def of(cls, keys: FormulaKeys, kind: AxisKind) -> Formula:
-        """Return the formula of a file on one kind of axis.
-
-        Raises `FormulaError` with what is wrong with it.
-        """
-        tree = parse_formula(keys.formula)
-        _refuse_names(keys, names_in(tree))
-        units = _units(keys, names_in(tree), kind)
-        tree, extent = in_si(tree, units)
-        if extent != TRAVEL:
-            raise FormulaError(f"its value must be a deviation, as a parameter in um is; it is {extent}")
-        found = cls(keys, tree, units)
-        for name in found.searched:
-            if keys.parameters[name].range is None and keys.parameters[name].value is None:
-                raise FormulaError(
-                    f"{name} is no factor of a whole term and must be searched; state its range"
+    def _are_measured(cls, names: tuple[str, ...]) -> tuple[str, ...]:
+        for name in names:
+            if name not in OF_SYMBOLS:
+                raise ValueError(
+                    f"{name!r} is nothing that is measured; {did_you_mean(name, list(OF_SYMBOLS))}"
                 )
-        found._refuse_undetermined(keys)
-        return found
+        return names
 
-    def values(self, readings: Mapping[str, FloatArray], searched: Mapping[str, float]) -> FloatArray:
-        """Return what each linear parameter is multiplied with, SI, shape (N, len(linear)).
-
-        `readings`: Of each variable and each column that stands in it, SI but temperatures in °C, shape (N,).
-        """
-        known: dict[str, FloatArray | float] = {**readings, **searched}
-        count = max((np.size(each) for each in readings.values()), default=1)
-        columns = (computed(tree, known) for tree in self.multiplied.values())
-        return np.stack([np.broadcast_to(each, (count,)) for each in columns], axis=1)
-
-    def _refuse_undetermined(self, keys: FormulaKeys) -> None:
-        """Refuse parameters that no readings at all could tell apart: two that stand for one."""
-        free = [name for name in self.searched if keys.parameters[name].value is None]
-        names = [*self.linear, *free]
-        tried = [self._slopes(keys, free, *positions) for positions in _POSITIONS]
-        finite = [each for each in tried if np.all(np.isfinite(each))]
-        if not finite:
-            raise FormulaError("it has no finite value at usual readings, or none within the ranges")
-        together = next((each for each in finite if each.any(axis=0).all()), finite[0])
-        lengths = np.linalg.norm(together, axis=0)
-        if not lengths.all():
-            raise FormulaError(f"{names[int(np.argmin(lengths))]} changes nothing in it")
-        if np.linalg.svd(together / lengths, compute_uv=False)[-1] < _DEPENDENT:
-            raise FormulaError(f"no readings could tell {', '.join(names)} apart; one of them is too many")
-
-    def _slopes(self, keys: FormulaKeys, free: list[str], first: float, last: float) -> FloatArray:
-        """Return what each parameter changes at readings between two positions, m or rad, shape (N, k)."""
-        random = np.random.default_rng(_SEED)
-        readings = {
-            "P": random.uniform(first, last, _SAMPLES),
-            "D": random.choice([-1.0, 1.0], _SAMPLES),
-            "t": random.uniform(1.0, 3600.0, _SAMPLES),
-            "run": random.integers(1, 9, _SAMPLES).astype(np.float64),
-            "v": random.uniform(0.01, 0.1, _SAMPLES),
-            **{name: random.uniform(15.0, 25.0, _SAMPLES) for name in self.columns},
-        }
-        theta = {name: self._middle(keys.parameters[name], name) for name in self.searched}
-        columns = self.values(readings, theta)
-        slopes = [columns]
-        for name in free:
-            low, high = keys.parameters[name].range or (0.0, 0.0)
-            # Where a step is moved by little, no reading passes it.
-            for step in (_STEP * (abs(theta[name]) or 1.0), (high - low) / 4 / self.units[name].per_si):
-                moved = self.values(readings, {**theta, name: theta[name] + step})
-                with np.errstate(invalid="ignore"):  # far away, an exponential is infinite
-                    slope = ((moved - columns) / step).sum(axis=1, keepdims=True)
-                if slope.any():
-                    break
-            slopes.append(slope)
-        return np.concatenate(slopes, axis=1)
-
-    def _middle(self, parameter: FormulaParameter, name: str) -> float:
-        low, high = parameter.range or (0.0, 0.0)
-        value = parameter.value if parameter.value is not None else 0.5 * low + 0.5 * high
-        return (value or 0.25 * low + 0.75 * high) / self.units[name].per_si
-
-
-def _refuse_names(keys: FormulaKeys, used: tuple[str, ...]) -> None:
-    taken = {*VARIABLES, *parsing.CONSTANTS, *parsing.FUNCTIONS}
-    for name in keys.parameters:
-        if not _NAME.fullmatch(name) or name in taken:
-            raise FormulaError(f"a parameter cannot be called {name!r}")
-        if name not in used:
-            raise FormulaError(f"the parameter {name} does not stand in it")
-
-
-def _units(keys: FormulaKeys, names: tuple[str, ...], kind: AxisKind) -> dict[str, UnitOf]:
-    per_si = MILLIMETRE.per_si if kind is AxisKind.LINEAR else DEGREE.per_si
-    found = {
-        "P": UnitOf(TRAVEL, per_si),
-        "D": UnitOf(NUMBER),
-        "t": UnitOf(TIME),
-        "run": UnitOf(NUMBER),
-        "v": UnitOf(TRAVEL.combined(TIME, -1), 60.0 * per_si),
-    }
-    for name, each in keys.parameters.items():
-        if each.spelled not in UNITS[kind]:
-            raise FormulaError(f"{name}: {each.unit!r} does not belong to a {kind.value} axis")
-        found[name] = UNITS[kind][each.spelled]
-    for name in names:
-        found.setdefault(name, UnitOf(TEMPERATURE if name.endswith("temperature") else NUMBER))
-    return found
-
-
-def _linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple[str, ...]:
-    """Return the parameters that are factors of whole terms, one for each term."""
-    found: list[str] = []
-    for name in parameters:
-        holding = [term for term in terms if any(name in names_in(factor) for factor in term)]
-        alone = all(
-            sum(name in names_in(factor) for factor in term) == 1 and Name(name) in term for term in holding
-        )
-        if alone and not any(_is_one_of(factor, found) for term in holding for factor in term):
-            found.append(name)
-    for term in terms:
-        if not any(_is_one_of(factor, found) for factor in term):
-            raise FormulaError("each term must have a size to be estimated, as a in a*sin(P/L)")
-    return tuple(name for name in parameters if name in found)
-
-
-def _multiplied_with(name: str, terms: tuple[tuple[Tree, ...], ...]) -> Tree:
-    """Return what a parameter is multiplied with: of each of its terms the other factors."""
-    products = []
-    for term in terms:
-        if Name(name) in term:
-            factors = [each for each in term if each != Name(name)] or [Number(1.0)]
-            products.append(reduce(lambda one, other: Call("*", (one, other)), factors))
-    return reduce(lambda one, other: Call("+", (one, other)), products)
-
-
-def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> TypeGuard[Name]:
-    return isinstance(factor, Name) and factor.text in names
+    @property
+    def acts_on(self) -> tuple[Measurand, ...]:
+        """The measurands on which it acts."""
+        return tuple(OF_SYMBOLS[name] for name in self.measurands)

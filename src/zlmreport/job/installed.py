@@ -1,4 +1,4 @@
-"""What a job needs to know of the plugins that it names; `zlmreport.plugins.Registry` answers."""
+"""What a job needs to know of the plugins that it names; `zlmreport.plugin.registry.Registry` answers."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import Options
 from zlmreport.language import Words
+from zlmreport.measurement.units import Unit
 
 
 class Named(Protocol):
@@ -34,7 +35,7 @@ class LimitedQuantity(Protocol):
 
     @property
     def notation(self) -> str:
-        """As the standard prints it (`zlmreport.quantities.formatting`)."""
+        """As the standard prints it (`zlmreport.language.formatting`)."""
 
     @property
     def name(self) -> Words:
@@ -43,6 +44,10 @@ class LimitedQuantity(Protocol):
     @property
     def can_be_limited(self) -> bool:
         """Whether a tolerance makes sense for it."""
+
+    @property
+    def unit(self) -> Unit | None:
+        """Its own unit; None for that of what was measured."""
 
 
 class InstalledStandard(WithKeys, Protocol):
@@ -99,6 +104,7 @@ class InstalledEffect(WithKeys, Protocol):
     """An effect, and the parameters that a job may give."""
 
     title: Words  #: In words.
+    several: bool  #: Whether it may stand in a model more than once.
 
     @property
     def linear(self) -> Sequence[NamedParameter]:
@@ -110,6 +116,9 @@ class InstalledEffect(WithKeys, Protocol):
 
     def with_settings(self, settings: Any) -> InstalledEffect:
         """Return the form of it that its own keys ask for."""
+
+    def repeated(self, number: int) -> InstalledEffect:
+        """Return it as it stands in a model for the second time, or the third."""
 
 
 class Installed(Protocol):
@@ -137,6 +146,10 @@ class Installed(Protocol):
     @property
     def extension_keys(self) -> Sequence[str]:
         """The keys of the groups that plugins add."""
+
+    @property
+    def axis_keys(self) -> Sequence[str]:
+        """Those that stand for the axis of a job."""
 
     def source(self, identifier: str, named_at: Place | None = None) -> WithKeys: ...
     def standard(self, identifier: str, named_at: Place | None = None) -> InstalledStandard: ...

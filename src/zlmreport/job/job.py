@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from zlmreport.errors import Place
+from zlmreport.errors import InputError, Place, quoted
 from zlmreport.job.choices import Choice, ControllerChoice, EffectChoice, ExtensionChoice
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
+from zlmreport.job.quantity import places_in_si
 from zlmreport.job.tree import Keys, Step, keys_of, place_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +22,7 @@ class StandardChoice(Choice):
     """A standard that the job names."""
 
     tolerances: Mapping[str, float]  #: Limits by symbol, m or rad.
+    specification: str = ""  #: The document that they come from; empty where the job does not say.
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,13 @@ class Job:
         Further tests of the same axis, against which the error model is held as well.
     priors
         What earlier tests say of noise and sizes of effects; None where the job names no such file.
+    tests
+        The measured lines that are evaluated together, each as a job of its own, by the names that the job
+        gives them; none of most jobs.
+    measurements
+        The jobs that the document of this one is made of, by the symbols of their errors or their files'
+        names; none of most. What is said above is then that of the first, and the document's own where it
+        says so.
     """
 
     keys: JobKeys
@@ -84,6 +92,8 @@ class Job:
     tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
     sessions: tuple[Job, ...] = ()
     priors: PriorsKeys | None = None
+    tests: Mapping[str, Job] = field(default_factory=dict)
+    measurements: Mapping[str, Job] = field(default_factory=dict)
 
     @property
     def as_found(self) -> Job | None:
@@ -96,7 +106,64 @@ class Job:
             return None
         environment = keys.environment or self.keys.environment
         own = self.keys.model_copy(update={"measurement": keys.measurement, "environment": environment})
-        return replace(self, keys=own, source=source, source_as_found=None)
+        axis = replace(self.axis, at=places_in_si(keys.measurement.at))
+        return replace(self, keys=own, axis=axis, source=source, source_as_found=None)
+
+    @property
+    def lines(self) -> Mapping[str, Job]:
+        """What was measured: each of several lines by its name, or the job itself by an empty one."""
+        return self.tests or {"": self}
+
+    @property
+    def parts(self) -> tuple[Job, ...]:
+        """What a document is made of: each of its jobs, or the job itself."""
+        return tuple(self.measurements.values()) or (self,)
+
+    @property
+    def sources(self) -> tuple[SourceChoice, ...]:
+        """Every data source that the job names."""
+        if self.measurements:
+            return tuple(each for of in self.measurements.values() for each in of.sources)
+        own = [each.source for each in self.lines.values()]
+        return (*own, *([self.source_as_found] if self.source_as_found else []))
+
+    def demand_one_line(self, doing: str) -> None:
+        """Raise `InputError` for a job of several measured lines, where one is meant.
+
+        `doing`: What is of one line, as the beginning of a sentence.
+        """
+        if self.measurements:
+            raise InputError.at(
+                self.place_of("measurements"),
+                f"{doing} is of one measurement, and this document has several; take one of their jobs",
+            )
+        if self.tests:
+            raise InputError.at(
+                self.place_of("measurement.tests"),
+                f"{doing} is of one measured line, and this job has {', '.join(self.tests)}; write a job "
+                f"for one",
+            )
+
+    def line(self, name: str | None, option: Place) -> Job:
+        """Return one of several measured lines as a job of its own, by its name; a job without any, itself.
+
+        Raises `InputError` at the `option` that names it if there is no such line, or one has to be named.
+        """
+        if self.measurements:
+            self.demand_one_line("this command")
+        if not self.tests and name is None:
+            return self
+        found = self.tests.get(name or "")
+        if found is None:
+            lines = f"this job has {', '.join(self.tests)}" if self.tests else "this job has a single line"
+            asked = (
+                f"{quoted(name)} is no test; {lines}" if name else f"{lines}: say which of them, --test NAME"
+            )
+            raise InputError.at(option, asked)
+        certificate = found.keys.certificate.model_copy(
+            update={"number": f"{self.keys.certificate.number}-{name}"}
+        )
+        return replace(found, keys=found.keys.model_copy(update={"certificate": certificate}))
 
     def own_keys(self, extension: str) -> Any:
         """Return the keys of an extension's group; None where the job does not have it."""

@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from zlmreport.job.circle_keys import CircleKeys
 from zlmreport.job.document_keys import (
     Agreement,
     CertificateKeys,
@@ -21,6 +22,7 @@ from zlmreport.job.document_keys import (
     Output,
 )
 from zlmreport.job.evaluation_keys import (
+    CaptureKeys,
     ControllerKeys,
     DecisionRuleKeys,
     Model,
@@ -37,7 +39,7 @@ from zlmreport.job.measurement_keys import (
     Machine,
     Measurement,
 )
-from zlmreport.job.types import JobPart, Lines, Text
+from zlmreport.job.types import JobPart, JobPath, Lines, Text
 
 
 class OfFleet(JobPart):
@@ -66,6 +68,11 @@ class JobKeys(JobPart):
     customer: Customer | None = Field(None, description="For whom the work was done.")
     machine: Machine = Field(default_factory=Machine, description="The machine under test.")
     axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
+    circle: CircleKeys | None = Field(
+        None,
+        description="The circle of a circular test, which stands instead of an axis.",
+        examples=[{"plane": "XY", "radius": 150, "feed": 1000, "calibrated_length": True}],
+    )
     location: Location | Lines | None = Field(
         None,
         description="Where the work was done, in words or as a kind of place. Without it "
@@ -103,6 +110,12 @@ class JobKeys(JobPart):
         default_factory=OfFleet,
         description="What a fleet is told of this job alone; no certificate depends on it.",
         examples=[{"interval": 180}],
+    )
+    measurements: list[JobPath] = Field(
+        [],
+        description="Jobs of which one document is made, instead of axis, measurement and evaluate: what "
+        "this job says of laboratory, customer, machine and certificate holds for all of them.",
+        examples=[["x.yaml", "circle.yaml"]],
     )
     evaluate: list[StandardKeys] = Field(
         min_length=1,
@@ -149,6 +162,11 @@ class JobKeys(JobPart):
         default_factory=PlanKeys,
         description="The test before it is done, for `zlmreport plan`.",
         examples=[{"targets": {"count": 21}, "repeatability": 0.5}],
+    )
+    capture: CaptureKeys = Field(
+        default_factory=CaptureKeys,
+        description="What `zlmreport capture` takes for a reading.",
+        examples=[{"settle": 2}],
     )
     compensation: ControllerKeys | None = Field(
         None,

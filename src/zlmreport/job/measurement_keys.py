@@ -1,9 +1,11 @@
 """The keys of a job file on the machine, its axis, and how the readings were taken and are corrected."""
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field
 
+from zlmreport.errors import did_you_mean, quoted
+from zlmreport.job.evaluation_keys import UncertaintyKeys
 from zlmreport.job.types import (
     Date,
     Finite,
@@ -12,11 +14,13 @@ from zlmreport.job.types import (
     JobPart,
     JobPath,
     Lines,
+    NotNegative,
     Positive,
     Text,
     along_the_length,
 )
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.error_symbol import LINEAR_AXES, ROTARY_AXES, letter_of
 
 
 class AirKeys(JobPart):
@@ -129,6 +133,9 @@ class AxisKeys(JobPart):
     scale_element: Positive | None = Field(
         None, description="Length of one element of a scale made of several, mm or degrees."
     )
+    pole_pitch: Positive | None = Field(
+        None, description="Distance of like poles of a linear or torque motor, mm or degrees.", examples=[24]
+    )
     compensation_table: Literal["none"] | JobPath | None = Field(
         None,
         union_mode="left_to_right",
@@ -155,6 +162,24 @@ class SourceKeys(BaseModel):
     plugin: Text = Field(description="Identifier of an installed data source.", examples=["laser-csv"])
 
 
+#: The name of one of several tests, which symbols and pages then carry.
+TestName: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,19}$")]
+#: What `measurement.at` may name beside axes.
+_TOOL = "tool"
+
+
+def _places(at: dict[str, Any]) -> dict[str, Any]:
+    for name, value in at.items():
+        is_tool = name == _TOOL
+        if not is_tool and not letter_of(name):
+            near = did_you_mean(name, [*LINEAR_AXES, *ROTARY_AXES, _TOOL])
+            raise ValueError(f"{quoted(name)} is no axis; {near}")
+        if is_tool != isinstance(value, tuple):
+            expected = "three offsets, mm: [0, 0, 120]" if is_tool else "one position"
+            raise ValueError(f"{name} is {expected}")
+    return at
+
+
 class LineOfPlane(JobPart):
     """Where the measuring line lies in a plane of two axes."""
 
@@ -162,11 +187,26 @@ class LineOfPlane(JobPart):
     at: Finite = Field(description="Its position while the line was measured, mm.", examples=[200])
 
 
-class Measurement(JobPart):
-    """How the readings were taken."""
+class LineKeys(JobPart):
+    """How the readings of one measured line, or of one circle, were taken."""
 
-    source: SourceKeys = Field(
-        description="Where the readings come from.", examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}]
+    error: Text | None = Field(
+        None,
+        description="What was measured, by ISO 230-1's symbol: EYX is straightness along Y of a motion along "
+        "X, EBX an angle, C0Y the squareness of Y to X; without it the positioning of the axis, EXX. Or the "
+        "name of a quantity that a standard brings.",
+        examples=["EYX"],
+    )
+    at: Annotated[dict[str, Finite | tuple[Finite, Finite, Finite]], AfterValidator(_places)] = Field(
+        {},
+        description="Where the other axes stood, mm or degrees, and the tool's offset from the spindle's "
+        "nose, mm.",
+        examples=[{"Y": 150, "Z": 80, "tool": [0, 0, 120]}],
+    )
+    source: SourceKeys | None = Field(
+        None,
+        description="Where the readings come from; not needed beside tests.",
+        examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}],
     )
     date: Date | None = Field(
         None, description="Date of the measurement, or of its first day.", examples=["2026-11-18"]
@@ -203,6 +243,39 @@ class Measurement(JobPart):
     remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
 
 
+def _nothing(value: Any) -> Any:
+    """Take the word for nothing as nothing: `material: none`."""
+    return 0.0 if str(value).strip().lower() in {"none", "no", "false"} else value
+
+
+class CompensatesKeys(JobPart):
+    """What the instrument has corrected already, before it displayed a reading."""
+
+    material: Annotated[NotNegative, BeforeValidator(_nothing)] | None = Field(
+        None,
+        description="Coefficient by which it took the expansion of the material to 20 °C, micrometres/(m K); "
+        "none or 0 if it did not.",
+        examples=[11.5],
+    )
+    air: bool | None = Field(
+        None,
+        description="Whether it knew the refractive index of the air; an interferometer that did not has an "
+        "error of the whole length, which is then counted.",
+        examples=[True],
+    )
+
+
+class SensorKeys(JobPart):
+    """A thermometer or another sensor of the conditions, by its calibration."""
+
+    name: Text = Field(description="Which it is.", examples=["Material sensor 1"])
+    certificate: Text | None = Field(
+        None, description="Its calibration certificate.", examples=["T-2026-114"]
+    )
+    calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-02-10"])
+    due: Date | None = Field(None, description="When it is due again.", examples=["2027-02-10"])
+
+
 class Instrument(JobPart):
     """The measuring instrument: the link to the national standard."""
 
@@ -211,6 +284,9 @@ class Instrument(JobPart):
     serial: Text | None = Field(None, description="Serial number.")
     certificate: Text | None = Field(None, description="Its calibration certificate.")
     calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-03-01"])
+    due: Date | None = Field(
+        None, description="When it is due to be calibrated again.", examples=["2027-03-01"]
+    )
     expanded_uncertainty: Positive | InstrumentUncertainty | None = Field(
         None,
         description="Its expanded uncertainty (k = 2), micrometres (arc seconds); with a part that grows "
@@ -229,6 +305,11 @@ class Instrument(JobPart):
         None,
         description="What the instrument itself compensated, in words.",
         examples=["refractive index of the air; no material temperature"],
+    )
+    compensates: CompensatesKeys | None = Field(
+        None,
+        description="What it has corrected already, as numbers: the expansion is then not counted again.",
+        examples=[{"material": 11.5, "air": True}],
     )
 
     @property
@@ -259,7 +340,49 @@ class Environment(JobPart):
         description="Where the temperatures were measured.",
         examples=["air: beside the beam; machine: on the scale, in the middle"],
     )
+    thermometers: list[SensorKeys] = Field(
+        [],
+        description="Thermometers and other sensors whose readings enter results, with their calibrations.",
+        examples=[[{"name": "Material sensor 1", "certificate": "T-2026-114", "calibrated": "2026-02-10"}]],
+    )
     remarks: Lines | None = Field(None, description="Anything else: oil shower, sunlight, vibration.")
+
+
+class NamedTest(LineKeys):
+    """One of several measured lines; what is not said of it is as in the job's measurement."""
+
+    axis: AxisKeys | None = Field(
+        None,
+        description="The axis that moves; without it that of the error's symbol, or the job's.",
+        examples=[{"name": "X"}],
+    )
+    instrument: Instrument | None = Field(None, description="Its instrument; without it that of the job.")
+    environment: Environment | None = Field(
+        None, description="Conditions during it; without them those of the job."
+    )
+    uncertainty: UncertaintyKeys | None = Field(
+        None, description="The uncertainty of its set-up; without it that of the job."
+    )
+
+
+class Measurement(LineKeys):
+    """How the readings were taken: those of one line, or of several that are evaluated together."""
+
+    tests: dict[TestName, NamedTest] = Field(
+        {},
+        description="Several measured lines that a standard evaluates together, by the names that it asks "
+        "for, instead of source.",
+        examples=[
+            {
+                "x": {"error": "EYX", "source": {"plugin": "laser-csv", "file": "x-straightness.csv"}},
+                "y": {"error": "EXY", "source": {"plugin": "laser-csv", "file": "y-straightness.csv"}},
+            }
+        ],
+    )
+    symbols: Literal["iso230-1", "vdi-vde-2617-3"] = Field(
+        "iso230-1",
+        description="How errors are named in print: by ISO 230-1, or by VDI/VDE 2617 part 3 beside it.",
+    )
 
 
 class AsFound(JobPart):

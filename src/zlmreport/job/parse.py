@@ -11,6 +11,7 @@ import codecs
 import contextlib
 import re
 import unicodedata
+from collections.abc import Iterator
 from types import MappingProxyType
 from typing import Any
 
@@ -25,12 +26,20 @@ LARGEST = 1024 * 1024
 #: Characters of one file that are complained of one by one.
 _MOST_NAMED = 10
 
+#: What nobody sees, so that two texts that differ in it look the same: Unicode's
+#: Default_Ignorable_Code_Point, marks of annotations, and the blank of Braille.
+_UNSEEN = (
+    "\xad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200f\u202a-\u202e\u2060-\u206f\u2800\u3164"
+    "\ufe00-\ufe0f\ufeff\uffa0\ufff0-\ufffb\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff"
+)
 #: Control characters and lone surrogates, for which there is nothing to print; overrides and isolates of
 #: the writing direction, with which a text reads otherwise than it is stored; separators that split lines
 #: where an editor does not; and byte order marks in the middle, which nobody typed.
-_UNPRINTABLE = re.compile(
-    "[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\u202a-\u202e\u2066-\u2069\u2028\u2029\ufeff]"
-)
+_HIDDEN = re.compile(f"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f\ud800-\udfff\u2028\u2029{_UNSEEN}]")
+_INVISIBLE = re.compile(f"[{_UNSEEN}]")
+_JOINERS = frozenset("\u200c\u200d")
+#: Combining class of the sign that takes a vowel away, in scripts of India.
+_VIRAMA = 9
 _UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 #: A job needs five levels, and some hundred values.
@@ -66,7 +75,7 @@ def decoded(content: bytes, file: str) -> str:
             f"byte 0x{content[error.start]:02X} is not UTF-8; save the file as UTF-8",
         ) from error
     problems: list[Problem] = []
-    for found in _UNPRINTABLE.finditer(text):
+    for found in _hidden(text):
         place = _place(text[: found.start()], file)
         if len(problems) == _MOST_NAMED:
             problems.append(Problem(place, "and more of the kind; is this a text file?"))
@@ -77,10 +86,27 @@ def decoded(content: bytes, file: str) -> str:
     return text
 
 
-def unprintable(text: str) -> str | None:
-    """Return the first character of a text that cannot be printed, if there is one."""
-    found = _UNPRINTABLE.search(text)
-    return found[0] if found else None
+def hidden(text: str) -> str | None:
+    """Return the first character of a text that cannot be printed or seen, if there is one."""
+    return next((found[0] for found in _hidden(text)), None)
+
+
+def invisible(text: str) -> list[str]:
+    """Return the characters of a text that nobody sees, whatever they do."""
+    return _INVISIBLE.findall(text)
+
+
+def _hidden(text: str) -> Iterator[re.Match[str]]:
+    return (found for found in _HIDDEN.finditer(text) if not _joins(text, found.start()))
+
+
+def _joins(text: str, place: int) -> bool:
+    """Whether a joiner is where a script needs one: it changes letters that everybody sees (RFC 5892, A)."""
+    if text[place] not in _JOINERS or not 0 < place < len(text) - 1:
+        return False
+    before, behind = text[place - 1], text[place + 1]
+    is_between_letters = all(unicodedata.bidirectional(each) == "AL" for each in (before, behind))
+    return unicodedata.combining(before) == _VIRAMA or is_between_letters
 
 
 def described(character: str) -> str:
@@ -109,13 +135,16 @@ def _place(before: str, file: str) -> Place:
     return Place(file, len(lines), len(lines[-1]) + 1)
 
 
-def parse(content: bytes, file: str) -> Keys:
+def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
     """Return the keys of a job file.
+
+    `strictly`: Whether a tab or a question mark at a place where YAML forbids it is refused; a catalogue of
+        effects, which asks many questions, is read five times as fast if not.
 
     Raises `InputError` with every mistake that does not hide the rest of the file.
     """
     text = decoded(content, file)
-    if _LET_PASS.isdisjoint(text):
+    if not strictly or _LET_PASS.isdisjoint(text):
         reader = _Reader(_QUICK(text), file)
         with contextlib.suppress(
             yaml.YAMLError, ValueError, OverflowError, InputError
@@ -199,9 +228,9 @@ class _Reader:
         return node
 
     def _scalar(self, event: yaml.ScalarEvent) -> Scalar:
-        hidden = unprintable(event.value)
-        if hidden:
-            self._refuse(event, f"{described(hidden)} in a text; remove it")
+        unseen = hidden(event.value)
+        if unseen:
+            self._refuse(event, f"{described(unseen)} in a text; remove it")
         return Scalar(self._place(event), event.value, plain=not event.style)
 
     def _items(self, start: yaml.Event, depth: int) -> Items:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, TypeAlias
 
@@ -19,6 +20,8 @@ from zlmreport.job.types import LiveInstrumentKeys, model_at
 from zlmreport.language import Language
 
 Schema: TypeAlias = dict[str, Any]
+#: What a text looks like that is a number.
+_NUMBER = r"^\s*[-+]?(\d+([.,]\d*)?|[.,]\d+)([eE][-+]?\d+)?\s*$"
 
 
 def job_schema(registry: Installed) -> Schema:
@@ -53,7 +56,8 @@ def job_schema(registry: Installed) -> Schema:
         "description": rule["description"],
         "anyOf": [{"enum": rule["properties"]["rule"]["enum"]}, rule],
     }
-    formula = _own_keys(FormulaKeys, "formula", definitions)
+    definitions[f"formula.{FormulaKeys.__name__}"] = _own_keys(FormulaKeys, "formula", definitions)
+    formula = {"$ref": f"#/$defs/formula.{FormulaKeys.__name__}"}
     definitions["Model"]["properties"]["effects"]["items"] = {
         "anyOf": [
             {"enum": [effect.identifier for effect in registry.effects]},
@@ -85,14 +89,22 @@ def job_schema(registry: Installed) -> Schema:
     formats = definitions["Output"]["properties"]["formats"]
     formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
     _describe_references(schema, definitions)
-    for part in _parts(schema):
-        _take_numbers_for_text(part)
+    _take_numbers_for_text(schema)
+    demands = _demands(schema, definitions, {SourceKeys.__name__: _named_demands("plugin", sources)})
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "$id": "urn:zlmreport:job:1",
         **_without_demands(schema),
-        "if": {"required": ["schema"], "not": {"required": ["extends"]}},
-        "then": _demands(schema, definitions, {SourceKeys.__name__: _named_demands("plugin", sources)}),
+        "if": {
+            "required": ["schema"],
+            "not": {"anyOf": [{"required": ["extends"]}, {"required": ["measurements"]}]},
+        },
+        "then": {
+            **demands,
+            "required": [key for key in demands["required"] if key != "axis"],
+            "anyOf": [{"required": [key]} for key in ("axis", "circle", *registry.axis_keys)]
+            + [{"properties": {"measurement": {"required": [key]}}} for key in ("error", "tests")],
+        },
     }
 
 
@@ -155,8 +167,13 @@ def _by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) -> Sche
     return _with_keys(_own_keys(plugin.options, plugin.identifier, definitions), {key: named})
 
 
+#: Parameters that bear the symbol of what was measured: ``EYX``, ``EYX_fwd``, ``C0Y``.
+_ERROR_SYMBOLS = "^[EABC][0A-CU-Z][A-CU-Z](_[a-z]+)?$"
+
+
 def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
     """Return the schema of a standard's keys."""
+    limit = {"type": "number", "exclusiveMinimum": 0, "description": "Of an error by its symbol, µm (″)."}
     keys = {
         "standard": {"const": standard.identifier, "description": "Identifier of the standard."},
         "tolerances": {
@@ -171,6 +188,7 @@ def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
                 for each in standard.quantities
                 if each.can_be_limited
             },
+            **({"patternProperties": {_ERROR_SYMBOLS: limit}} if hasattr(standard, "of_error") else {}),
             "additionalProperties": False,
         },
     }
@@ -246,10 +264,28 @@ def _with_keys(schema: Schema, keys: Schema) -> Schema:
     }
 
 
-def _take_numbers_for_text(part: Schema) -> None:
-    """Allow numbers where text is asked for: a serial number 00123 is taken as it is spelt."""
-    if part.get("type") == "string" and not {"enum", "const", "format"} & part.keys():
-        part["type"] = ["string", "number"]
+def _take_numbers_for_text(schema: Schema) -> None:
+    """Allow numbers where text is asked for: a serial number 00123 is taken as it is spelt.
+
+    Not where the text has a form that no number has; nor where a number or a group of keys may stand as well:
+    there, what looks like a number is one, and is held to its bounds.
+    """
+    for part in _parts(schema):
+        others = [each for each in _alternatives(part)[1:] if not _is_free_text(each)]
+        if any(each.get("type") in {"number", "integer"} or "$ref" in each for each in others):
+            for each in filter(_is_free_text, _alternatives(part)[1:]):
+                each["not"] = {"pattern": _NUMBER}
+    for part in _parts(schema):
+        if _is_free_text(part) and "not" not in part:
+            form = re.compile(part.get("pattern", ""))
+            if form.search("7.5"):
+                part["type"] = ["string", "number"]
+            if not form.search("-7.5"):
+                part["minimum"] = 0
+
+
+def _is_free_text(part: Schema) -> bool:
+    return part.get("type") == "string" and not {"enum", "const", "format"} & part.keys()
 
 
 def _parts(schema: Any) -> Iterator[Schema]:
@@ -264,16 +300,36 @@ def _parts(schema: Any) -> Iterator[Schema]:
 
 
 def _without_demands(schema: Schema) -> Schema:
-    """Return the schema without what its own parts must have; plugins' keys stay with their plugin."""
+    """Return the schema without what its own parts must have; plugins' keys stay with their plugin.
+
+    So do those of an item of a list: a list is extended as a whole.
+    """
     relaxed = {key: value for key, value in schema.items() if key != "required"}
     plugin_parts = {ControllerKeys.__name__, SourceKeys.__name__, StandardKeys.__name__, ProgramKeys.__name__}
+    whole = plugin_parts | _only_listed(schema)
     relaxed["$defs"] = {
         name: definition
-        if name in plugin_parts or "." in name
+        if name in whole or "." in name
         else {key: value for key, value in definition.items() if key != "required"}
         for name, definition in schema["$defs"].items()
     }
     return relaxed
+
+
+def _only_listed(schema: Schema) -> set[str]:
+    """Return the definitions that only items of lists refer to."""
+    listed: set[str] = set()
+    others: set[str] = set()
+    for part in _parts(schema):
+        for name, value in part.items():
+            for each in _alternatives(value) if name != "$defs" and isinstance(value, dict) else ():
+                if "$ref" in each:
+                    (listed if name == "items" else others).add(each["$ref"].rpartition("/")[2])
+    return listed - others
+
+
+def _alternatives(part: Schema) -> list[Schema]:
+    return [part, *part.get("anyOf", ()), *part.get("oneOf", ())]
 
 
 def _demands(schema: Schema, definitions: Schema, of_plugins: Schema) -> Schema:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from pydantic import BaseModel, ValidationError
@@ -14,7 +15,6 @@ from zlmreport.errors import Place, Problem, did_you_mean, quoted
 from zlmreport.job.parse import counted
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, key_place, place_of, walk
 from zlmreport.job.types import choices_in, field_at, keys_in, model_at, with_decimal_point
-from zlmreport.values import dataclass
 
 #: Kinds of mistakes that a value makes which is no text, no group, and so on.
 TEXT_EXPECTED = frozenset({"string_type", "literal_error", "enum", "path_type", "value_error"})

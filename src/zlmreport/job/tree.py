@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TypeAlias
 
 from zlmreport.errors import Place
-from zlmreport.values import dataclass
 
 #: A key, or a place in a list, on the way to a value.
 Step: TypeAlias = str | int

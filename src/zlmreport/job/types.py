@@ -12,10 +12,11 @@ import posixpath
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
+from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from types import UnionType
-from typing import Annotated, Any, Literal, Self, Union, get_args, get_origin
+from typing import Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, StringConstraints
 from pydantic.fields import FieldInfo
@@ -23,7 +24,6 @@ from pydantic.fields import FieldInfo
 from zlmreport.errors import Place, quoted
 from zlmreport.files import outside
 from zlmreport.job.tree import Step
-from zlmreport.values import dataclass
 
 _ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
 
@@ -208,20 +208,35 @@ def _date(value: Any) -> Any:
     raise ValueError(f"{quoted(text)} is not a date; write year-month-day, such as 2026-11-20")
 
 
-#: A line of text as it is printed; long enough for any name, short enough for a page.
-Text = Annotated[
+@dataclass(frozen=True, slots=True)
+class _Free:
+    """Marks text that whoever writes a job is free to choose, and that is printed as it stands."""
+
+
+_FREE = _Free()
+#: What no text may hold: control characters, and overrides of the writing direction.
+_UNSEEN = r"\u0000-\u0008\u000b\u000c\u000e-\u001f\u007f-\u009f\u2028\u2029\u202a-\u202e\u2066-\u2069"
+#: What the schema says of a line, and of several: something that is seen, and no tab.
+_LINE_FORM = rf"^(?!.*[{_UNSEEN}])\s*\S([^\t\r\n]*\S)?\s*$"
+_LINES_FORM = rf"^(?![\s\S]*[{_UNSEEN}])\s*\S([^\t]*\S)?\s*$"
+_Line = Annotated[
     str,
     StringConstraints(min_length=1, max_length=_LONGEST_LINE, strip_whitespace=True),
     AfterValidator(_one_line),
+    Field(json_schema_extra={"pattern": _LINE_FORM}),
 ]
+#: A line of text as it is printed; long enough for any name, short enough for a page.
+Text = Annotated[_Line, _FREE]
 #: Text of several lines.
 Lines = Annotated[
     str,
     StringConstraints(min_length=1, max_length=_LONGEST_TEXT, strip_whitespace=True),
     AfterValidator(_without_tabs),
+    Field(json_schema_extra={"pattern": _LINES_FORM}),
+    _FREE,
 ]
 #: Text in a key that takes a number too: what looks like a number must be one.
-InWords = Annotated[Text, AfterValidator(_in_words)]
+InWords = Annotated[_Line, AfterValidator(_in_words)]
 #: The uncertainty of an instrument that is no single number.
 InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
 #: No axis is longer, no room hotter, no test slower; and every square of such numbers is one.
@@ -237,7 +252,11 @@ def _not_too_small(value: float) -> float:
 
 
 #: A number above 0.
-Positive = Annotated[float, Field(gt=0, le=_LARGEST, allow_inf_nan=False), AfterValidator(_not_too_small)]
+Positive = Annotated[
+    float,
+    Field(gt=0, le=_LARGEST, allow_inf_nan=False, json_schema_extra={"minimum": _SMALLEST}),
+    AfterValidator(_not_too_small),
+]
 #: A number from 0.
 NotNegative = Annotated[float, Field(ge=0, le=_LARGEST, allow_inf_nan=False)]
 #: A number of a size that things have.
@@ -260,6 +279,10 @@ class Options(BaseModel):
     the job file; ``zlmreport schema`` shows the keys to editors.
     """
 
+    #: Keys that say how the measurement was set up: a job may write them in `measurement`, or at its top, and
+    #: every standard that asks for one gets it.
+    of_the_measurement: ClassVar[tuple[str, ...]] = ()
+
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
 
@@ -273,7 +296,34 @@ def _beside_the_naming_file(value: Any) -> Any:
 
 
 #: A path in a job file: relative to the file that names it, which may be one that the job extends.
-JobPath = Annotated[Path, BeforeValidator(_beside_the_naming_file)]
+JobPath = Annotated[Path, BeforeValidator(_beside_the_naming_file), Field(json_schema_extra={"minLength": 1})]
+
+
+def free_texts(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the texts of keys that are free words, each with its key, dotted: ``customer.name``."""
+    for name, field in keys_in(type(keys)).items():
+        attribute = next(each for each, info in type(keys).model_fields.items() if info is field)
+        is_free = _FREE in field.metadata or _has_free(field.annotation)
+        yield from _free_in(getattr(keys, attribute), f"{within}{name}", is_free=is_free)
+
+
+def _free_in(value: Any, key: str, *, is_free: bool) -> Iterator[tuple[str, str]]:
+    match value:
+        case BaseModel():
+            yield from free_texts(value, f"{key}.")
+        case str() if is_free and not isinstance(value, Enum):
+            yield key, value
+        case dict():
+            for name, each in value.items():
+                yield from _free_in(each, f"{key}.{name}", is_free=is_free)
+        case list() | tuple():
+            for number, each in enumerate(value):
+                yield from _free_in(each, f"{key}.{number}", is_free=is_free)
+
+
+def _has_free(annotation: Any) -> bool:
+    """Whether an annotation allows free words anywhere: in a union, a list or a mapping."""
+    return any(each is _FREE or _has_free(each) for each in get_args(annotation))
 
 
 class LiveInstrumentKeys(BaseModel):

@@ -3,24 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Any
 
 import numpy as np
 
+from zlmreport.errors import InputError, Place
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.circle import NominalCircle
+from zlmreport.measurement.measurand import POSITIONING, ROTARY_POSITIONING, Measurand
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.units import (
-    ANGLE_UNITS,
-    ARCSECOND,
-    DEGREE,
-    LENGTH_UNITS,
-    MICROMETRE,
-    MILLIMETRE,
-    Unit,
-)
-from zlmreport.values import dataclass
+from zlmreport.measurement.units import ANGLE_UNITS, LENGTH_UNITS, Unit
 
 
 class AxisKind(StrEnum):
@@ -72,6 +67,8 @@ class Axis:
         Known periods, m (rad): of the screw or gear, and of the scale's signal. None where unknown.
     scale_element
         Length of one element of a scale that is made of several, m (rad); None for one piece.
+    pole_pitch
+        Distance of like poles of a linear motor, m (rad); None where it has none, or nobody stated it.
     compensation_table
         The table that the control is meant to apply, in the sign of the deviation (actual − target),
         m or rad; None where the job names none.
@@ -79,6 +76,14 @@ class Axis:
         The rotation that makes the Abbe offset count (pitch or yaw), rad; None where it was not measured.
     abbe_offset
         Of the measuring line from the scale, m; None where the job does not state it.
+    quantity
+        What was measured of it; None for its positioning.
+    error
+        The symbol of that error, ``EYX``; empty where it has none, or nobody stated it.
+    at
+        Where the other axes stood, by their names, m or rad; empty where the job does not state it.
+    circle
+        The circle that two axes ran together: its plane is the name then. None for a single axis.
     """
 
     name: str
@@ -87,9 +92,42 @@ class Axis:
     screw_pitch: float | None = None
     signal_period: float | None = None
     scale_element: float | None = None
+    pole_pitch: float | None = None
     compensation_table: PositionTable | None = None
     angular_errors: PositionTable | None = None
     abbe_offset: float | None = None
+    quantity: Measurand | None = None
+    error: str = ""
+    at: tuple[tuple[str, float], ...] = ()
+    circle: NominalCircle | None = None
+
+    @property
+    def measurand(self) -> Measurand:
+        """What was measured of it."""
+        usual = POSITIONING if self.kind is AxisKind.LINEAR else ROTARY_POSITIONING
+        if self.quantity is None or self.quantity.identifier == usual.identifier:
+            return usual
+        return self.quantity
+
+    @property
+    def has_length(self) -> bool:
+        """Whether what was measured is a length along it, with a temperature and an expansion."""
+        return self.measurand.is_length_along_the_axis
+
+    @property
+    def letter(self) -> str:
+        """The direction that the symbol of the error names, ``Y`` of ``EYX``; its own where there is none."""
+        return self.error[1:2] if self.error and self.error[:1] == "E" else self.name
+
+    @property
+    def subject(self) -> Words:
+        """What a document on the test is about: ``Straightness error EYX of axis X``."""
+        return self.measurand.named(self.name, self.error)
+
+    @property
+    def heading(self) -> Words:
+        """What was measured of, as headings begin: ``Axis X``, ``Plane XY``."""
+        return self.measurand.bearer.given(axis=self.name)
 
     @property
     def files(self) -> tuple[SourceFile, ...]:
@@ -100,12 +138,22 @@ class Axis:
     @property
     def position_unit(self) -> Unit:
         """The unit in which positions are read and printed."""
-        return MILLIMETRE if self.kind is AxisKind.LINEAR else DEGREE
+        return self.measurand.coordinate.unit
 
     @property
     def deviation_unit(self) -> Unit:
         """The unit in which deviations are read and printed."""
-        return MICROMETRE if self.kind is AxisKind.LINEAR else ARCSECOND
+        return self.measurand.unit
+
+    @property
+    def position_units(self) -> Mapping[str, Unit]:
+        """The units in which positions may be given, by their spellings."""
+        return self.measurand.coordinate.units
+
+    @property
+    def deviation_units(self) -> Mapping[str, Unit]:
+        """The units in which deviations may be given, by their spellings."""
+        return self.measurand.units
 
     def with_length(self, key: str, length: float) -> Axis:
         """Return the axis with one of its lengths stated, by the name of the attribute; m or rad."""
@@ -118,6 +166,16 @@ class Axis:
         15 digits undo the rounding of the way to SI and back.
         """
         return float(f"{self.position_unit.from_si(position):.15g}")
+
+
+def refuse_other_than_positions(axis: Axis, place: Place, reason: str) -> None:
+    """Raise `InputError` for what holds for positions only, where something else was measured.
+
+    `reason`: Why it does, as the end of a sentence.
+    """
+    if not axis.measurand.is_position:
+        named = f"{axis.measurand.identifier} ({axis.error})" if axis.error else axis.measurand.identifier
+        raise InputError.at(place, f"this job is on {named}, not on positioning: {reason}")
 
 
 def position_units(kind: AxisKind) -> Mapping[str, Unit]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -12,11 +12,11 @@ import numpy as np
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.quantities.arrays import BoolArray, FloatArray, IntArray, read_only_floats, read_only_integers
-from zlmreport.values import dataclass
+from zlmreport.measurement.units import ANGLES
 
 Check: TypeAlias = Callable[[MeasurementSet, Sequence[Place]], Iterator[Problem]]
 
@@ -25,6 +25,9 @@ Check: TypeAlias = Callable[[MeasurementSet, Sequence[Place]], Iterator[Problem]
 _FINE_STEP = 1e-3
 #: What a single target is held against if the job states no travel, m or rad.
 _ONE = 1.0
+#: Of what is no position: lengths across the motion, m, and angles, rad, beyond which a unit is wrong.
+_WIDEST = (0.01, "any deviation across a motion")
+_WIDEST_ANGLE = 0.1
 #: A full test of so many readings is refused if hardly any of them are there.
 _LARGE_TEST = 1_000_000
 _HARDLY_ANY = 0.01
@@ -154,7 +157,7 @@ def _arranged(readings: Sequence[Reading], axis: Axis, provenance: Provenance) -
     """Return the readings as a measurement set that nobody has checked yet."""
     positions, target = _targets(np.array([reading.target_position for reading in readings]))
     deviation = np.array([reading.deviation for reading in readings])
-    if axis.kind is AxisKind.ROTARY:
+    if axis.kind is AxisKind.ROTARY and axis.measurand.is_position:
         deviation, wrapped = _unwrapped(deviation)
         if wrapped:
             remark = _MODULO.given(count=wrapped)
@@ -305,7 +308,8 @@ def _deviations_are_credible(measurements: MeasurementSet, places: Sequence[Plac
     largest, what = _largest_deviation(measurements)
     beyond = np.flatnonzero(np.abs(measurements.deviation) > largest).tolist()
     axis = measurements.axis
-    limit = f"{what}, {axis.position_unit.from_si(largest):.9g} {axis.position_unit.symbol}"
+    unit = axis.position_unit if axis.measurand.is_position else axis.deviation_unit
+    limit = f"{what}, {unit.from_si(largest):.9g} {unit.symbol}"
     advice = "is it a position given as deviation, or a wrong unit?"
     if 2 * len(beyond) > np.count_nonzero(~np.isnan(measurements.deviation)) > 2:
         yield Problem(
@@ -385,6 +389,9 @@ def _regular_targets(occupied: BoolArray) -> BoolArray:
 
 def _largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
     """Return the largest deviation that can be one, m or rad, and what it is."""
+    measurand = measurements.axis.measurand
+    if not measurand.is_position:
+        return (_WIDEST_ANGLE, "any angle of an axis") if measurand.unit in ANGLES else _WIDEST
     regular = _regular_targets(_occupied(measurements))
     targets = measurements.target_positions
     if np.count_nonzero(regular) > 1:

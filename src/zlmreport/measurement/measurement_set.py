@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.quantities.arrays import FloatArray, IntArray
-from zlmreport.quantities.units import (
+from zlmreport.measurement.units import (
     CELSIUS,
     HECTOPASCAL,
     PERCENT,
@@ -22,7 +22,6 @@ from zlmreport.quantities.units import (
     TEMPERATURE_UNITS,
     Scale,
 )
-from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +82,15 @@ class MissingReading:
 
 
 @dataclass(frozen=True, slots=True)
+class Compensated:
+    """What an instrument has corrected before it displayed a reading."""
+
+    #: The coefficient by which it took the expansion of the material to 20 °C, 1/K; None if it did not.
+    material: float | None = None
+    air: bool | None = None  #: Whether it knew the refractive index of the air; None where nobody says.
+
+
+@dataclass(frozen=True, slots=True)
 class MeasurementSet:
     """Readings in the order in which they were taken; nobody alters them.
 
@@ -122,6 +130,14 @@ class MeasurementSet:
     is_indication
         Whether the deviations are errors of indication, indicated − calibrated position: x with the opposite
         sign, as a test with an artefact states it.
+    compensated
+        What the instrument has corrected already; None where the source does not tell.
+    artefact_is_reversed
+        Whether the straightness of the artefact was taken out of the readings, by measuring the line with it
+        turned over, too.
+    tests
+        Several measured lines that are evaluated together, by their names; the set then has no readings of
+        its own. Build one with `joined`.
     """
 
     axis: Axis
@@ -137,6 +153,14 @@ class MeasurementSet:
     reversal_is_relative: bool = False
     is_indication: bool = False
     datum: float | None = None
+    compensated: Compensated | None = None
+    artefact_is_reversed: bool = False
+    tests: Mapping[str, MeasurementSet] = field(default_factory=dict)
+
+    @property
+    def lines(self) -> tuple[MeasurementSet, ...]:
+        """What has readings: each of several measured lines, or the set itself."""
+        return tuple(self.tests.values()) or (self,)
 
     @property
     def approaches(self) -> tuple[Approach, ...]:
@@ -187,3 +211,25 @@ class MeasurementSet:
                         )
                     )
         return tuple(found)
+
+
+def joined(axis: Axis, tests: Mapping[str, MeasurementSet]) -> MeasurementSet:
+    """Return several measured lines as one set, for what follows from them together.
+
+    `axis`: What follows, and of which axis.
+    """
+    none, whole = np.empty(0), np.empty(0, dtype=np.int64)
+    for array in (none, whole):
+        array.setflags(write=False)
+    sources = dict.fromkeys(each.provenance.source for each in tests.values())
+    files = dict.fromkeys(file for each in tests.values() for file in each.provenance.files)
+    return MeasurementSet(
+        axis=axis,
+        target_positions=none,
+        target=whole,
+        approach=whole,
+        run=whole,
+        deviation=none,
+        provenance=Provenance(source=", ".join(sources), files=tuple(files)),
+        tests=dict(tests),
+    )

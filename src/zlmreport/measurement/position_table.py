@@ -4,17 +4,16 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from zlmreport.errors import InputError, Problem, quoted
+from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.text_file import TextCell, TextFile, parse_number, read_text
-from zlmreport.quantities.formatting import DecimalSign
-from zlmreport.quantities.units import Unit, unit_named
-from zlmreport.values import dataclass
+from zlmreport.measurement.units import Unit, unit_named
 
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import hashlib
-from dataclasses import field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
 
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.values import dataclass
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,6 +77,28 @@ class Exclusion:
 
 
 @dataclass(frozen=True, slots=True)
+class Averaging:
+    """Readings of a motion, many to a target, that were averaged on reading; and what that may hide.
+
+    Attributes
+    ----------
+    readings
+        How many there were.
+    left_out
+        Root mean square of what the averages leave out, m or rad.
+    amplitude
+        Of the strongest vibration in it, m or rad; 0 where none stands out of the noise.
+    frequency
+        Of that vibration, Hz; 0 for none.
+    """
+
+    readings: int
+    left_out: float
+    amplitude: float = 0.0
+    frequency: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
 class Provenance:
     """The origin of a measurement set.
 
@@ -93,6 +114,11 @@ class Provenance:
         What this program has corrected in the readings, in its order; nothing if they are as they were read.
     exclusions
         Readings that were set aside: in the set they are missing.
+    step
+        Of readings that were corrected: the step in which they were displayed, m or rad; None where they
+        were not.
+    averaging
+        What became of readings that were many to a target; None where each stands for itself.
     """
 
     source: str
@@ -100,3 +126,5 @@ class Provenance:
     remarks: tuple[Words, ...] = ()
     corrections: tuple[Correction, ...] = ()
     exclusions: tuple[Exclusion, ...] = ()
+    step: float | None = None
+    averaging: Averaging | None = None

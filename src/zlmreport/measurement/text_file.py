@@ -8,17 +8,18 @@ import math
 import re
 import unicodedata
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, quoted
 from zlmreport.files import read, unreadable
+from zlmreport.language.formatting import MINUS, DecimalSign
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.measurement.workbook import SEPARATOR, is_workbook, sheet_lines
-from zlmreport.quantities.formatting import MINUS, DecimalSign
-from zlmreport.values import dataclass
+from zlmreport.measurement.workbook import SEPARATOR, filled_sheets, is_workbook, sheet_lines
 
 #: Of a measurement file, in bytes.
 LARGEST = 64 * 1024 * 1024
+_LARGEST_UNPACKED = 4 * LARGEST
 #: A test of an axis has some hundred readings; continuous logs have more, and are no tests.
 MOST_LINES = 250_000
 LONGEST_LINE = 100_000
@@ -37,6 +38,8 @@ _MARKS = {
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
+#: µm, µ in brackets and °C as DOS wrote them.
+_OF_DOS = (b"\xe6m", b"[\xe6", b"(\xe6", b"\xf8C", b"[\xf8", b"(\xf8")
 #: Control characters, overrides of the writing direction, and separators that split lines where an editor
 #: does not: with them a text reads otherwise than it is stored.
 _UNSEEN = re.compile(
@@ -104,8 +107,8 @@ class TextFile:
             start += len(part) + 1
 
 
-def read_text(path: Path, encoding: str | None = None) -> TextFile:
-    """Read a text file of measurements; a workbook with one sheet is read as the lines of that sheet.
+def read_text(path: Path, encoding: str | None = None, sheet: str | None = None) -> TextFile:
+    """Read a text file of measurements; a workbook is read as the lines of one sheet.
 
     Parameters
     ----------
@@ -113,22 +116,26 @@ def read_text(path: Path, encoding: str | None = None) -> TextFile:
         The file.
     encoding
         As the job states it; None for UTF-8, with or without byte order mark.
+    sheet
+        Of a workbook: the name of the sheet; None for the only one that holds something.
 
     Raises
     ------
     AccessError
         If there is no such file, or it cannot be read.
     InputError
-        If it is empty, too large, binary, or in another encoding; with the place, and with what would be
-        right.
+        If it is empty, too large, binary, or in another encoding, or has no such sheet; with the place, and
+        with what would be right.
     """
     file = Place(str(path))
     content = _content(path, file)
     if not content.strip():
         raise InputError.at(file, "is empty; a measurement file holds readings")
     if is_workbook(content):
-        rows = sheet_lines(content, file, 4 * LARGEST)
+        rows = sheet_lines(content, file, _LARGEST_UNPACKED, sheet)
         return TextFile(file.file, tuple(rows), SourceFile.of(path, content), of_cells=True)
+    if sheet is not None:
+        raise InputError.at(file, "is no workbook, and the job names a sheet of it; remove 'sheet'")
     for beginning, kind in _NO_TEXT.items():
         if content.startswith(beginning):
             raise InputError.at(file, f"is {kind}, not text; export the readings as text (CSV, UTF-8)")
@@ -141,6 +148,29 @@ def read_text(path: Path, encoding: str | None = None) -> TextFile:
         lines.pop()
     _refuse_continuous_logs(lines, file)
     return TextFile(file.file, tuple(lines), SourceFile.of(path, content))
+
+
+def sheets_of(path: Path) -> tuple[str, ...]:
+    """Return the names of the sheets of a workbook that hold something; none of any other file.
+
+    Raises `AccessError` if it cannot be read, `InputError` if it is a damaged workbook.
+    """
+    file = Place(str(path))
+    content = _content(path, file)
+    return tuple(filled_sheets(content, file, _LARGEST_UNPACKED)) if is_workbook(content) else ()
+
+
+def likely_encodings(path: Path) -> tuple[str | None, ...]:
+    """Return the encodings that a file of text may have, the likeliest first; None for UTF-8.
+
+    Raises `AccessError` if it cannot be read.
+    """
+    content = _content(path, Place(str(path)))
+    wide = _wide_encoding(content)
+    if wide:
+        return (wide,)
+    of_dos = any(sign in content for sign in _OF_DOS)
+    return (None, *(("cp850", "cp1252") if of_dos else ("cp1252", "cp850")))
 
 
 def known_encoding(name: str) -> str:
@@ -200,19 +230,24 @@ def _decoded(content: bytes, file: Place, encoding: str | None) -> str:
 
 def _refuse_wide_characters(content: bytes, file: Place) -> None:
     """Refuse text of two or four bytes a character, which nothing in the job says."""
-    found = next((name for mark, name in _MARKS.items() if content.startswith(mark)), None)
-    if found is None:
-        sample = content[:4096]
-        first, second = sample[::2], sample[1::2]
-        if second and first.count(0) == 0 and second.count(0) > 0.6 * len(second):
-            found = "utf-16-le"
-        elif second and second.count(0) == 0 and first.count(0) > 0.6 * len(first):
-            found = "utf-16-be"
+    found = _wide_encoding(content)
     if found:
         raise InputError.at(
             Place(file.file, 1, 1),
             f"is {found[:6].upper()} text; save it as UTF-8, or say 'encoding: {found}' in the job",
         )
+
+
+def _wide_encoding(content: bytes) -> str | None:
+    """Return the encoding of text of two or four bytes a character; None of any other content."""
+    for mark, name in _MARKS.items():
+        if content.startswith(mark):
+            return name
+    sample = content[:4096]
+    first, second = sample[::2], sample[1::2]
+    if second and first.count(0) == 0 and second.count(0) > 0.6 * len(second):
+        return "utf-16-le"
+    return "utf-16-be" if second and second.count(0) == 0 and first.count(0) > 0.6 * len(first) else None
 
 
 def _refuse_continuous_logs(lines: list[str], file: Place) -> None:

@@ -1,4 +1,4 @@
-"""Workbooks of spreadsheets (``.xlsx``), read as the lines of the one sheet that holds something."""
+"""Workbooks of spreadsheets (``.xlsx``), read as the lines of one sheet."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from datetime import date
 from io import BytesIO
 
-from zlmreport.errors import InputError, Place, quoted
+from zlmreport.errors import InputError, Place, did_you_mean, quoted
 
 #: Beginning of every ZIP archive, and the part that makes one a workbook.
 _ARCHIVE = b"PK\x03\x04"
@@ -27,11 +27,34 @@ def is_workbook(content: bytes) -> bool:
         return False
 
 
-def sheet_lines(content: bytes, file: Place, largest: int) -> list[str]:
-    """Return the rows of the only sheet with content, cells apart by tabs; a formula as its last value.
+def sheet_lines(content: bytes, file: Place, largest: int, sheet: str | None = None) -> list[str]:
+    """Return the rows of a sheet, cells apart by tabs; a formula as its last value.
 
-    Raises `InputError` if it is damaged, unpacks to more than `largest` bytes, holds several sheets with
-    content or none, or a cell that no line can hold.
+    `sheet`: Its name; None for the only one that holds something.
+
+    Raises `InputError` if the workbook is damaged, unpacks to more than `largest` bytes, has no such sheet,
+    or none or several with content where none is named; or a cell that no line can hold.
+    """
+    filled = filled_sheets(content, file, largest)
+    if sheet is not None and sheet not in filled:
+        raise InputError.at(
+            file, f"has no sheet {quoted(sheet)} that holds something; {did_you_mean(sheet, list(filled))}"
+        )
+    if sheet is None and len(filled) != 1:
+        found = (
+            f"has {len(filled)} sheets with content: {', '.join(map(quoted, filled))}; say which one in the "
+            f"job, as in 'sheet: {next(iter(filled))}'"
+            if filled
+            else "has no content; a measurement file holds readings"
+        )
+        raise InputError.at(file, found)
+    return list(_lines(filled[sheet or next(iter(filled))], file))
+
+
+def filled_sheets(content: bytes, file: Place, largest: int) -> dict[str, list[tuple[object, ...]]]:
+    """Return the rows of each sheet that holds something, by its name, in the order of the workbook.
+
+    Raises `InputError` if the workbook is damaged, or unpacks to more than `largest` bytes.
     """
     from openpyxl import load_workbook  # noqa: PLC0415 (slow to load)
 
@@ -48,18 +71,9 @@ def sheet_lines(content: bytes, file: Place, largest: int) -> list[str]:
         ) from error
     if book is None:
         raise InputError.at(file, f"unpacks to more than {largest >> 20} MiB; is this a test's workbook?")
-    filled = {
+    return {
         title: rows for title, rows in sheets.items() if any(cell is not None for row in rows for cell in row)
     }
-    if len(filled) != 1:
-        found = (
-            f"{len(filled)} sheets with content: {', '.join(map(quoted, filled))}" if filled else "no content"
-        )
-        raise InputError.at(
-            file,
-            f"has {found}; a measurement file has one: save the sheet with the readings as a file of its own",
-        )
-    return list(_lines(next(iter(filled.values())), file))
 
 
 def _lines(rows: Iterable[tuple[object, ...]], file: Place) -> Iterator[str]:
@@ -68,14 +82,16 @@ def _lines(rows: Iterable[tuple[object, ...]], file: Place) -> Iterator[str]:
         for column, text in enumerate(texts, 1):
             if not text.isprintable():
                 raise InputError.at(
-                    Place(file.file, row, column),
-                    "the cell holds a line break or a control character; remove it",
+                    Place(file.file, row, column), "the cell holds a control character; remove it"
                 )
         yield SEPARATOR.join(texts).rstrip(SEPARATOR)
 
 
 def _text(value: object) -> str:
-    """Return a cell as text: numbers with all their digits and a decimal point, times as in ISO 8601."""
+    """Return a cell as text: numbers with all their digits and a decimal point, times as in ISO 8601.
+
+    A line break in a cell, as in a heading with its unit below, is a blank, as are blanks of other kinds.
+    """
     if value is None:
         return ""
-    return value.isoformat() if isinstance(value, date) else str(value)
+    return value.isoformat() if isinstance(value, date) else " ".join(str(value).split())

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal
 
 from zlmreport import pipeline
-from zlmreport.certificate.document import Certificate as ComposedCertificate
-from zlmreport.compensation.basis import basis_of_means
-from zlmreport.compensation.curve import curve_of
-from zlmreport.compensation.making import Made, make
+from zlmreport.document.certificate.document import Certificate as ComposedCertificate
+from zlmreport.document.subjects.compensation import forecast
+from zlmreport.document.writer import Writer
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, write, write_new
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
-from zlmreport.notebook.readings import Readings, Table, as_html, checked, registry
+from zlmreport.model.compensation.basis import basis_of_means
+from zlmreport.model.compensation.curve import curve_of
+from zlmreport.model.compensation.making import Made, make
+from zlmreport.notebook.frames import as_html, frame_of
+from zlmreport.notebook.layout import sections_html
+from zlmreport.notebook.readings import Readings, checked, readings_of, registry
 from zlmreport.notebook.results import Result
 from zlmreport.verification.findings import Verification as Verified
 from zlmreport.verification.verify import verify as verify_file
@@ -74,10 +79,9 @@ class Certificate:
             (document,) = [Document(path, content) for content in contents.values()]
             return write([document])[0]
         known = {each.identifier: each for each in registry().renderers}
-        write(
-            Document(path / pipeline.file_name(self._composed, known[identifier]), content)
-            for identifier, content in self._rendered(self._job.formats).items()
-        )
+        names = pipeline.file_names(self.number, [known[each] for each in self._job.formats])
+        contents = self._rendered(self._job.formats).values()
+        write(Document(path / name, content) for name, content in zip(names, contents, strict=True))
         return path
 
     def _rendered(self, identifiers: Any) -> dict[str, bytes]:
@@ -192,22 +196,28 @@ def verify(file: str | Path) -> Verification:
 class Compensation:
     """A table in the words of a control: ``z.compensate(data, "linuxcnc").save("tables")``."""
 
-    def __init__(self, data: Readings, made: Made, number: str) -> None:
+    def __init__(self, data: Readings, made: Made, number: str, asked: Mapping[str, Any]) -> None:
         self.data = data
+        self._asked = asked
         self.controller = made.controller.identifier
         self.confidence = made.controller.confidence
         self.files = MappingProxyType({f"{number}{end}": text for end, text in made.files.items()})
         self._made = made
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how to make it anew: plugins stay here, and go by their names."""
+        return _made_again, (self.data, self.controller, self._asked)
+
     @property
-    def table(self) -> Table:
-        """What is taken away at each position (mm or °): ``forward`` and ``reverse``, µm or ″."""
+    def table(self) -> Any:
+        """A frame of what is taken away at each position (mm or °): ``forward`` and ``reverse``, µm or ″."""
         axis, meant = self.data.measurements.axis, self._made.meant
-        return Table(
-            position=axis.position_unit.from_si(meant.positions),
-            forward=axis.deviation_unit.from_si(meant.forward),
-            reverse=axis.deviation_unit.from_si(meant.reverse),
-        )
+        columns = {
+            "position": axis.position_unit.from_si(meant.positions),
+            "forward": axis.deviation_unit.from_si(meant.forward),
+            "reverse": axis.deviation_unit.from_si(meant.reverse),
+        }
+        return frame_of(columns, self.data.library)
 
     @property
     def before(self) -> dict[str, float]:
@@ -246,10 +256,8 @@ class Compensation:
         return f"<compensation for {self.controller} ({self.confidence}): E {before:.3g} → {after:.3g}>"
 
     def _repr_html_(self) -> str:
-        return as_html(
-            ("", "before", "after"),
-            [(name, before, self.after[name]) for name, before in self.before.items()],
-        )
+        writer = Writer.of(self.data.measurements, Language.ENGLISH)
+        return sections_html([forecast(self._made, writer, ({}, {}))])
 
 
 def compensate(  # noqa: PLR0913 - each by its name
@@ -288,6 +296,7 @@ def compensate(  # noqa: PLR0913 - each by its name
     InputError
         If there is no such controller, or it cannot take the table.
     """
+    data = readings_of(data, _PLACE.file)
     axis = data.measurements.axis
     if (active == "none") != (axis.compensation_table is None):
         known = "no" if axis.compensation_table is None else "a"
@@ -310,4 +319,9 @@ def compensate(  # noqa: PLR0913 - each by its name
         options,
         step=None if step is None else axis.position_unit.to_si(step),
     )
-    return Compensation(data, made, number)
+    asked = {"active": active, "number": number, "step": step, "unconfirmed": unconfirmed, **keys}
+    return Compensation(data, made, number, asked)
+
+
+def _made_again(data: Readings, controller: str, asked: Mapping[str, Any]) -> Compensation:
+    return compensate(data, controller, **asked)

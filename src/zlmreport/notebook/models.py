@@ -10,29 +10,44 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from zlmreport.document.blocks import Notice, Section
+from zlmreport.document.subjects.diagnosis import diagnosis_sections
+from zlmreport.document.subjects.fit import fit_sections
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.choices import EffectChoice, effect_choices
+from zlmreport.job.choices import EffectChoice, effect_choices, next_number
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.axis_model import AxisModel, ModelError, chosen_terms
-from zlmreport.model.design import at_positions, outside_of_measured
-from zlmreport.model.diagnosis import ErrorNumbers, diagnose, error_numbers
-from zlmreport.model.effect import unit_of
-from zlmreport.model.estimate import InstrumentError
-from zlmreport.model.fit import Assumptions, Fit
-from zlmreport.model.fit import fit as fit_model
-from zlmreport.model.observations import Observations, observations_of
-from zlmreport.model.repeats import outliers
-from zlmreport.model.report import report, report_error, report_model, verdict_statement
-from zlmreport.notebook.readings import Readings, Table, as_html, registry, tree_of
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.model.diagnosis.asking import AskedLength, lengths_asked
+from zlmreport.model.diagnosis.build_report import build_values
+from zlmreport.model.diagnosis.building import build
+from zlmreport.model.diagnosis.contest import Told
+from zlmreport.model.diagnosis.diagnosis import (
+    Diagnosis as FoundDiagnosis,
+    ErrorNumbers,
+    diagnose,
+    error_numbers,
+)
+from zlmreport.model.diagnosis.report import report, report_error, report_model, verdict_statement
+from zlmreport.model.diagnosis.study import Fitted
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, chosen_terms
+from zlmreport.model.effects.design import at_positions, outside_of_measured
+from zlmreport.model.effects.effect import unit_of
+from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.estimate import InstrumentError
+from zlmreport.model.fitting.fit import Assumptions, Fit, fit as fit_model
+from zlmreport.model.fitting.observations import Observations, observations_of
+from zlmreport.notebook.frames import frame_of
+from zlmreport.notebook.layout import sections_html
+from zlmreport.notebook.readings import Readings, readings_of, registry, tree_of
 from zlmreport.notebook.results import drawn
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _NAME = "fit"
 _COVERAGE_FACTOR = 2.0
+_ASKED = "What the axis does not state"
 _SIDES = {Approach.POSITIVE: "up", Approach.NEGATIVE: "down"}
 
 
@@ -89,11 +104,22 @@ class Candidate:
 
 
 class Diagnosis:
-    """Whether a model describes the readings, and what it lacks."""
+    """Whether a model describes the readings, and what it lacks.
 
-    def __init__(self, values: Mapping[str, Any], statement: str) -> None:
+    Attributes
+    ----------
+    statement
+        The verdict in a sentence.
+    asks
+        What to state of the axis so that more effects can be tried, in sentences.
+    """
+
+    def __init__(self, values: Mapping[str, Any], found: FoundDiagnosis, asks: Sequence[str]) -> None:
         self._values = values
-        self.statement = statement
+        self.statement = verdict_statement(found).in_language(Language.ENGLISH)
+        self.asks = tuple(asks)
+        titles = {each.identifier: each.title for each in registry().effects}
+        self._sections = diagnosis_sections(found, Language.ENGLISH, titles)
 
     @property
     def verdict(self) -> str:
@@ -131,9 +157,69 @@ class Diagnosis:
         return f"<Diagnosis: {self.statement}>"
 
     def _repr_html_(self) -> str:
-        rows = [(each.effect, each.probability, each.rms_after, each.explains) for each in self.candidates]
-        unit = self._values["error"]["unit"]
-        return as_html(("Effect", "Probability", f"Error after, {unit}", "It explains"), rows, self.statement)
+        asked = (Section("asked", _ASKED, (Notice(_ASKED, self.asks),)),) if self.asks else ()
+        return sections_html([*self._sections, *asked])
+
+
+@dataclass(frozen=True, slots=True)
+class BuildStep:
+    """An effect that came into a model, or went out of it again.
+
+    Attributes
+    ----------
+    effect
+        Its identifier.
+    rms_before, rms_after
+        The error without this step and with it, µm or ″.
+    removed
+        Whether it went out again.
+    """
+
+    effect: str
+    rms_before: float
+    rms_after: float
+    removed: bool
+
+
+class Build:
+    """A model that was built step by step.
+
+    `model`: What came of it.
+    """
+
+    def __init__(self, model: Model, values: Mapping[str, Any]) -> None:
+        self.model = model
+        self._values = values
+
+    @property
+    def steps(self) -> tuple[BuildStep, ...]:
+        """What came in and went out, in order."""
+        return tuple(
+            BuildStep(each["effect"], each["rms_before"], each["rms_after"], bool(each.get("removed", False)))
+            for each in self._values["steps"]
+        )
+
+    @property
+    def verdict(self) -> str:
+        """Of the last model: ``adequate``, ``missing`` or ``unexplained``."""
+        return str(self._values["verdict"])
+
+    @property
+    def remainder(self) -> Mapping[str, Any] | None:
+        """What is left beside the model: its size, place and shape; None if nothing is."""
+        found: Mapping[str, Any] | None = self._values["remainder"]
+        return found
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the build as ``zlmreport model build --json`` prints it."""
+        return dict(self._values)
+
+    def __repr__(self) -> str:
+        """Return the steps in a line."""
+        steps = " → ".join(
+            f"{'−' if each.removed else '+'} {each.effect} {each.rms_after:.2g}" for each in self.steps
+        )
+        return f"<Build: {steps or 'nothing to add'} {self.model.data.unit}>"
 
 
 class Model:
@@ -154,6 +240,10 @@ class Model:
         kind = data.measurements.axis.kind
         self._model = AxisModel(chosen_terms(self._choices, registry().effect, kind))
         self.effects: tuple[str, ...] = tuple(self._model.identifiers)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how to fit it anew: plugins stay here, and go by their names."""
+        return type(self), (self.data, self._choices, self._assumptions)
 
     @cached_property
     def _observed(self) -> Observations:
@@ -205,26 +295,27 @@ class Model:
         return known[name]
 
     @property
-    def residuals(self) -> Table:
-        """What the model leaves of each reading: target (mm or °), direction, run, residual (µm or ″).
+    def residuals(self) -> Any:
+        """A frame of what the model leaves: target (mm or °), direction, run, residual (µm or ″).
 
         Readings that stand off from all others are set aside, and are missing here.
         """
         return self._by_reading("residual", self.fit.residual)
 
     @property
-    def fitted(self) -> Table:
+    def fitted(self) -> Any:
         """What the model gives for each reading, as `residuals`."""
         return self._by_reading("deviation", self.fit.fitted)
 
-    def _by_reading(self, name: str, values: FloatArray) -> Table:
+    def _by_reading(self, name: str, values: FloatArray) -> Any:
         design = self.fit.design
-        return Table(
-            target=design.axis.position_unit.from_si(design.position),
-            direction=np.where(design.direction > 0, "+", "-"),
-            run=design.run,
-            **{name: self._printed(values)},
-        )
+        columns = {
+            "target": design.axis.position_unit.from_si(design.position),
+            "direction": np.where(design.direction > 0, "+", "-"),
+            "run": design.run,
+            name: self._printed(values),
+        }
+        return frame_of(columns, self.data.library)
 
     @property
     def covariance(self) -> FloatArray:
@@ -250,7 +341,7 @@ class Model:
             if (own := (each.effect, each.parameter)) in columns
         ]
 
-    def at(self, positions: ArrayLike) -> Table:
+    def at(self, positions: ArrayLike) -> Any:
         """Return the deviation anywhere on the measured travel, with its expanded uncertainty.
 
         At the mean time and the mean conditions of the test.
@@ -262,8 +353,9 @@ class Model:
 
         Returns
         -------
-        Table
-            ``position``, ``up``, ``U_up``, ``down``, ``U_down``: µm or ″, of the directions measured.
+        frame
+            A row for each position: ``position``, ``up``, ``U_up``, ``down``, ``U_down``: µm or ″, of the
+            directions measured.
 
         Raises
         ------
@@ -276,13 +368,13 @@ class Model:
         sentences = outside_of_measured(design.axis.name, unit, places, design.span)
         if sentences:
             raise InputError(Problem(Place("at"), sentence) for sentence in sentences)
-        table = Table(position=unit.from_si(places))
+        columns: dict[str, FloatArray] = {"position": unit.from_si(places)}
         for approach in Approach:
             if np.any(design.direction == approach):
                 found = self.fit.predict(at_positions(design, places, approach))
-                table[_SIDES[approach]] = self._printed(found.deviation)
-                table[f"U_{_SIDES[approach]}"] = self._printed(found.expanded_uncertainty)
-        return table
+                columns[_SIDES[approach]] = self._printed(found.deviation)
+                columns[f"U_{_SIDES[approach]}"] = self._printed(found.expanded_uncertainty)
+        return frame_of(columns, self.data.library)
 
     def diagnose(self) -> Diagnosis:
         """Say whether the model describes the readings, and which installed effects it may lack."""
@@ -290,7 +382,29 @@ class Model:
             found = diagnose(self._model, self._observed, registry().effects, self._assumptions)
         except ModelError as error:
             raise _refused(error) from error
-        return Diagnosis(report(found), verdict_statement(found).in_language(Language.ENGLISH))
+        asked = lengths_asked(self._observed.design, self._model.identifiers, registry().effects)
+        return Diagnosis(report(found), found, [_question(each) for each in asked])
+
+    def build(self) -> Build:
+        """Return the model that comes of adding, step by step, every effect with evidence of its own."""
+        installed = registry().effects
+
+        def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> FoundDiagnosis:
+            return diagnose(model, self._observed, installed, self._assumptions, may_go=may_go, told=told)
+
+        try:
+            found = build(self._model, diagnosing)
+        except ModelError as error:
+            raise _refused(error) from error
+        added = _chosen([{each.identifier: each.settings.model_dump(mode="json")} for each in found.added])
+        known = {each.identifier for each in added}
+        kept = [
+            each
+            for each in self._choices
+            if each.identifier in found.model.identifiers and each.identifier not in known
+        ]
+        model = _fitted(self.data, [*kept, *added], self._assumptions)
+        return Build(model, build_values(found))
 
     def add(self, effect: str | Mapping[str, Any] | Candidate) -> Model:
         """Return the model with an effect more, fitted anew; what the effect contains goes out.
@@ -303,6 +417,10 @@ class Model:
         if isinstance(effect, Candidate):
             effect = {effect.effect: effect.settings}
         (choice,) = _chosen([effect])
+        if choice.identifier in self.effects and not choice.is_formula:
+            installed = registry().effect(choice.installed)
+            if installed.several:
+                choice = choice.numbered(next_number(choice.installed, self._choices))
         contains = () if choice.is_formula else registry().effect(choice.identifier).contains
         replaced = {choice.identifier, *contains}
         kept = [each for each in self._choices if each.identifier not in replaced]
@@ -317,11 +435,11 @@ class Model:
         kept = [each for each in self._choices if each.identifier not in effects]
         return _fitted(self.data, kept, self._assumptions)
 
-    def plot(self, ax: Axes | None = None) -> Axes | list[Axes]:
-        """Draw the estimate with its uncertainty over the travel on axes of matplotlib; return the axes."""
-        from zlmreport.figures.model_diagram import ModelDiagram, estimate  # noqa: PLC0415 - drawn on demand
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the estimate with its uncertainty over the travel on axes of matplotlib, and return them."""
+        from zlmreport.document.figures.model_diagram import ModelDiagram, estimate  # noqa: PLC0415 - drawn on demand
 
-        return drawn(estimate(ModelDiagram(self.fit, self._error)), ax)
+        return drawn(estimate(ModelDiagram(self.fit, self._error)), ax)[0]
 
     def to_dict(self) -> dict[str, Any]:
         """Return effects, parameters and error as the results file has them."""
@@ -336,9 +454,15 @@ class Model:
         return f"<Model of {', '.join(self.effects) or 'no effect'}: rms {self.rms:.4g} {self.data.unit}>"
 
     def _repr_html_(self) -> str:
-        head = ("Effect", "Parameter", "Value", "U", "Unit")
-        rows = [(e.effect, e.name, e.value, e.expanded_uncertainty, e.unit) for e in self.parameters]
-        return as_html(head, rows, f"Error {self.rms:.4g} {self.data.unit}")
+        return sections_html(fit_sections(Fitted(self.fit, self._error), Language.ENGLISH))
+
+
+def _question(asked: AskedLength) -> str:
+    effects = ", ".join(asked.effects)
+    return (
+        f"{asked.name.in_language(Language.ENGLISH)} ({asked.unit}): stated, z.read(…, "
+        f"axis={{'{asked.key}': …}}), it decides on {effects}"
+    )
 
 
 def fit(
@@ -371,6 +495,7 @@ def fit(
     >>> round(model["backlash.lost_motion"].value)
     4
     """
+    data = readings_of(data, _NAME)
     u = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / _COVERAGE_FACTOR
     return _fitted(data, _chosen(effects), Assumptions(instrument=InstrumentError(at_each_position=u)))
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import html
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields, replace
 from functools import cache, cached_property
 from pathlib import Path
 from typing import Any, TypeVar
@@ -16,25 +15,23 @@ from pydantic import BaseModel
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.contradictions import validate
+from zlmreport.job.job import Job
 from zlmreport.job.loading import axis_in_si, load
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.parse import parse
 from zlmreport.job.simulation import load_simulation
 from zlmreport.job.tree import Keys
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.collect import Reading, collect
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
+from zlmreport.model.simulation.files import description_of
+from zlmreport.model.simulation.simulate import simulate as simulate_test
+from zlmreport.notebook.frames import Library, columns_of, frame_of, library_of, table_html
 from zlmreport.plugin.protocols import SourceContext
-from zlmreport.plugins import Registry, find_plugins
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.simulation.files import description_of
-from zlmreport.simulation.simulate import simulate as simulate_test
-
-#: Rows that a notebook shows; the middle of a longer table is left out.
-_MOST_SHOWN = 60
-_DIGITS = 6
+from zlmreport.plugin.registry import Registry, find_plugins
 
 _DIRECTIONS = {
     **dict.fromkeys(("+", "1", "+1", "1.0", "up", "forward", "↑"), Approach.POSITIVE),
@@ -46,57 +43,6 @@ _NEEDED = ("target", "direction")
 Model = TypeVar("Model", bound=BaseModel)
 
 
-class Table(dict[str, NDArray[Any]]):
-    """Columns of equal length by name, such as ``table["target"]``.
-
-    ``pandas.DataFrame(table)`` and ``polars.DataFrame(table)`` make a frame of it.
-    """
-
-    def __repr__(self) -> str:
-        """Return the names of the columns and the number of rows."""
-        return f"<Table of {self.rows} rows: {', '.join(self)}>"
-
-    @property
-    def rows(self) -> int:
-        """How many rows there are."""
-        return len(next(iter(self.values()), ()))
-
-    def _repr_html_(self) -> str:
-        rows = list(zip(*(column.tolist() for column in self.values()), strict=True))
-        if len(rows) > _MOST_SHOWN:
-            half = _MOST_SHOWN // 2
-            rows = [*rows[:half], ("…",) * len(self), *rows[-half:]]
-        return as_html(tuple(self), rows)
-
-
-def as_html(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "") -> str:
-    """Return a table for a notebook: texts escaped, numbers to a few digits, nothing where nothing is."""
-    above = f"<caption>{html.escape(caption)}</caption>" if caption else ""
-    titles = "".join(f"<th>{html.escape(title)}</th>" for title in head)
-    body = "".join(f"<tr>{''.join(f'<td>{_shown(cell)}</td>' for cell in row)}</tr>" for row in rows)
-    return f"<table>{above}<thead><tr>{titles}</tr></thead><tbody>{body}</tbody></table>"
-
-
-def _shown(cell: Any) -> str:
-    if cell is None or (isinstance(cell, float) and np.isnan(cell)):
-        return ""
-    return html.escape(f"{cell:.{_DIGITS}g}" if isinstance(cell, float) else str(cell))
-
-
-def columns_of(frame: Any) -> dict[str, NDArray[Any]] | None:
-    """Return the columns of anything that has named ones; None if it has none.
-
-    A frame of pandas or polars, a table of Arrow, a mapping of arrays: their names are listed, and each
-    column is an array to numpy.
-    """
-    names = getattr(frame, "column_names", None)  # pyarrow; its columns are the arrays themselves
-    if names is None:
-        names = frame.keys() if isinstance(frame, Mapping) else getattr(frame, "columns", None)
-    if names is None:
-        return None
-    return {str(name): np.asarray(frame[name]) for name in names}
-
-
 @cache
 def registry() -> Registry:
     """Return the installed plugins; they are looked up once."""
@@ -105,10 +51,11 @@ def registry() -> Registry:
 
 def tree_of(values: Mapping[str, Any], name: str) -> Keys:
     """Return keys given in Python as those of a file: so they are checked, and complained of, alike."""
-    return parse(json.dumps(values, default=_plain).encode(), name)
+    return parse(json.dumps(values, default=plain_value).encode(), name)
 
 
-def _plain(value: Any) -> Any:
+def plain_value(value: Any) -> Any:
+    """Return an array, a path or a number of numpy as JSON has it; raise TypeError of anything else."""
     if isinstance(value, np.ndarray | np.generic):
         return value.tolist()
     if isinstance(value, Path):
@@ -139,9 +86,12 @@ class Readings:
     ----------
     measurements
         The same in SI, for those who go further down; no part of the stable interface.
+    library
+        Of the frame that they came from; None if they came otherwise.
     """
 
     measurements: MeasurementSet
+    library: Library | None = None
 
     @property
     def unit(self) -> str:
@@ -173,21 +123,45 @@ class Readings:
     def _of(self, approach: Approach) -> FloatArray:
         return read_only_floats(self.measurements.axis.deviation_unit.from_si(self.grid[approach.index].T))
 
-    def to_frame(self) -> Table:
-        """Return a row for each reading: target, direction, run, deviation, time in s, conditions."""
+    def to_frame(self, library: Library | None = None) -> Any:
+        """Return a row for each reading: target, direction, run, deviation, time in s, conditions.
+
+        Parameters
+        ----------
+        library
+            Of which library the frame is: ``pandas``, ``polars`` or ``pyarrow``. Without it the one that the
+            readings came from, that is in use, or that is installed; where none is, a structured array.
+
+        Raises
+        ------
+        InputError
+            If that library is not installed.
+        """
+        return frame_of(self._columns, library or self.library)
+
+    @cached_property
+    def _columns(self) -> dict[str, NDArray[Any]]:
         found = self.measurements
-        table = Table(
-            target=self.targets[found.target],
-            direction=np.where(found.approach > 0, "+", "-"),
-            run=found.run,
-            deviation=found.axis.deviation_unit.from_si(found.deviation),
-        )
+        columns: dict[str, NDArray[Any]] = {
+            "target": self.targets[found.target],
+            "direction": np.where(found.approach > 0, "+", "-"),
+            "run": found.run,
+            "deviation": found.axis.deviation_unit.from_si(found.deviation),
+        }
         if found.time is not None:
-            table["time"] = found.time
+            columns["time"] = found.time
         for name, log in found.conditions.items():
             kind = CONDITIONS.get(name)
-            table[name] = (log - kind.unit.zero) / kind.unit.si if kind else log
-        return table
+            columns[name] = (log - kind.unit.zero) / kind.unit.si if kind else log
+        return columns
+
+    def __len__(self) -> int:
+        """Return how many readings there are, missing ones that are named among them."""
+        return len(self.measurements.deviation)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return how to make the readings anew: they are read-only again then."""
+        return _made_anew, (self.measurements, self.library)
 
     def __repr__(self) -> str:
         """Return the axis and how many readings there are."""
@@ -197,23 +171,45 @@ class Readings:
         return f"<Readings of axis {self.measurements.axis.name}: {targets} targets, {runs} runs{left_out}>"
 
     def _repr_html_(self) -> str:
-        return self.to_frame()._repr_html_()
+        return table_html(self._columns)
 
 
-def read(source: Any, *, plugin: str = "", axis: str | Mapping[str, Any] = "X", **keys: Any) -> Readings:
+def _made_anew(measurements: MeasurementSet, library: Library | None) -> Readings:
+    logs = measurements.conditions.values()
+    for each in (*(getattr(measurements, own.name) for own in fields(measurements)), *logs):
+        if isinstance(each, np.ndarray):
+            each.flags.writeable = False
+    return Readings(measurements, library)
+
+
+def readings_of(data: object, name: str) -> Readings:
+    """Return what is given as readings; raise `InputError` if it is anything else."""
+    if isinstance(data, Readings):
+        return data
+    raise InputError.at(
+        Place(name),
+        f"a {type(data).__name__} holds no readings of an axis; z.test(targets, up, down) makes them of "
+        "arrays, z.read(…) of a file, a job or a frame",
+    )
+
+
+def read(
+    source: Any, *, plugin: str = "", axis: str | Mapping[str, Any] | None = None, **keys: Any
+) -> Readings:
     """Read the measurements of an axis.
 
     Parameters
     ----------
     source
         A file of measurements (``x.csv``, ``x.rtl``); a job (``job.yaml``), whose readings are then corrected
-        as it says; or columns by name: a frame of pandas or polars, a mapping of arrays, with the columns of
-        a measurement file (``target`` mm, ``direction``, ``run``, ``deviation`` µm or ``position`` mm,
-        ``time`` s, conditions).
+        as it says; or columns by name: a frame of pandas, polars or another library, a mapping of arrays,
+        with the columns of a measurement file (``target`` mm, ``direction``, ``run``, ``deviation`` µm or
+        ``position`` mm, ``time`` s, conditions).
     plugin
         The data source that reads the file, if its suffix does not tell: ``laser-csv``.
     axis
-        Its name, or its keys as in a job: ``{"name": "C", "kind": "rotary"}``.
+        Its name, or its keys as in a job: ``{"name": "C", "kind": "rotary"}``; it is X, or C if it is rotary,
+        where no name is given. Of a job they stand instead of its own.
     **keys
         Further keys of the data source as in a job: ``layout="wide"``.
 
@@ -226,21 +222,49 @@ def read(source: Any, *, plugin: str = "", axis: str | Mapping[str, Any] = "X", 
     """
     columns = columns_of(source)
     if columns is not None:
-        return Readings(_of_columns(columns, axis_of(axis)))
+        if plugin or keys:
+            raise InputError.at(
+                Place("read"), f"columns need no {'plugin' if plugin else next(iter(keys))!r}"
+            )
+        return Readings(_of_columns(columns, axis_of(axis)), library_of(source))
+    if not isinstance(source, str | Path):
+        raise InputError.at(
+            Place("read"), f"a {type(source).__name__} is no path of a file, and no frame with named columns"
+        )
     path = Path(source)
     if path.suffix.casefold() in _JOBS and not plugin:
         from zlmreport import pipeline  # noqa: PLC0415 - it brings all that a certificate needs
 
-        return Readings(pipeline.read(load(path, registry()), registry()))
+        if keys:
+            message = f"a job states {next(iter(keys))!r} itself, under measurement.source"
+            raise InputError.at(Place("read"), message)
+        job = load(path, registry())
+        found = pipeline.read(job, registry())
+        return Readings(found if axis is None else _of_axis(found, job, axis))
     name = "read"
     reader = registry().source(plugin, Place(name)) if plugin else _reader_of(path)
     options = checked(reader.options, {"file": str(path), **keys}, name)
     return Readings(reader.read(options, SourceContext(axis_of(axis), Place(name))))
 
 
-def axis_of(axis: str | Mapping[str, Any]) -> Axis:
-    """Return an axis by its name, or by its keys as in a job."""
-    return axis_in_si(checked(AxisKeys, {"name": axis} if isinstance(axis, str) else axis, "axis"))
+def axis_of(axis: str | Mapping[str, Any] | None) -> Axis:
+    """Return an axis by its name, or by its keys as in a job; without a name X, or C if it is rotary."""
+    keys = {"name": axis} if isinstance(axis, str) else dict(axis or {})
+    usual = "C" if keys.get("kind") == AxisKind.ROTARY else "X"
+    return axis_in_si(checked(AxisKeys, {"name": usual, **keys}, "axis"))
+
+
+def _of_axis(found: MeasurementSet, job: Job, axis: str | Mapping[str, Any]) -> MeasurementSet:
+    """Return the readings of a job with keys of the axis that stand instead of its own."""
+    stated = job.keys.axis.model_dump(mode="json", exclude_unset=True)
+    keys = {"name": axis} if isinstance(axis, str) else axis
+    changed = axis_of({**stated, **keys})
+    if changed.kind is not found.axis.kind:
+        raise InputError.at(Place("axis"), f"the readings of the job are of a {found.axis.kind.value} axis")
+    lengths = ("name", "travel", "screw_pitch", "signal_period", "scale_element", "compensation_table")
+    return replace(
+        found, axis=replace(found.axis, **{each: getattr(changed, each) for each in lengths if each in keys})
+    )
 
 
 def _reader_of(path: Path) -> Any:
@@ -310,7 +334,11 @@ def _log(name: str, values: NDArray[Any]) -> FloatArray:
 
 
 def of_arrays(
-    targets: ArrayLike, up: ArrayLike, down: ArrayLike | None = None, *, axis: str | Mapping[str, Any] = "X"
+    targets: ArrayLike,
+    up: ArrayLike,
+    down: ArrayLike | None = None,
+    *,
+    axis: str | Mapping[str, Any] | None = None,
 ) -> Readings:
     """Return readings that are given as arrays, taken run by run: upwards, then downwards.
 
@@ -331,10 +359,10 @@ def of_arrays(
     """
     place = Place("test")
     of = axis_of(axis)
-    positions = np.asarray(targets, dtype=np.float64)
+    positions = _numbers("targets", targets)
     found = {Approach.POSITIVE: up, Approach.NEGATIVE: down}
     grids = {
-        approach: np.atleast_2d(np.asarray(values, dtype=np.float64))
+        approach: np.atleast_2d(_numbers("up" if approach > 0 else "down", values))
         for approach, values in found.items()
         if values is not None
     }
@@ -363,6 +391,15 @@ def of_arrays(
     return Readings(collect(readings, of, Provenance("arrays"), place=place))
 
 
+def _numbers(name: str, values: ArrayLike) -> FloatArray:
+    """Return an array of numbers; raise `InputError` if it holds other things, or rows of unlike lengths."""
+    try:
+        return np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        message = f"{name} is no array of numbers: {error}; a missing reading is nan"
+        raise InputError.at(Place("test"), message) from error
+
+
 def simulate(specification: str | Path | Mapping[str, Any] | None = None, **keys: Any) -> Readings:
     """Return readings of an axis that is not there.
 
@@ -385,10 +422,10 @@ def simulate(specification: str | Path | Mapping[str, Any] | None = None, **keys
         name = str(specification)
         if keys:
             beside = Path(name).with_name("simulate")
-            content = json.dumps({"extends": Path(name).name, **keys}, default=_plain).encode()
+            content = json.dumps({"extends": Path(name).name, **keys}, default=plain_value).encode()
             name = str(beside)
     else:
         given = {"schema": "zlmreport/simulation/1", "seed": 1, **(specification or {}), **keys}
-        content = json.dumps(given, default=_plain).encode()
+        content = json.dumps(given, default=plain_value).encode()
     file = load_simulation(Path(name), registry(), content)
     return Readings(simulate_test(description_of(file, registry().effect)).measurements)

@@ -9,19 +9,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
 
+from zlmreport.document.figures.figure import Figure
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate as evaluate_by
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
 from zlmreport.evaluation.report import position_columns, report_evaluation
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.figures.figure import Figure
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
-from zlmreport.job.loading import standard_choices
+from zlmreport.job.loading import standard_choices, tolerances_in_si
 from zlmreport.language import Language
-from zlmreport.notebook.readings import Readings, Table, as_html, checked, registry, tree_of
+from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.notebook.frames import Library, as_html, frame_of
+from zlmreport.notebook.readings import Readings, checked, readings_of, registry, tree_of
 from zlmreport.plugin.protocols import Standard
-from zlmreport.quantities.arrays import read_only_floats
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -84,6 +85,16 @@ class Result:
         result.__dict__["evaluation"] = evaluation
         return result
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what a copy in another process needs: plugins stay here, and go by their names."""
+        kept = {name: value for name, value in self.__dict__.items() if name not in {"_standard", "_figures"}}
+        return {**kept, "_standard": self._standard.identifier}
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        """Take over what another process has of it."""
+        self.__dict__.update(state)
+        self._standard = registry().standard(state["_standard"])
+
     @cached_property
     def evaluation(self) -> Evaluation:
         """The same in SI, with findings, for those who go further down; no part of the stable interface."""
@@ -93,7 +104,9 @@ class Result:
     @cached_property
     def arithmetic(self) -> Arithmetic:
         """What the formulas of the standard give, in SI; no part of the stable interface."""
-        return self._standard.arithmetic(position_statistics(self.data.grid), self._options)
+        return self._standard.arithmetic(
+            position_statistics(self.data.grid, self.data.measurements.target_positions), self._options
+        )
 
     @property
     def standard(self) -> str:
@@ -128,15 +141,15 @@ class Result:
             Value(
                 each.symbol,
                 each.name.in_language(Language.ENGLISH),
-                unit.from_si(float(found[each.symbol])),
-                unit.ascii,
+                each.unit_or(unit).from_si(float(found[each.symbol])),
+                each.unit_or(unit).ascii,
             )
             for each in self._standard.quantities
             if not isnan(found[each.symbol])
         )
 
     def _value(self, parameter: Parameter) -> Value:
-        unit = self.data.measurements.axis.deviation_unit
+        unit = parameter.quantity.unit_or(self.data.measurements.axis.deviation_unit)
         expanded, limit, decision = parameter.expanded_uncertainty, parameter.limit, parameter.decision
         return Value(
             parameter.quantity.symbol,
@@ -150,11 +163,18 @@ class Result:
             parameter.conforms,
         )
 
-    @cached_property
-    def positions(self) -> Table:
-        """A row for each target position: ``target`` (mm or °), ``mean_fwd``, ``reversal`` … (µm or ″).
+    @property
+    def positions(self) -> Any:
+        """A frame with a row for each target: ``target`` (mm or °), ``mean_fwd``, ``reversal`` … (µm or ″).
 
         Columns of the results file; NaN where the test does not define a value.
+        """
+        return self.to_frame()
+
+    def to_frame(self, library: Library | None = None) -> Any:
+        """Return `positions` as a frame of a library: ``pandas``, ``polars`` or ``pyarrow``.
+
+        Without its name of that from which the readings came, that is in use, or that is installed.
         """
         unit = self.data.measurements.axis.deviation_unit
         columns = {
@@ -162,11 +182,7 @@ class Result:
             for symbol, values in position_columns(self.evaluation).items()
             if not np.all(np.isnan(values))
         }
-        return Table(target=self.data.targets, **columns)
-
-    def to_frame(self) -> Table:
-        """Return the table by position; ``pandas.DataFrame(result.to_frame())`` makes a frame of it."""
-        return self.positions
+        return frame_of({"target": self.data.targets, **columns}, library or self.data.library)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the evaluation as the results file has it, with its findings."""
@@ -190,20 +206,27 @@ class Result:
     def _figures(self) -> tuple[Figure, ...]:
         return tuple(self._standard.figures(self.evaluation, self._options))
 
-    def plot(self, ax: Axes | None = None, graph: str = "") -> Axes | list[Axes]:
-        """Draw a prescribed graph on axes of matplotlib; return the axes, a list of them for several panels.
+    def plot(self, ax: Axes | None = None, graph: str = "") -> Axes:
+        """Draw a prescribed graph on axes of matplotlib, and return them.
 
         Parameters
         ----------
         ax
             Axes to draw on; a figure of its own is made without them.
         graph
-            One of `graphs`; the first without it.
+            One of `graphs`; the first without it. Of a graph with several panels the first one is returned.
         """
         known = {figure.key: figure for figure in self._figures}
         if graph and graph not in known:
             raise KeyError(f"{self.standard} has no graph {graph!r} (it has: {', '.join(known)})")
-        return drawn(known[graph] if graph else self._figures[0], ax)
+        return drawn(known[graph] if graph else self._figures[0], ax)[0]
+
+    def plots(self) -> dict[str, list[Axes]]:
+        """Draw all graphs that the standard prescribes, each in a figure of its own.
+
+        Returns the axes of their panels by the keys of `graphs`.
+        """
+        return {figure.key: drawn(figure, None) for figure in self._figures}
 
     def __repr__(self) -> str:
         """Return the parameters in one line."""
@@ -261,13 +284,15 @@ def evaluate(
     >>> round(result["B"].value, 3), result["A"].conforms
     (1.25, True)
     """
+    data = readings_of(data, _NAME)
+    if not isinstance(tolerances, Mapping | None):
+        raise InputError.at(Place(_NAME), "tolerances are limits by symbols, such as {'A': 20}")
     limits = {} if tolerances is None else {symbol: float(limit) for symbol, limit in tolerances.items()}
     chosen, options = _standard(standard, tuple(limits.items()), tuple(sorted(keys.items(), key=str)))
-    to_si = data.measurements.axis.deviation_unit.to_si
     if decision_rule != "simple":
         checked(DecisionRuleKeys, {"rule": decision_rule}, _NAME)
     result = Result(
-        data, chosen, options, {symbol: to_si(limit) for symbol, limit in limits.items()}, decision_rule
+        data, chosen, options, tolerances_in_si(limits, chosen, data.measurements.axis), decision_rule
     )
     _ = result.arithmetic  # what cannot be evaluated fails here, and not when it is looked at
     return result
@@ -296,10 +321,10 @@ def _known_standard(
     return registry().standard(identifier), found[0].options
 
 
-def drawn(figure: Figure, ax: Axes | None) -> Axes | list[Axes]:
-    """Return axes with a figure on them: those given, or axes of a new figure of matplotlib."""
-    from zlmreport.figures import on_axes  # noqa: PLC0415 - it brings matplotlib
+def drawn(figure: Figure, ax: Axes | None) -> list[Axes]:
+    """Return axes with the panels of a figure on them: those given, or axes of a new figure of matplotlib."""
+    from zlmreport.document.figures import on_axes  # noqa: PLC0415 - it brings matplotlib
 
     axes = on_axes.new_axes(figure) if ax is None else [ax]
     on_axes.put(figure, axes)
-    return axes if len(axes) > 1 else axes[0]
+    return axes

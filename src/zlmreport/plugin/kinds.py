@@ -9,15 +9,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Generic, TypeVar, cast
 
-import pluggy
-
-from zlmreport import plugin as door
+from zlmreport import plugin as doors
+from zlmreport.plugin import hooks
 
 if TYPE_CHECKING:
-    from zlmreport.model.effect import Effect
-    from zlmreport.plugin.extension import Extension
+    from zlmreport.model.effects.circle_effect import CircleEffect
+    from zlmreport.model.effects.effect import Effect
+    from zlmreport.plugin.extending import Extension
     from zlmreport.plugin.protocols import (
         Controller,
         DataSource,
@@ -27,12 +28,6 @@ if TYPE_CHECKING:
         Renderer,
         Standard,
     )
-
-PROJECT = "zlmreport"
-
-#: Marks a plugin's functions that answer hooks.
-hookimpl = pluggy.HookimplMarker(PROJECT)
-_hookspec = pluggy.HookspecMarker(PROJECT)
 
 Offered_co = TypeVar("Offered_co", covariant=True)
 
@@ -47,8 +42,8 @@ class Kind(Generic[Offered_co]):
 
     name: str  #: In hooks, and where a distribution declares what it offers.
     label: str  #: In messages and listings.
-    offers: str  #: What the hook returns: the rest of the sentence "Return …".
-    interface: str  #: The name in `zlmreport.plugin` of what each must be.
+    door: str  #: The module of `zlmreport.plugin` that its authors import.
+    interface: str  #: The name there of what each must be.
     reserved: frozenset[str] = frozenset()  #: Job keys that it must not have of its own.
     suffix: str = ""  #: Such as its files have; empty for what writes no file.
     has_keys: bool = True  #: Whether a job can give it keys of its own.
@@ -58,12 +53,19 @@ class Kind(Generic[Offered_co]):
     @property
     def hook(self) -> str:
         """The function that a plugin answers: ``zlmreport_standards``."""
-        return f"{PROJECT}_{self.name.replace(' ', '_')}s"
+        return f"{hooks.PROJECT}_{self.name}s"
+
+    @property
+    def group(self) -> str:
+        """The group of entry points that name objects of this kind: ``zlmreport.standard``."""
+        return f"{hooks.PROJECT}.{self.name}"
 
     @property
     def protocol(self) -> type[Offered_co]:
         """What each must be."""
-        return cast("type[Offered_co]", getattr(door, self.interface))
+        return cast(
+            "type[Offered_co]", getattr(import_module(f"{doors.__name__}.{self.door}"), self.interface)
+        )
 
     @property
     def members(self) -> tuple[str, ...]:
@@ -88,21 +90,21 @@ def _meaning_two_things(effect: Any) -> str:
 STANDARD: Kind[Standard] = Kind(
     name="standard",
     label="standard",
-    offers="the standards that this plugin evaluates by",
+    door="standard",
     interface="Standard",
     reserved=frozenset({"standard", "tolerances"}),
 )
 SOURCE: Kind[DataSource] = Kind(
     name="source",
     label="data source",
-    offers="the data sources that this plugin reads",
+    door="source",
     interface="DataSource",
     reserved=frozenset({"plugin"}),
 )
 RENDERER: Kind[Renderer] = Kind(
     name="renderer",
     label="format",
-    offers="the file formats that this plugin writes",
+    door="renderer",
     interface="Renderer",
     suffix=".pdf",
     has_keys=False,
@@ -110,14 +112,21 @@ RENDERER: Kind[Renderer] = Kind(
 EFFECT: Kind[Effect] = Kind(
     name="effect",
     label="effect",
-    offers="the effects that this plugin adds to the error model",
+    door="effect",
     interface="Effect",
     lacks=_meaning_two_things,
+)
+CIRCLE_EFFECT: Kind[CircleEffect] = Kind(
+    name="circle_effect",
+    label="circle effect",
+    door="circle_effect",
+    interface="CircleEffect",
+    has_keys=False,
 )
 PART_PROGRAM: Kind[PartProgram] = Kind(
     name="part_program",
     label="part program",
-    offers="the languages in which this plugin writes part programs",
+    door="program",
     interface="PartProgram",
     reserved=frozenset({"program"}),
     suffix=".ngc",
@@ -125,27 +134,27 @@ PART_PROGRAM: Kind[PartProgram] = Kind(
 CONTROLLER: Kind[Controller] = Kind(
     name="controller",
     label="controller",
-    offers="the controls for which this plugin writes compensation tables",
+    door="controller",
     interface="Controller",
     reserved=frozenset({"controller"}),
 )
 EXTENSION: Kind[Extension] = Kind(
     name="extension",
     label="extension",
-    offers="the groups of job keys that this plugin adds, with all that a job gets by them",
+    door="extension",
     interface="Extension",
 )
 INSTRUMENT: Kind[Instrument] = Kind(
     name="instrument",
     label="instrument",
-    offers="the live instruments that this plugin reads",
+    door="instrument",
     interface="Instrument",
     reserved=frozenset({"plugin"}),
 )
 NOTIFIER: Kind[Notifier] = Kind(
     name="notifier",
     label="notifier",
-    offers="the ways in which this plugin tells people what a fleet came to",
+    door="notifier",
     interface="Notifier",
     reserved=frozenset({"plugin", "tells"}),
 )
@@ -156,21 +165,10 @@ KINDS: tuple[Kind[Any], ...] = (
     SOURCE,
     RENDERER,
     EFFECT,
+    CIRCLE_EFFECT,
     PART_PROGRAM,
     CONTROLLER,
     EXTENSION,
     INSTRUMENT,
     NOTIFIER,
 )
-
-
-def specifications() -> type:
-    """Return the hooks of all kinds, as pluggy wants to see them."""
-
-    def specified(kind: Kind[Any]) -> Callable[[], object]:
-        def hook() -> object: ...
-
-        hook.__name__, hook.__doc__ = kind.hook, f"Return {kind.offers}."
-        return _hookspec(hook)
-
-    return type("Hooks", (), {kind.hook: staticmethod(specified(kind)) for kind in KINDS})

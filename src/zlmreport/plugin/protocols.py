@@ -1,43 +1,50 @@
 """What a plugin must be: one protocol for each kind.
 
-An `Effect` is declared in `zlmreport.model.effect`: it is all that the error model knows of a plugin.
+An `Effect` is declared in `zlmreport.model.effects.effect`: it is all that the error model knows of a plugin.
 """
 
 from __future__ import annotations
 
-from dataclasses import field
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Protocol, Self, runtime_checkable
 
-from zlmreport.values import dataclass
-
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
     from pathlib import Path
     from types import TracebackType
 
-    from zlmreport.certificate.attachments import Relationship
-    from zlmreport.certificate.document import Certificate
-    from zlmreport.certificate.information import Information
-    from zlmreport.compensation.curve import CompensationTable
-    from zlmreport.emulation.emulator import Emulator, Scene
+    from zlmreport.document.certificate.attachments import Relationship
+    from zlmreport.document.certificate.document import Certificate
+    from zlmreport.document.certificate.information import Information
+    from zlmreport.document.figures.figure import Figure
     from zlmreport.errors import Place
     from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, PositionQuantity, Quantity
     from zlmreport.evaluation.statistics import PositionStatistics
-    from zlmreport.figures.figure import Figure
+    from zlmreport.evaluation.uncertainty.budget import Contribution
     from zlmreport.job.types import Options
     from zlmreport.language import Words
-    from zlmreport.live.reading import LiveReading
+    from zlmreport.live.emulation.emulator import Emulator, Scene
+    from zlmreport.live.ports.reading import LiveReading
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.compensation.curve import CompensationTable
+    from zlmreport.model.planning.circle_path import CirclePath
 
 
 @runtime_checkable
 class Standard(Protocol):
     """One edition of a standard, complete on its own page.
 
-    Two more attributes may stand beside these: ``information``, the `Information` that it wants reported of a
-    test, which is held against the job; and ``is_method``, true of a published method and nobody's standard.
+    More attributes may stand beside these: ``measurands``, what it evaluates, positioning without it;
+    ``information``, the `Information` that it wants reported of a test, which is held against the job;
+    ``is_method``, true of a published method and nobody's standard; ``of_error(error)``, the standard as it
+    evaluates that `ErrorSymbol`, whose quantities may bear the error's symbol; and
+    ``contributions(measurements, options)``, what it knows of errors of single lines of several that it
+    evaluates together, by their names.
+
+    What several measured lines give together is evaluated of ``statistics.tests`` and ``measurements.tests``,
+    which have them by the names that the job gives them.
 
     Attributes
     ----------
@@ -86,6 +93,16 @@ def information_asked_by(standard: Standard) -> tuple[Information, ...]:
     return getattr(standard, "information", ())
 
 
+def contributions_of(
+    standard: Standard, measurements: MeasurementSet, options: Any
+) -> Mapping[str, Sequence[Contribution]]:
+    """Return what a standard knows of errors of single lines of several; nothing for most."""
+    found: Callable[..., Mapping[str, Sequence[Contribution]]] | None = getattr(
+        standard, "contributions", None
+    )
+    return found(measurements, options) if found else {}
+
+
 @dataclass(frozen=True, slots=True)
 class SourceContext:
     """What a data source needs to know beside its own keys.
@@ -115,10 +132,13 @@ class SourceProposal:
         Beside ``plugin`` and ``file``.
     asks
         What only the file's author can say, in sentences: a sign, a unit.
+    axis
+        The letter of the axis, where the file names it; empty where it does not.
     """
 
     keys: Mapping[str, Any] = field(default_factory=dict)
     asks: tuple[str, ...] = ()
+    axis: str = ""
 
 
 @runtime_checkable
@@ -199,6 +219,9 @@ class PartProgram(Protocol):
     One more attribute, ``takes``, is the type of what it writes, and one that lacks it writes the `Motion`
     of an axis. An extension names the type of its own plans (`Extension.takes`).
 
+    One more method, ``write_circle(path, options)``, returns the program of a `CirclePath`, a circular test;
+    for a control without it none is written.
+
     Attributes
     ----------
     identifier
@@ -225,10 +248,16 @@ class PartProgram(Protocol):
 
 def taken_by(program: PartProgram) -> type:
     """Return the type of what a writer of part programs writes."""
-    from zlmreport.planning.programs import Motion  # noqa: PLC0415 (a type alone loads no room)
+    from zlmreport.model.planning.programs import Motion  # noqa: PLC0415 (a type alone loads no room)
 
     takes: type = getattr(program, "takes", Motion)
     return takes
+
+
+def circle_writer(program: PartProgram) -> Callable[[CirclePath, Any], str] | None:
+    """Return how a writer of part programs writes circles; None where it writes none."""
+    found: Callable[[CirclePath, Any], str] | None = getattr(program, "write_circle", None)
+    return found
 
 
 @runtime_checkable
@@ -301,8 +330,8 @@ class Connection(Protocol):
         readings for stability by their `LiveReading.time`, and needs no clock, no pause and no thread of its
         own. The next reading comes, or the error, within the time-out of the options. What did not arrive
         whole is yielded too, with a fault: a loop decides by `LiveReading.is_usable`, and ends a run by
-        `LiveReading.loses_zero`. A loop that stays away for long, such as for a slow disk, may miss
-        readings; where the instrument numbers them, `LiveReading.skipped` tells how many.
+        `LiveReading.loses_zero`. A capture runs the loop in a thread that only stores, so that a slow disk
+        makes it miss nothing; it is ended by `__exit__` in another thread, after which it raises an error.
 
         Each call begins anew: what came in the meantime is dropped.
         """
@@ -322,7 +351,7 @@ class Instrument(Protocol):
     title
         In words.
     options
-        Its job keys; all but ``port`` have a default. `zlmreport.live.port` has what most need.
+        Its job keys; all but ``port`` have a default. `zlmreport.live.ports.port` has what most need.
     """
 
     identifier: str

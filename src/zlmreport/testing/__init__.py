@@ -19,6 +19,13 @@ expected. The kit needs no test framework.
 """
 
 from zlmreport.testing.certificates import sample_certificate
+from zlmreport.testing.circle_effects import CIRCLE_EFFECT_CHECKS, check_circle_effect, circle_designs
+from zlmreport.testing.circle_programs import (
+    CIRCLE_PROGRAM_CHECKS,
+    CircleMove,
+    check_circle_program,
+    sample_circle_path,
+)
 from zlmreport.testing.controllers import CONTROLLER_CHECKS, check_controller
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
 from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
@@ -31,6 +38,8 @@ from zlmreport.testing.sources import SOURCE_CHECKS, FileContents, check_source
 from zlmreport.testing.standards import STANDARD_CHECKS, check_standard
 
 __all__ = [
+    "CIRCLE_EFFECT_CHECKS",
+    "CIRCLE_PROGRAM_CHECKS",
     "CONTROLLER_CHECKS",
     "EFFECT_CHECKS",
     "EXTENSION_CHECKS",
@@ -40,9 +49,12 @@ __all__ = [
     "RENDERER_CHECKS",
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
+    "CircleMove",
     "FileContents",
     "NotifierTrial",
     "bidirectional_test",
+    "check_circle_effect",
+    "check_circle_program",
     "check_controller",
     "check_effect",
     "check_extension",
@@ -52,8 +64,10 @@ __all__ = [
     "check_renderer",
     "check_source",
     "check_standard",
+    "circle_designs",
     "full_designs",
     "sample_certificate",
+    "sample_circle_path",
     "sample_motion",
     "simulated_test",
 ]

@@ -10,26 +10,34 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.certificate.document import (
+from zlmreport.document.blocks import (
     Align,
     Block,
-    Certificate,
     Column,
     Explained,
     Facts,
     Formulas,
     Graph,
-    Letterhead,
     Mark,
     Notice,
-    PageWords,
     Paragraph,
-    Party,
     RowGroup,
     Section,
     Symbol,
     Table,
     Verdict,
+)
+from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
+from zlmreport.document.figures.figure import (
+    Arrow,
+    Band,
+    Bracket,
+    Curve,
+    Figure,
+    Level,
+    Panel,
+    Readings,
+    Role,
 )
 from zlmreport.errors import Place
 from zlmreport.evaluation.evaluation import (
@@ -44,7 +52,6 @@ from zlmreport.evaluation.evaluation import (
     Quantity,
 )
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Level, Panel, Readings, Role
 from zlmreport.job.document_keys import CertificateKeys, Customer, Laboratory, Person
 from zlmreport.job.evaluation_keys import StandardKeys
 from zlmreport.job.job import Job, SourceChoice
@@ -189,7 +196,7 @@ _DECISION = Decision(Conformity.FAILED, 1e-5, 1e-5, None)
 
 
 def _evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
-    statistics = position_statistics(measurements.deviations())
+    statistics = position_statistics(measurements.deviations(), measurements.target_positions)
     mean = statistics.mean_bidirectional
     words = same(text)
     quantity = Quantity("D", "D", words, Group.SYSTEMATIC, "max(x̄_{i}) − min(x̄_{i})", words)

@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.compensation.curve import CompensationTable
 from zlmreport.errors import InputError, Place
+from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
+from zlmreport.model.compensation.curve import CompensationTable
 from zlmreport.plugin.protocols import Controller
-from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.testing.expectations import (
     check,
     expect,

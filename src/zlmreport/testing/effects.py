@@ -7,13 +7,15 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from zlmreport.job.formula import FormulaError
+from zlmreport.job.formula_parts import Formula
 from zlmreport.job.types import keys_in
+from zlmreport.language.formatting import plain
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Confusion, Dimension, Effect, Parameter, Shape
-from zlmreport.model.observations import of_readings
-from zlmreport.quantities.arrays import FloatArray, read_only_floats
-from zlmreport.quantities.formatting import plain
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Confusion, Dimension, Effect, Parameter, Shape
+from zlmreport.model.fitting.observations import of_readings
 from zlmreport.testing.expectations import (
     check,
     expect,
@@ -37,6 +39,7 @@ _MEMBERS = (
         "linear",
         "searched",
         "shape",
+        "physics",
         "look",
         "remedy",
         "confusions",
@@ -63,6 +66,8 @@ def is_described(effect: Effect, _: Designs) -> None:
     expect(plain(effect.equation).strip(), f"{effect.identifier}: equation must be what is printed")
     expect(isinstance(effect.shape, Shape), f"{effect.identifier}: shape must be a Shape")
     expect_words(effect.look, f"{effect.identifier}: look")
+    if effect.physics is not None:
+        expect_words(effect.physics, f"{effect.identifier}: physics")
 
 
 @check
@@ -236,6 +241,18 @@ def _changes_with(form: Effect, design: Design, number: int) -> bool:
 
 
 @check
+def formula_determines_its_parameters(effect: Effect, _: Designs) -> None:
+    """Check, where it is written as a formula, that readings can tell all its parameters apart."""
+    for form in effect.forms():
+        formula = getattr(form, "formula", None)
+        if isinstance(formula, Formula):
+            try:
+                formula.refuse_undetermined()
+            except FormulaError as error:
+                expect(condition=False, sentence=f"{effect.identifier}: {error}")
+
+
+@check
 def expected_values_are_of_parameters(effect: Effect, designs: Designs) -> None:
     """Check that values which follow from the axis are finite, and those of its parameters."""
     for kind, design in designs.items():
@@ -290,6 +307,7 @@ EFFECT_CHECKS = (
     plausible_sizes_are_metres,
     is_seen_somewhere,
     every_parameter_matters,
+    formula_determines_its_parameters,
     expected_values_are_of_parameters,
 )
 

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.boundary import told
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
+from zlmreport.plugin.boundary import told
 
 #: How long a check may take, s: on a busy computer a renderer of pages needs some of them.
 PATIENCE = 120.0

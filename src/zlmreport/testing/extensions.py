@@ -6,7 +6,7 @@ from zlmreport.job.choices import group_model
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import keys_in, model_at
-from zlmreport.plugin.extension import Extension
+from zlmreport.plugin.extending import Extension
 from zlmreport.testing.expectations import (
     check,
     expect,

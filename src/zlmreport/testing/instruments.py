@@ -13,10 +13,10 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any
 
-from zlmreport.emulation.channels import LocalSocket, serve
-from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.errors import AccessError, ZlmreportError
-from zlmreport.live.reading import LiveReading
+from zlmreport.live.emulation.channels import LocalSocket, serve
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.live.ports.reading import LiveReading
 from zlmreport.plugin.protocols import Instrument
 from zlmreport.testing.expectations import (
     check,

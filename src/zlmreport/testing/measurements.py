@@ -11,14 +11,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
+from zlmreport.measurement.circle import NominalCircle
+from zlmreport.measurement.measurand import CIRCLE
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.model.design import Design
-from zlmreport.planning.methods import Method, path, planned_design, visits
-from zlmreport.planning.targets import target_positions
-from zlmreport.quantities.arrays import FloatArray, read_only_floats, read_only_integers
-from zlmreport.quantities.units import REFERENCE_TEMPERATURE
+from zlmreport.measurement.units import REFERENCE_TEMPERATURE
+from zlmreport.model.effects.design import Design
+from zlmreport.model.planning.methods import Method, path, planned_design, visits
+from zlmreport.model.planning.targets import target_positions
 
 _NOISE = {AxisKind.LINEAR: 0.8, AxisKind.ROTARY: 0.5}  # µm, ″
 _BACKLASH = 4.0
@@ -32,11 +34,13 @@ _LINEAR = Axis(
     (0.0, 1.0),
     screw_pitch=10e-3,
     signal_period=20e-6,
-    scale_element=0.5,
+    scale_element=0.25,
+    pole_pitch=24e-3,
     compensation_table=PositionTable(_ROWS, tuple((8e-6 * np.sin(4.0 * _BETWEEN) * _BETWEEN).tolist())),
     angular_errors=PositionTable(_ROWS, tuple((30e-6 * np.cos(5.0 * _BETWEEN)).tolist())),
     abbe_offset=0.2,
 )
+_CIRCLE = Axis("XY", quantity=CIRCLE, circle=NominalCircle("XY", 0.15, 1 / 60))
 _ROTARY = Axis(
     "C",
     AxisKind.ROTARY,
@@ -114,8 +118,10 @@ def simulated_test(
     )
 
 
-def good_tests() -> Mapping[str, MeasurementSet]:
-    """Return complete tests, by what they are."""
+def good_tests(*, closed: bool = False) -> Mapping[str, MeasurementSet]:
+    """Return complete tests, by what they are: along a length, or those of circles where that is closed."""
+    if closed:
+        return {"a complete circle": _circle(), "an arc of a circle": _circle(length=200.0)}
     return {
         "a complete linear test": simulated_test(),
         "a complete rotary test": simulated_test(13, axis=Axis("C", AxisKind.ROTARY), length=360.0),
@@ -125,33 +131,51 @@ def good_tests() -> Mapping[str, MeasurementSet]:
     }
 
 
-def poor_tests() -> Mapping[str, MeasurementSet]:
-    """Return tests that fall short in one way each, by what is wrong; a standard refuses none of them."""
-    full = simulated_test()
+def _circle(
+    targets: int = 36,
+    runs: int = 2,
+    *,
+    length: float = 350.0,
+    approaches: Sequence[Approach] = tuple(Approach),
+) -> MeasurementSet:
+    """Return a simulated test of a circle; `length` is its arc, °."""
+    return simulated_test(targets, runs, axis=_CIRCLE, length=length, approaches=approaches)
+
+
+def poor_tests(*, closed: bool = False) -> Mapping[str, MeasurementSet]:
+    """Return tests that fall short in one way each, by what is wrong; a standard refuses none of them.
+
+    `closed`: Whether they are of circles.
+    """
+    simulated = _circle if closed else simulated_test
+    full = simulated()
     grid = full.deviations()
     half = grid.copy()
     half[Approach.POSITIVE.index, ::2] = np.nan
     half[Approach.NEGATIVE.index, 1::2] = np.nan
     gap = grid.copy()
-    gap[Approach.NEGATIVE.index, 2, 3] = np.nan
+    gap[Approach.NEGATIVE.index, 2, -1] = np.nan
     hole = grid.copy()
     hole[Approach.POSITIVE.index, 0] = np.nan
     rotary = Axis("C", AxisKind.ROTARY, travel=(0.0, 4 * np.pi))
+    of_lengths = {
+        "a long axis with a single run": simulated_test(13, 1, length=3000.0),
+        "two turns with a single run": simulated_test(17, 1, axis=rotary, length=720.0),
+    }
     return {
-        "a single reading": simulated_test(1, 1, approaches=[Approach.POSITIVE]),
-        "a single target": simulated_test(1),
-        "two targets": simulated_test(2),
-        "a single run": simulated_test(runs=1),
-        "the positive direction only": simulated_test(approaches=[Approach.POSITIVE]),
-        "the negative direction only": simulated_test(approaches=[Approach.NEGATIVE]),
-        "a single run in one direction": simulated_test(runs=1, approaches=[Approach.POSITIVE]),
+        "a single reading": simulated(1, 1, approaches=[Approach.POSITIVE]),
+        "a single target": simulated(1),
+        "two targets": simulated(2),
+        "a single run": simulated(runs=1),
+        "the positive direction only": simulated(approaches=[Approach.POSITIVE]),
+        "the negative direction only": simulated(approaches=[Approach.NEGATIVE]),
+        "a single run in one direction": simulated(runs=1, approaches=[Approach.POSITIVE]),
         "a missing reading": _with_deviations(full, gap),
         "a target without positive approach": _with_deviations(full, hole),
         "no target approached from both sides": _with_deviations(full, half),
         "no reading at all": _with_deviations(full, np.full_like(grid, np.nan)),
         "no deviation anywhere": _with_deviations(full, np.zeros_like(grid)),
-        "a long axis with a single run": simulated_test(13, 1, length=3000.0),
-        "two turns with a single run": simulated_test(17, 1, axis=rotary, length=720.0),
+        **({} if closed else of_lengths),
     }
 
 
@@ -190,6 +214,7 @@ def full_designs() -> Mapping[str, Design]:
         "a complete pendulum test": _complete(_LINEAR, Method.PENDULUM),
         "a complete quasi-pilgrim test": _complete(_LINEAR, Method.QUASI_PILGRIM),
         "a complete rotary test": _complete(_ROTARY, Method.LINEAR),
+        "a complete test with a pause": _with_pause(_complete(_LINEAR, Method.LINEAR)),
     }
 
 
@@ -224,6 +249,13 @@ def _complete(axis: Axis, method: Method) -> Design:
         "face": np.where(design.target % 2 == 0, 1.0, -1.0),
     }
     return replace(design, conditions={name: read_only_floats(log) for name, log in conditions.items()})
+
+
+def _with_pause(design: Design) -> Design:
+    """Return a test that stood still for half its time in the middle."""
+    half = design.duration / 2
+    later = np.where(design.time > float(design.time.min()) + half, half, 0.0)
+    return replace(design, time=read_only_floats(design.time + later))
 
 
 def _planned(axis: Axis, method: Method, targets: FloatArray, runs: int) -> Design:

@@ -12,12 +12,12 @@ from dataclasses import replace
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError, Place
+from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.planning.methods import Method
-from zlmreport.planning.plan import Plan
-from zlmreport.planning.programs import Motion, motion_of
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.planning.plan import Plan
+from zlmreport.model.planning.programs import Motion, motion_of
 from zlmreport.plugin.protocols import PartProgram
-from zlmreport.quantities.arrays import read_only_floats
 from zlmreport.testing.expectations import (
     check,
     expect,

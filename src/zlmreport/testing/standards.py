@@ -8,15 +8,16 @@ from typing import Any
 
 import numpy as np
 
+from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Basis, Evaluation, Finding, Group, PositionQuantity, Quantity
-from zlmreport.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings
 from zlmreport.job.types import Options
 from zlmreport.language import Language
+from zlmreport.language.formatting import plain
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.measurand import measurands_of
+from zlmreport.measurement.units import ANGLES, LENGTHS, Unit
 from zlmreport.plugin.protocols import Standard
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.formatting import plain
-from zlmreport.quantities.units import ANGLES, LENGTHS, Unit
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
 from zlmreport.testing.expectations import (
     check,
@@ -104,7 +105,8 @@ def quantities_are_worded(standard: Standard, _: Options) -> None:
 @check
 def requirements_never_refuse(standard: Standard, options: Options) -> None:
     """Check that requirements answer with findings, however poor the test is, and answer the same again."""
-    for kind, measurements in {**good_tests(), **poor_tests()}.items():
+    closed = _is_of_circles(standard)
+    for kind, measurements in {**good_tests(closed=closed), **poor_tests(closed=closed)}.items():
         where = f"{standard.identifier}: requirements on {kind}"
         try:
             findings = tuple(standard.requirements(measurements, options))
@@ -131,7 +133,8 @@ def _expect_finding(finding: object, where: str) -> None:
 @check
 def figures_of_any_test(standard: Standard, options: Options) -> None:
     """Check that a complete test gives graphs, and a poor test graphs of what there is, or none."""
-    good, poor = good_tests(), poor_tests()
+    closed = _is_of_circles(standard)
+    good, poor = good_tests(closed=closed), poor_tests(closed=closed)
     for kind, measurements in {**good, **poor}.items():
         where = f"{standard.identifier}: figures of {kind}"
         evaluation = evaluate(standard, measurements, options, {})
@@ -161,7 +164,7 @@ def figures_are_worded(standard: Standard, options: Options) -> None:
             expect_words(words, f"{where}: {name}")
         for unit in (figure.x_unit, figure.y_unit):
             expect(unit in _UNITS, f"{where}: unit {unit!r} is none of {', '.join(_UNITS)}")
-    for kind in good_tests():
+    for kind in good_tests(closed=_is_of_circles(standard)):
         for where, figure, _ in _figures(standard, options, kind):
             for language in Language:
                 text = figure.alternative.in_language(language)
@@ -264,11 +267,16 @@ def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options
                     )
 
 
+def _is_of_circles(standard: Standard) -> bool:
+    return any(each.is_closed for each in measurands_of(standard))
+
+
 def _figures(
     standard: Standard, options: Options, kind: str | None = None
 ) -> Iterator[tuple[str, Figure, Evaluation]]:
     """Yield every figure of every test (or of one kind of test), with what to call it in a sentence."""
-    tests = {**good_tests(), **poor_tests()}
+    closed = _is_of_circles(standard)
+    tests = {**good_tests(closed=closed), **poor_tests(closed=closed)}
     for name in tests if kind is None else [kind]:
         evaluation = evaluate(standard, tests[name], options, {})
         for figure in standard.figures(evaluation, options):

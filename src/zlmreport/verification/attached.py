@@ -13,6 +13,7 @@ import json
 import math
 import os
 import posixpath
+import re
 import tempfile
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -29,6 +30,8 @@ from zlmreport.verification.carrier import Carried, Carrier
 from zlmreport.verification.findings import Finding, Verdict
 
 SCHEMA = "zlmreport/results/1"
+#: Results of a document on a whole machine.
+MACHINE_RESULTS = "zlmreport/machine-results/1"
 
 
 class _Lenient(BaseModel):
@@ -71,6 +74,7 @@ class Results(_Lenient):
 class Stated:
     """A results file."""
 
+    name: str  #: Of the attachment.
     tree: dict[str, Any] = field(repr=False)  #: All that it says.
     results: Results  #: What is understood of it.
 
@@ -93,9 +97,9 @@ def stated_by(carrier: Carrier) -> Stated | None:
             )
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{file.name}: no JSON: {error}") from error
-        if isinstance(tree, dict) and tree.get("schema") == SCHEMA:
+        if isinstance(tree, dict) and tree.get("schema") in {SCHEMA, MACHINE_RESULTS}:
             try:
-                return Stated(tree, Results.model_validate(tree))
+                return Stated(file.name, tree, Results.model_validate(tree))
             except ValidationError as error:
                 first = error.errors()[0]
                 where = ".".join(map(str, first["loc"]))
@@ -184,15 +188,37 @@ def _file_name(source: StatedSource) -> str:
 
 _SHOWN_DIGITS = 12
 _LONGEST_TEXT = 60
-_DESCRIBED = {"relationship": "relationship", "description": "description", "media_type": "media type"}
+_DESCRIBED = {
+    "relationship": "relationship",
+    "description": "description",
+    "media_type": "media type",
+    "dates": "date",
+    "listed": "name in the list of names",
+    "associated": "number of associations with the document",
+    "entries": "description (by its entries)",
+}
+#: Of numbers with decimals: those of a fitted model differ most from processor to processor. The values of
+#: the results file are compared closer.
+_TOLERANCE = 1e-6
+_NUMBER = re.compile(r"-?\d+\.\d+(?:[eE][+-]?\d+)?")
 
 
-def compare(
-    sources: Sequence[StatedSource], carried: Mapping[str, Carried], again: Mapping[str, Carried] | None
+def compare(  # noqa: PLR0913 - what is stated, found and made again, and how much alike it must be
+    sources: Sequence[StatedSource],
+    carried: Mapping[str, Carried],
+    again: Mapping[str, Carried] | None,
+    *,
+    same_programs: bool = True,
+    compared_by_value: str = "",
+    same_processor: bool = False,
 ) -> tuple[Finding, ...]:
     """Return a finding for each file that is attached, or should be.
 
     `again`: What it carries when it is made again, by name; None if it cannot be.
+    `same_programs`: Whether the same releases made it again: otherwise files that are made of the readings
+        may differ.
+    `compared_by_value`: The name of a results file of which differing values are found already.
+    `same_processor`: Whether the last digits of computed numbers must be the same, too.
     """
     stated = {source.name: source for source in sources}
     findings = []
@@ -204,9 +230,30 @@ def compare(
         faults = [*_digests(file, source)]
         if again is not None:
             faults += _described(file, again.get(name))
+        is_derived = again is not None and source is None and name != compared_by_value
+        derived = again.get(name) if again and is_derived else None
         verdict = Verdict.DIFFERS if faults else Verdict.HOLDS if source or again else Verdict.OPEN
+        is_same = derived is None or file.content == derived.content
+        if derived and not is_same and not same_processor:
+            is_same = _are_alike(file.content, derived.content)
+        if verdict is Verdict.HOLDS and not is_same:
+            verdict = Verdict.DIFFERS if same_programs else Verdict.OPEN
+            faults = ["is not what the attached readings give"]
         findings.append(Finding(name, verdict, "; ".join(faults)))
     return tuple(findings)
+
+
+def _are_alike(content: bytes, again: bytes) -> bool:
+    """Whether two texts are the same but for the last digits of numbers, which other processors round."""
+    try:
+        texts = content.decode(), again.decode()
+    except UnicodeDecodeError:
+        return False
+    between, between_again = map(_NUMBER.split, texts)
+    return between == between_again and all(
+        math.isclose(float(one), float(other), rel_tol=_TOLERANCE, abs_tol=_TOLERANCE**2)
+        for one, other in zip(*map(_NUMBER.findall, texts), strict=True)
+    )
 
 
 def _digests(file: Carried, source: StatedSource | None) -> Iterator[str]:
@@ -218,6 +265,8 @@ def _digests(file: Carried, source: StatedSource | None) -> Iterator[str]:
         )
     elif file.checksum and file.checksum != hashlib.md5(file.content, usedforsecurity=False).hexdigest():
         yield "is not the file that was attached: the PDF states another checksum"
+    elif file.size and file.size != str(len(file.content)):
+        yield f"has {len(file.content)} bytes, and the PDF states {file.size[:_SHOWN_DIGITS]}"
 
 
 def _described(file: Carried, again: Carried | None) -> Iterator[str]:
@@ -228,7 +277,8 @@ def _described(file: Carried, again: Carried | None) -> Iterator[str]:
     for key, what in _DESCRIBED.items():
         found, expected = getattr(file, key), getattr(again, key)
         if found != expected:
-            yield f"its {what} is {found[:_LONGEST_TEXT]!r} and should be {expected[:_LONGEST_TEXT]!r}"
+            shown, right = (str(each)[:_LONGEST_TEXT] for each in (found, expected))
+            yield f"its {what} is {shown!r} and should be {right!r}"
 
 
 _NAMESPACE = b"https://ptb.de/dcc"

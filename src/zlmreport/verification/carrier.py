@@ -10,12 +10,12 @@ import logging
 import re
 import zlib
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any, TypeVar
 
-from zlmreport.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
+from zlmreport.document.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
 from zlmreport.errors import InputError, Place
 from zlmreport.files import demanded
 
@@ -28,6 +28,9 @@ _LONGEST_NAME = 200
 #: What no name of an attachment has: parts of a path, and what is not seen.
 _UNSAFE = re.compile(r"[\x00-\x1f\x7f-\x9f/\\\u200e\u200f\u202a-\u202e\u2066-\u2069]|\A\.+\Z|\A\Z")
 
+#: Of a stream: how it is packed is looked at elsewhere.
+_OF_PACKING = frozenset({"/DecodeParms", "/Filter", "/Length"})
+
 Read = TypeVar("Read")
 
 
@@ -35,7 +38,10 @@ Read = TypeVar("Read")
 class Carried:
     """A file inside a PDF, as the PDF describes it.
 
-    `checksum` is the MD5 digest that the PDF states, hexadecimal, and empty if it states none.
+    `checksum` is the MD5 digest that the PDF states, hexadecimal, and empty if it states none; `size` and
+    `dates` are those that it states. `listed` are the names under which it stands in the list of names, and
+    `associated` is how often it stands among the associated files. `entries` are the keys of all that
+    describes it.
     """
 
     name: str
@@ -44,6 +50,11 @@ class Carried:
     description: str
     media_type: str
     checksum: str
+    size: str = ""
+    dates: tuple[str, ...] = ()
+    listed: tuple[str, ...] = ()
+    associated: int = 1
+    entries: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +95,15 @@ def opened(content: bytes, place: Place) -> Carrier:
     return guarded(lambda: _opened(content, place), place)
 
 
+def results_in(path: Path) -> bytes | None:
+    """Return the results file that a certificate carries; None if it carries none."""
+    carried = opened(read_file(path), Place(str(path))).carried.values()
+    return next(
+        (each.content for each in carried if each.relationship == "Data" and each.name.endswith(".json")),
+        None,
+    )
+
+
 def guarded(read: Callable[[], Read], place: Place) -> Read:
     """Return what is read from a PDF and what it carries; whatever breaks on the way is said in one line."""
     logger = logging.getLogger("pypdf")
@@ -111,11 +131,11 @@ def _opened(content: bytes, place: Place) -> Carrier:
         raise InputError.at(place, f"has more than {MOST_PAGES} pages; no certificate has")
     carried: dict[str, Carried] = {}
     room = LARGEST_TOTAL
-    for specification in _specifications(reader, place):
+    for specification, listed, associated in _specifications(reader, place):
         if len(carried) == MOST_ATTACHMENTS:
             raise InputError.at(place, f"carries more than {MOST_ATTACHMENTS} files; no certificate does")
         try:
-            each = _carried(specification, room, place)
+            each = replace(_carried(specification, room, place), listed=listed, associated=associated)
         except TooLargeError as error:
             raise InputError.at(
                 place, f"carries files of more than {LARGEST_TOTAL >> 20} MiB in all; no certificate does"
@@ -128,11 +148,14 @@ def _opened(content: bytes, place: Place) -> Carrier:
     return Carrier(place, content, reader, carried, metadata)
 
 
-def _specifications(reader: Any, place: Place) -> Iterator[Any]:
-    """Yield each file specification that the document lists by name, or as associated with it."""
+def _specifications(reader: Any, place: Place) -> Iterator[tuple[Any, tuple[str, ...], int]]:
+    """Yield each file specification that the document lists by name, or as associated with it.
+
+    With it come the names under which it is listed, and how often it is associated with the document.
+    """
     root = reader.trailer["/Root"].get_object()
     waiting = [root.get("/Names", {}).get_object().get("/EmbeddedFiles")] if "/Names" in root else []
-    listed: list[Any] = []
+    names: list[tuple[str, Any]] = []
     nodes = 0
     while waiting:
         node = waiting.pop()
@@ -142,15 +165,26 @@ def _specifications(reader: Any, place: Place) -> Iterator[Any]:
         if nodes > _MOST_NODES:
             raise InputError.at(place, "lists its attachments without end; no certificate does")
         node = node.get_object()
-        listed.extend(list(node.get("/Names", ()))[1::2])
+        pairs = list(node.get("/Names", ()))
+        names.extend(zip(map(str, pairs[::2]), pairs[1::2], strict=True))
         waiting.extend(node.get("/Kids", ()))
-    listed.extend(root.get("/AF", ()))
+    associated = list(root.get("/AF", ()))
     seen: set[Any] = set()
-    for specification in listed:
-        identity = getattr(specification, "idnum", None) or id(specification)
+    for specification in (*(each for _, each in names), *associated):
+        identity = _identity(specification)
         if identity not in seen:
             seen.add(identity)
-            yield specification.get_object()
+            yield (
+                specification.get_object(),
+                tuple(name for name, each in names if _identity(each) == identity),
+                sum(_identity(each) == identity for each in associated),
+            )
+
+
+def _identity(specification: Any) -> int:
+    """Return what tells a file specification from others: its number, or where it lies in memory."""
+    number: int | None = getattr(specification, "idnum", None)
+    return id(specification) if number is None else number
 
 
 def _carried(specification: Any, room: int, place: Place) -> Carried:
@@ -176,6 +210,13 @@ def _carried(specification: Any, room: int, place: Place) -> Carried:
         str(specification.get("/Desc", "")),
         str(stream.get("/Subtype", "")).removeprefix("/"),
         _hexadecimal(parameters.get("/CheckSum")),
+        str(parameters.get("/Size", "")),
+        tuple(f"{key} {parameters[key]}" for key in ("/CreationDate", "/ModDate") if key in parameters),
+        entries=tuple(
+            f"{holder} {key}"
+            for holder, keys in (("", specification), ("/EF", embedded), ("stream", stream), ("", parameters))
+            for key in sorted(keys.keys() - _OF_PACKING)
+        ),
     )
 
 

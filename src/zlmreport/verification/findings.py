@@ -68,6 +68,20 @@ class Value:
 
 
 @dataclass(frozen=True, slots=True)
+class OwnText:
+    """A text that somebody else wrote, and that is printed as it stands.
+
+    `key` is where the job states it, or what it comes from; `oddities` are what nobody can tell by looking;
+    `claim` says what it claims that nothing computes, None for nothing.
+    """
+
+    key: str
+    text: str
+    oddities: tuple[Words, ...] = ()
+    claim: Words | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Identity:
     """What a certificate says of itself in its results file."""
 
@@ -76,6 +90,7 @@ class Identity:
     issued: str = ""
     generator: str = ""
     language: Language = Language.ENGLISH
+    digest: str = ""  #: Of its readings and results, computed again.
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,6 +104,7 @@ class Verification:
     pages: tuple[Finding, ...] = ()  #: Each page against the page as it is printed again.
     #: What else the file holds: metadata, bookmarks, structure with the alternative texts.
     document: tuple[Finding, ...] = ()
+    own_words: tuple[OwnText, ...] = ()  #: Words that somebody else wrote, and that nothing computes.
     remarks: tuple[Words, ...] = field(default=())  #: What limits the comparison.
     is_signed: bool = False  #: Whether there is a signature, be it intact or not.
     is_trusted: bool = False  #: Whether it is intact, and made with a certificate that is trusted.

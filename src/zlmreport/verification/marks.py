@@ -292,7 +292,7 @@ def _picture(pen: _Pen, name: Any) -> None:
 
 def _begin_marked(pen: _Pen, tag: Any, properties: Any = None) -> None:
     entries = properties.items() if isinstance(properties, dict) else [("", repr(properties))]
-    pen.mark("tag", str(tag), tuple(sorted((key, repr(value)) for key, value in entries if key != "/MCID")))
+    pen.mark("tag", str(tag), tuple(sorted((key, repr(value)) for key, value in entries)))
 
 
 _OPERATORS: dict[bytes, Callable[..., None]] = {

@@ -1,54 +1,189 @@
-"""The laboratory's own words that read like a result: no reading gives them, nothing computes them again."""
+"""Words that somebody else wrote: quoted as such, with what nobody can tell by looking.
+
+No reading gives them, and nothing computes them again. So they may say anything; what says a result, or that
+one is met, leaves a certificate undecided, and whoever reads it decides.
+"""
 
 from __future__ import annotations
 
 import re
-import unicodedata
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from zlmreport.certificate.document import Certificate, Paragraph
+from pydantic import BaseModel
+
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.own_words import filled
+from zlmreport.errors import InputError
+from zlmreport.job.choices import Choice, ExtensionChoice
 from zlmreport.job.job import Job
+from zlmreport.job.types import free_texts
 from zlmreport.language import Words
-from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.findings import OwnText
+from zlmreport.verification.look_alikes import oddities, read_as
 
-#: Lengths and angles as results have them; of millimetres only less than one: travels are stated in them.
-_AMOUNT = r"\d\s*(?:[µμ]m|um|nm|arcsec|″|mic(?:ro|ron)|Mikro|Bogensek)|(?<![\d.,])0[.,]\d+\s*mm"
+#: The last steps of keys whose texts name installed things, files and hosts, and say nothing to a reader.
+_NAMES_OF_THINGS = frozenset(
+    {"axis", "controller", "error", "extends", "formats", "host", "plugin", "program", "standard"}
+)
+#: Where lengths are what is asked for: how the measurement was set up, what was adjusted, why a contribution
+#: is negligible.
+_OF_LENGTHS = frozenset({"adjustment", "line", "negligible", "sensors"})
+#: A device is called by its range: ``Laser triangulation sensor, range 100 mm``.
+_OF_DEVICES = frozenset({"model", "name"})
+_RANGE = re.compile(r"(?<![\d.,])[1-9]\d*(?:[.,]\d+)?\s*[mc]m(?![A-Za-z])")
+#: Texts that come with the files, and are no key of the job.
+_OF_FILES = frozenset({"files", "readings"})
+#: Under which name a remark on readings has what an operator said.
+_SAID = "text"
+_NUMBER_OF_DOCUMENT = "certificate.number"
+_MARGINS = frozenset({"certificate.style.footer", "certificate.style.header", "certificate.title"})
+
+_COUNT = (
+    r"(?:one|two|three|four|five|six|seven|eight|nine|ten|eleven|twelve|half|quarter|tenths?|hundredths?|"
+    r"thousandths?|ein(?:e[nmrs]?)?|zwei|drei|vier|fünf|sechs|sieben|acht|neun|zehn|elf|zwölf|halbe[nrs]?|"
+    r"zehntel|hundertstel|tausendstel)(?:\s+(?:of\s+)?an?|\s+eine[rs])?"
+)
+#: Lengths and angles in which a deviation may be stated; a metre and a degree are of travels.
+_UNIT = (
+    r"(?:u\s*m|(?-i:n)\s?m|m\s*m|c\s*m|мкм|мм|нм|微米|毫米|u\s*inch|inch(?:es)?|mils?|thou|zoll|"
+    r"(?:micro|nano|milli|centi|mikro|zenti)[\s-]*met(?:er|re)s?n?|microns?|mikron|"
+    r"arc[\s-]*sec(?:onds?)?|(?:bogen|winkel)sekunden?|″|′′|u\s*rad|m\s*rad)(?![A-Za-z])"
+)
+#: What a length by another unit is: an expansion (µm/(m·K)), a feed (mm/min).
+_OF_ELSE = r"(?!\s*(?:/|per|je)\s*\(?\s*(?:(?:m\s*[·*.]?\s*)?K|min|s|rev|U)\b)"
+_AMOUNT = re.compile(
+    rf"(?:\d[\d.,]*(?:[eE^]?[+-]?\d+)?|(?<![^\W_])[lIO|o]{{1,4}}|\b{_COUNT})[\s-]*{_UNIT}{_OF_ELSE}"
+    r"|\b0[.,]000\d*\s*m\b|\d\s*[·×x*]\s*10\^?-\d+\s*m\b|\d[eE]-\d+\s*m\b",
+    re.IGNORECASE,
+)
+_VERDICT = re.compile(
+    r"[✓✔☑✅✗✘✖❌☒👍👎]|(?<![^\W_])(?:"
+    r"(?:non-?)?conform(?:s|ed|ing|ity|ance|ant)?|compl(?:y|ies|ied|iant|iance)|pass(?:es|ed)?|fail(?:s|ed)?|"
+    r"accept(?:ed|able|s)?|reject(?:ed)?|approved|"
+    r"(?:tolerances?|limits?|specifications?|requirements?)\s+(?:\w+\s+)?(?:is|are|was|were)\s+(?:\w+\s+)?"
+    r"(?:met|kept|held|satisfied|fulfilled|exceeded)|(?:within|inside|out\s+of|outside)\s+(?:\w+\s+){0,2}"
+    r"(?:tolerances?|limits?|specifications?|spec)|"
+    r"(?:nicht\s?)?konform(?:e[nrs]?|ität)?|(?:nicht\s+)?bestanden|(?:nicht\s+)?erfüllt|eingehalten|"
+    r"überschritten|(?:un)?zulässig|freigegeben|angenommen|abgelehnt|in\s+ordnung|n?\.?\s?i\.\s?o\.|"
+    r"innerhalb\s+(?:\w+\s+){0,2}(?:toleranz(?:en)?|grenzen|grenzwerte)"
+    r")(?![^\W_])",
+    re.IGNORECASE,
+)
+#: A number of a page or of a document where those of this one stand.
+_OF_A_DOCUMENT = re.compile(
+    r"\b(?:page|seite|sheet|blatt)\s+\w+\s*(?:/|of|von)\s*\w+"
+    r"|\b(?:certificate|report|\w*schein|\w*zertifikat|\w*bericht)\s*(?:no\.?|nr\.?|number|nummer)?\s*:?\s*"
+    r"[A-Za-z-]*\d",
+    re.IGNORECASE,
+)
+_LONGEST = 80
+
 _STATED = Words(
     en="'{text}' is the laboratory's own word: no reading gives its numbers",
     de="„{text}“ ist das Wort des Laboratoriums: kein Messwert ergibt seine Zahlen",
 )
-_LONGEST = 80
+_JUDGED = Words(
+    en="'{text}' is the laboratory's own word: no decision rule gives such a verdict",
+    de="„{text}“ ist das Wort des Laboratoriums: keine Entscheidungsregel ergibt ein solches Urteil",
+)
+_NUMBERED = Words(
+    en="'{text}' is the laboratory's own word: it numbers pages or documents where this one's number stands",
+    de="„{text}“ ist das Wort des Laboratoriums: es nummeriert Seiten oder Dokumente, wo die Nummer dieses "
+    "Dokuments steht",
+)
 
 
-def stated_results(certificate: Certificate, job: Job) -> tuple[Finding, ...]:
-    """Return the texts of a job that stand among the results and read like some, each as not decided.
+def own_texts(certificate: Certificate, job: Job) -> tuple[OwnText, ...]:
+    """Return the words of a job that are printed as they stand, each once.
 
-    Title, head, foot and sections of one's own do; what has a label of its own, such as remarks, does not.
+    A text that nobody sees the claim of, for its letters only look like it, makes that claim too.
     """
-    letters = {
+    symbols = {
         parameter.quantity.symbol.split("_")[0]
         for evaluation in certificate.evaluations
         for parameter in evaluation.parameters
     }
-    symbols = "|".join(map(re.escape, sorted(letters | {"U"})))
+    return _quoted(_texts(certificate, job), symbols)
+
+
+def own_texts_of(keys: BaseModel) -> tuple[OwnText, ...]:
+    """Return the words of a file's keys, of which no job is made."""
+    return _quoted(_free(keys), set())
+
+
+def _quoted(texts: Iterable[tuple[str, str]], symbols: set[str]) -> tuple[OwnText, ...]:
+    letters = "|".join(map(re.escape, sorted(symbols | {"U"})))
     result = re.compile(
-        rf"{_AMOUNT}|(?<!\w)(?:{symbols})(?:_\w+|[↑↓])?\s*(?:[=:≈<>≤≥]\s*[+−±-]?\d|\d+[.,]\d)", re.IGNORECASE
+        rf"(?<![^\W_])(?:{letters})(?:_\w+|[↑↓])?\s*(?:(?:[=:≈<>≤≥]|is|ist)\s*[+±-]?\d|\d+[.,]\d)",
+        re.IGNORECASE,
     )
-    return tuple(
-        Finding(key, Verdict.OPEN, _STATED.given(text=text[:_LONGEST]))
-        for key, text in _texts(certificate, job)
-        if result.search(unicodedata.normalize("NFKC", text))
-    )
+    found = [
+        OwnText(key, text, tuple(oddities(text)), _claim(key, text, result))
+        for key, text in dict.fromkeys(texts)
+    ]
+    return tuple(each for each in found if each.key not in _OF_FILES or _says_something(each))
+
+
+def _says_something(text: OwnText) -> bool:
+    """Whether it is what somebody said, or odd: a file has a name, which says nothing else."""
+    return bool(text.oddities or text.claim or text.key == "readings")
+
+
+def _claim(key: str, text: str, result: re.Pattern[str]) -> Words | None:
+    read, steps = read_as(text), key.split(".")
+    amounts = _RANGE.sub("", read) if steps[-1] in _OF_DEVICES else read
+    if result.search(read) or (_AMOUNT.search(amounts) and _OF_LENGTHS.isdisjoint(steps)):
+        claimed = _STATED
+    elif _VERDICT.search(read):
+        claimed = _JUDGED
+    elif key in _MARGINS and _OF_A_DOCUMENT.search(read):
+        claimed = _NUMBERED
+    else:
+        return None
+    return claimed.given(text=text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…")
 
 
 def _texts(certificate: Certificate, job: Job) -> Iterator[tuple[str, str]]:
-    """Yield the key of each text, and the text as it is printed."""
-    page = certificate.page_words
-    yield "axis.name", job.axis.name
-    yield "certificate.title", job.keys.certificate.title or ""
-    yield "certificate.style.header", page.head
-    yield "certificate.style.footer", page.foot
-    for section in certificate.sections:
-        if section.key.startswith("text-"):
-            lines = (block.text for block in section.blocks if isinstance(block, Paragraph))
-            yield "certificate.sections", " ".join((section.title, *lines))
+    """Yield the key of each text, and the text as it is printed: of the job, then of the files it names."""
+    yield from _stated(job)
+    yield from (("files", source.file.name) for source in certificate.sources)
+    sets = {id(each.measurements): each.measurements for each in certificate.evaluations}
+    for measurements in sets.values():
+        for remark in measurements.provenance.remarks:
+            said = remark.values.get(_SAID)  # what an operator said
+            if isinstance(said, str):
+                yield "readings", said
+
+
+def _stated(job: Job, within: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the texts of a job, then those of the measurements and lines of which it is made."""
+    for key, text in _free(job.keys):
+        yield f"{within}{key}", _printed(text, job, key)
+    choices: list[tuple[Choice | ExtensionChoice, str]] = [
+        (job.source, "measurement.source"),
+        *((each, f"evaluate.{number}") for number, each in enumerate(job.standards)),
+        *((each, each.identifier) for each in job.extensions),
+    ]
+    for choice, key in choices:
+        if isinstance(choice.options, BaseModel):
+            yield from _free(choice.options, f"{within}{key}.")
+    for name, part in (*job.measurements.items(), *job.tests.items()):
+        yield from _stated(part, f"{within}{name}.")
+
+
+def _free(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
+    """Yield the texts of keys that say something to a reader."""
+    for key, text in free_texts(keys, within):
+        name = [step for step in key.split(".") if not step.isdecimal()][-1]
+        if not key.endswith(_NUMBER_OF_DOCUMENT) and name not in _NAMES_OF_THINGS:
+            yield key, text
+
+
+def _printed(text: str, job: Job, key: str) -> str:
+    """Return a text with what its keys in braces stand for, where it may have any."""
+    if not key.startswith(("certificate.sections.", "certificate.style.", "certificate.title")):
+        return text
+    try:
+        return filled(text, job, key)
+    except InputError:
+        return text

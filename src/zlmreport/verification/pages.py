@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import SequenceMatcher
@@ -19,18 +20,24 @@ from zlmreport.verification.marks import TOLERANCE, ForeignError, Mark, marks
 _MOST_WORDS = 5000
 _MOST_DIFFERENCES = 4
 _LONGEST_PASSAGE = 60
+#: Programs that save a file again and draw nothing anew; whatever else stands there is read as a statement.
+_SAVED_BY = re.compile(r"(pypdf|pikepdf|qpdf)( \d{1,3}(\.\d{1,3}){0,3})?", re.ASCII)
 
 _COLOURS = "/ColorSpace"
 #: What of a page is compared mark by mark, and link by link.
 _DRAWN = frozenset({"/Annots", "/Contents", "/Resources"})
 _RESOURCES = {"/Font": "fonts", "/XObject": "pictures", "/ColorSpace": "colours"}
+#: What a certificate consists of beside its pages and attachments, by the keys of the catalog and of its
+#: lists of names. A part that is not among them is none of a certificate, whoever prints it.
 _PARTS = {
     "/Dests": "targets of links",
     "/Lang": "language",
+    "/MarkInfo": "marks of the structure",
     "/Metadata": "metadata (XMP)",
     "/Outlines": "bookmarks",
     "/OutputIntents": "colours",
     "/StructTreeRoot": "structure with alternative texts",
+    "/ViewerPreferences": "what a viewer shows in its title",
 }
 #: Compared page by page and file by file, or added by a signature.
 _NOT_COMPARED = shape.OF_SIGNATURES | {"/AF", "/EmbeddedFiles", "/Names", "/Pages", "/Type"}
@@ -46,6 +53,8 @@ class Compared:
     #: Whether some page is the same, stroke for stroke. If none is, other libraries printed the document, or
     #: every page is altered: then each mark of each page is compared.
     is_drawn_alike: bool
+    #: Whether every page is.
+    is_same: bool = True
 
 
 def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> Compared:
@@ -73,7 +82,7 @@ class _Comparison:
         pages = tuple(self._of_pages())
         if all(each.verdict is Verdict.HOLDS for each in (*pages, *document)):
             pages = self._seen(pages)
-        return Compared(pages, document, self._is_drawn_alike)
+        return Compared(pages, document, self._is_drawn_alike, self._pages == self._pages_again)
 
     def _seen(self, pages: tuple[Finding, ...]) -> tuple[Finding, ...]:
         """Return what is found of pages that are the same on paper, looked at as a viewer shows them."""
@@ -153,7 +162,9 @@ class _Comparison:
         """Yield what else a document holds, part by part."""
         stated, again = self._prints.parts, self._prints_again.parts
         for key in sorted({*stated, *again}):
-            if key not in again:
+            if key not in _PARTS:
+                difference = "is no part of a certificate"
+            elif key not in again:
                 difference = "is added"
             elif key not in stated:
                 difference = "is missing"
@@ -281,8 +292,10 @@ def _passage(found: list[str]) -> str:
 
 
 def _metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[Finding]:
-    """Yield the entries of the information dictionary; the library that wrote the file is no part of it."""
-    for key in sorted({*stated, *again} - {"/Producer"}):
+    """Yield the entries of the information dictionary; a program that saved it again may name itself."""
+    for key in sorted({*stated, *again}):
         found, expected = stated.get(key), again.get(key)
+        if key == "/Producer" and found is not None and _SAVED_BY.fullmatch(found):
+            continue
         difference = "" if found == expected else f"{found!r} stands where {expected!r} is printed again"
         yield Finding.of(f"metadata: {key.removeprefix('/')}", difference)

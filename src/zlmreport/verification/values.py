@@ -15,6 +15,9 @@ _TOLERANCE_OF_FITS = 1e-6
 _FITTED = "model"
 #: What every release computes alike of a parameter.
 _KEPT = frozenset({"value", "limit"})
+#: What holds results of the same form by names: of measured lines, of the measurements of one document.
+_NAMED = frozenset({"tests", "parts"})
+_OF_NAME = 2
 #: What names an item of a list, first found.
 _NAMES = ("standard", "symbol", "name", "target", "effect", "path", "requirement")
 
@@ -32,9 +35,10 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value
 
 
 def _of_another_release(value: Value) -> Value:
-    is_kept = value.path[0] == "measurements" or (
-        value.path[2:3] == ("parameters",) and value.path[-1] in _KEPT
-    )
+    path = value.path
+    while path[0] in _NAMED and len(path) > _OF_NAME:
+        path = path[_OF_NAME:]
+    is_kept = path[0] == "measurements" or (path[2:3] == ("parameters",) and path[-1] in _KEPT)
     if value.verdict is Verdict.HOLDS or (value.is_number and is_kept and value.stated is not None):
         return value
     return Value(value.path, value.stated, value.recomputed, Verdict.OPEN)
@@ -74,6 +78,8 @@ def _by_name(items: list[Any]) -> dict[str, Any]:
 
 def _name(item: Any, number: int) -> str:
     keys = item if isinstance(item, dict) else {}
+    if {"measurement", "standard"} <= keys.keys():  # of one document of several measurements
+        return f"{keys['measurement']} {keys['standard']}"
     return next((f"{keys[key]}" for key in _NAMES if key in keys), str(number))
 
 

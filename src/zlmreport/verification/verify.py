@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import json
 import re
 from collections import Counter
@@ -11,20 +12,30 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport import pipeline
-from zlmreport.certificate.build import GENERATOR
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.build import GENERATOR
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.signing.state import Integrity, Signature, SignatureState, signature_state
 from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.files import demanded
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Words, same
 from zlmreport.plugin.protocols import Renderer, made, relationship_of
-from zlmreport.plugins import Registry
-from zlmreport.signing.state import Integrity, Signature, SignatureState, signature_state
-from zlmreport.verification import attached, pages, values
-from zlmreport.verification.attached import Results, Stated, digital_findings, laid_out, stated_by
-from zlmreport.verification.carrier import Carrier, guarded, opened, read_file
-from zlmreport.verification.findings import Finding, Identity, Verdict, Verification
-from zlmreport.verification.own_texts import stated_results
+from zlmreport.plugin.registry import Registry
+from zlmreport.verification import attached, pages, readers, structure, table, values
+from zlmreport.verification.alone import format_of, verify_alone
+from zlmreport.verification.attached import (
+    MACHINE_RESULTS,
+    Results,
+    Stated,
+    digital_findings,
+    laid_out,
+    stated_by,
+)
+from zlmreport.verification.carrier import LARGEST, Carrier, guarded, opened, read_file, results_in
+from zlmreport.verification.dates import future_dates
+from zlmreport.verification.findings import Finding, Identity, OwnText, Verdict, Verification
+from zlmreport.verification.own_texts import own_texts, own_texts_of
 
 #: The format of a certificate whose creator is this program.
 PRINTED = "pdf"
@@ -62,6 +73,12 @@ _OTHER_LIBRARIES = Words(
     de="keine Seite ist hier so gezeichnet wie dort: andere Bibliotheken haben sie gedruckt, oder jede Seite "
     "ist verändert; jedes Zeichen jeder Seite ist nach Form, Farbe und Ort verglichen",
 )
+_NOT_ASKED = Words(
+    en="the file is not byte for byte what is made again (signed, or saved by another program), and {names} "
+    "could not be asked what it shows: not installed here",
+    de="die Datei ist nicht Byte für Byte die erneut hergestellte (signiert oder von einem anderen Programm "
+    "gespeichert), und {names} konnte nicht gefragt werden, was sie zeigt: hier nicht installiert",
+)
 
 _SIGNATURE = "signature"
 
@@ -71,7 +88,8 @@ class _Again:
     """A certificate that was made again from its attachments.
 
     `programs` made it here, in whosever name; `results` is its results file. It may be that another renderer
-    than the one that made it had to print it. `own_words` are what the laboratory states in words of its own.
+    than the one that made it had to print it. `own_words` are those of whoever wrote its job, and
+    `future_dates` what it says of days that have not come; `digest` is that of its readings and results.
     """
 
     programs: pipeline.Programs
@@ -79,7 +97,9 @@ class _Again:
     results: bytes
     is_by_its_own_renderer: bool
     has_own_look: bool
-    own_words: tuple[Finding, ...]
+    own_words: tuple[OwnText, ...] = ()
+    future_dates: tuple[Finding, ...] = ()
+    digest: str = ""
 
 
 def verify(
@@ -90,17 +110,28 @@ def verify(
     trusted: Sequence[Any] = (),
     require_signature: bool = False,
 ) -> Verification:
-    """Verify a certificate.
+    """Verify a certificate, or a file of one.
 
-    `path`: A PDF that this program made, signed or not.
+    `path`: A PDF that this program made, signed or not; or what it made beside one (`alone`).
     `dcc_schema`: A folder with PTB's schema, to check an attached digital certificate by it and by PTB's
         rules.
-    `trusted`: Certificates of signers or of authorities, as `zlmreport.signing.state` reads them.
+    `trusted`: Certificates of signers or of authorities, as `zlmreport.document.signing.state` reads them.
 
     Raises `AccessError` if it cannot be read, or printed again; `InputError` if it is no such PDF; or if it
     is, and what it carries cannot be evaluated here although none of its sources was changed: because a
     plugin is not installed, for example.
     """
+    content = demanded(path, LARGEST)
+    if made_by := format_of(content):
+        return verify_alone(
+            path,
+            content,
+            made_by,
+            registry,
+            lambda pdf: verify(
+                pdf, registry, dcc_schema, trusted=trusted, require_signature=require_signature
+            ),
+        )
     carrier = opened(read_file(path), Place(str(path)))
     state = signature_state(carrier.content, trusted)
     found = Verification(
@@ -126,7 +157,9 @@ def verify(
     sources = provenance.sources
     with laid_out(sources, carrier.carried) as layout:
         try:
-            again = _again(layout.job, carrier, stated.results, registry)
+            is_machine = stated.tree.get("schema") == MACHINE_RESULTS
+            make_again = _machine_again if is_machine else _again
+            again = make_again(layout.job, carrier, stated.results, registry)
         except Exception as error:  # what anyone sent may break anything that it is handed to
             ended = error if isinstance(error, ZlmreportError) else _unforeseen(carrier.place, error)
             problems = layout.problems(ended)
@@ -159,7 +192,9 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
     named = stated.provenance.generator, stated.provenance.plugins
     certificate = pipeline.compose(job, registry, named if _are_releases_of(named, here) else here)
     others = [
-        each for each in registry.renderers if each is not results and _is_carried(each, certificate, carrier)
+        each
+        for each in registry.renderers
+        if each is not results and _is_carried(each, certificate, carrier) and _is_made(each, certificate)
     ]
     contents = pipeline.render(certificate, [results, *others, printer], registry)
     return _Again(
@@ -168,7 +203,30 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
         contents[pipeline.RESULTS],
         made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
         has_own_look,
-        stated_results(certificate, job),
+        own_texts(certificate, job),
+        future_dates(job, dt.date.today()),  # noqa: DTZ011 - a day here, as a certificate states one
+        certificate.digest,
+    )
+
+
+def _machine_again(path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
+    """Read the attached machine file with all that it names, and print its document again."""
+    from zlmreport.machines.document import machine_document  # noqa: PLC0415 - only for such a document
+    from zlmreport.machines.reading import read_machine  # noqa: PLC0415
+
+    printer, here = _printer(carrier, registry), (GENERATOR, dict[str, str]())
+    named = stated.provenance.generator, stated.provenance.plugins
+    generator = named[0] if _are_releases_of(named, here) else GENERATOR
+    machine = read_machine(path, registry, results_in)
+    document = machine_document(machine, registry, generator)
+    printed = printer.render(document.certificate)
+    return _Again(
+        here,
+        pages.Prints(opened(printed, Place(f"{carrier.place} (printed again)"))),
+        document.results,
+        made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
+        has_own_look=False,
+        own_words=own_texts_of(machine.file.keys),
     )
 
 
@@ -202,24 +260,44 @@ def _printer(carrier: Carrier, registry: Registry) -> Renderer:
 
 
 def _is_carried(renderer: Renderer, certificate: Certificate, carrier: Carrier) -> bool:
-    name = pipeline.file_name(certificate, renderer)
+    (name,) = pipeline.file_names(certificate.number, [renderer])
     return relationship_of(renderer) is not None and name in carrier.carried
+
+
+def _is_made(renderer: Renderer, certificate: Certificate) -> bool:
+    """Whether a file can be made of this certificate at all; one that cannot be is none of it."""
+    try:
+        renderer.render(certificate)
+    except ZlmreportError:
+        return False
+    return True
 
 
 def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Again) -> Verification:
     """Return all that is found of a certificate that could be made again."""
     provenance = stated.results.provenance
     by_same_programs = again.programs == (provenance.generator, provenance.plugins)
-    printed = pages.compare(carrier, again.prints, is_signed=found.is_signed)
+    printed = _printed(carrier, again.prints, is_signed=found.is_signed)
+    compared = guarded(
+        lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
+        carrier.place,
+    )
+    differs = any(each.verdict is not Verdict.HOLDS for each in compared)
     found = replace(
         found,
-        files=attached.compare(provenance.sources, carrier.carried, again.prints.carrier.carried),
-        values=guarded(
-            lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
-            carrier.place,
+        identity=replace(found.identity, digest=again.digest),
+        files=attached.compare(
+            provenance.sources,
+            carrier.carried,
+            again.prints.carrier.carried,
+            same_programs=by_same_programs,
+            compared_by_value=stated.name if differs else "",
+            same_processor=carrier.carried[stated.name].content == again.results,
         ),
+        values=compared,
         pages=printed.pages,
-        document=(*printed.document, *again.own_words),
+        document=(*printed.document, *_claims(again.own_words), *again.future_dates),
+        own_words=again.own_words,
     )
     if not by_same_programs:
         left_open = _left_open(found)
@@ -236,7 +314,43 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
         detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
         found = replace(_left_open(found), remarks=(_OWN_LOOK,))
         return replace(found, document=(*found.document, Finding.of("printed numbers", detail)))
-    return found if printed.is_drawn_alike else replace(found, remarks=(_OTHER_LIBRARIES,))
+    remarks = () if printed.is_drawn_alike else (_OTHER_LIBRARIES,)
+    not_asked = readers.absent()
+    if not_asked and any(each.subject == readers.SUBJECT for each in found.document):
+        remarks = (*remarks, _NOT_ASKED.given(names=", ".join(not_asked)))
+    return replace(found, remarks=remarks)
+
+
+def _claims(own_words: Sequence[OwnText]) -> tuple[Finding, ...]:
+    """Return what words that somebody wrote claim, as not decided: nothing computes it."""
+    return tuple(Finding(each.key, Verdict.OPEN, each.claim) for each in own_words if each.claim)
+
+
+def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages.Compared:
+    """Compare a document with the same one printed again: its bytes first.
+
+    Nothing is interpreted where they are the same. What is not byte for byte the same is read strictly, and
+    must be the same to every reader.
+    """
+    expected = again.carrier
+    if carrier.content == expected.content:
+        held = tuple(
+            Finding(f"page {number}", Verdict.HOLDS) for number in range(1, len(expected.reader.pages) + 1)
+        )
+        return pages.Compared(held, (Finding("the file, byte for byte", Verdict.HOLDS),), is_drawn_alike=True)
+    objects = table.finding(carrier.content, is_signed=is_signed)
+    printed = pages.compare(carrier, again, is_signed=is_signed)
+    document = (
+        objects,
+        guarded(lambda: structure.compare(carrier.reader), carrier.place),
+        *printed.document,
+    )
+    if all(each.verdict is Verdict.HOLDS for each in (*printed.pages, *document)):
+        seen = guarded(
+            lambda: readers.compare(carrier, expected.content, is_drawn_alike=printed.is_same), carrier.place
+        )
+        document = (*document, seen)
+    return replace(printed, document=document)
 
 
 def _taken(stated: Carrier, again: Carrier) -> Counter[str]:

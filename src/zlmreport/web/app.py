@@ -17,18 +17,18 @@ from starlette.requests import Request as HttpRequest
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
+from zlmreport.document.typesetting.resources import page_file
+from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.language import Language, Words
-from zlmreport.plugins import Registry
-from zlmreport.typesetting.resources import page_file
-from zlmreport.typesetting.templates import WorkbenchContext, render
+from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.commands import Commands, Wanted
-from zlmreport.web.comparison import Comparison
-from zlmreport.web.diagnoses import Answers, Diagnoses
+from zlmreport.web.comparison import ComparedTests
+from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.effect_page import effect_page
-from zlmreport.web.guard import HOST, Door, Guard
+from zlmreport.web.guard import HOST, Door, DoorKeeper
 from zlmreport.web.making import page_picture
 from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, closer, results, view
@@ -46,7 +46,7 @@ class Workbench:
     """The answers for one job."""
 
     bench: Bench  #: The job.
-    comparison: Comparison  #: Other tests of its axis beside it.
+    comparison: ComparedTests  #: Other tests of its axis beside it.
     #: diagnoses and commands: Made beside, each in a process of its own.
     diagnoses: Diagnoses
     commands: Commands
@@ -61,8 +61,8 @@ class Workbench:
         job, *others = jobs
         bench = Bench(job, registry)
         bench.loaded()
-        comparison = Comparison.of(bench, [Bench(each, registry) for each in others])
-        diagnoses = Diagnoses(job, Answers.of_user(registry.effects), plugins)
+        comparison = ComparedTests.of(bench, [Bench(each, registry) for each in others])
+        diagnoses = Diagnoses(job, DiagnosesByContent.of_user(registry.effects), plugins)
         return cls(bench, comparison, diagnoses, Commands.of(bench, plugins))
 
     def end(self) -> None:
@@ -70,7 +70,7 @@ class Workbench:
         self.diagnoses.end()
         self.commands.end()
 
-    def app(self, door: Door) -> Guard:
+    def app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
         routes = [
             Route("/", self.page),
@@ -92,7 +92,7 @@ class Workbench:
             Route("/api/made/{name}", self.made),
             Route("/api/made/{name}", self.make, methods=["POST"]),
         ]
-        return Guard(Starlette(routes=routes), door)
+        return DoorKeeper(Starlette(routes=routes), door)
 
     async def page(self, request: HttpRequest) -> Response:
         """Answer with the page of the job, or of an effect; it fills itself."""

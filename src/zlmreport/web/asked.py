@@ -1,61 +1,20 @@
-"""What the page asks for: lengths that let more effects be tried, and what a certificate would lack."""
+"""What the page asks for: what a certificate would lack."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, Literal
 
 from zlmreport import pipeline
-from zlmreport.certificate.clauses import MANDATORY_ITEMS
+from zlmreport.document.certificate.clauses import MANDATORY_ITEMS
+from zlmreport.evaluation.uncertainty.job_budget import INSTRUMENT
+from zlmreport.evaluation.uncertainty.wording import DEVICE, contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effect import Effect
-from zlmreport.plugins import Registry
-from zlmreport.uncertainty.job_budget import INSTRUMENT
-from zlmreport.uncertainty.wording import DEVICE, contributor
+from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
-
-#: The lengths by their keys: what they are called, and a usual part of the travel, with which is tried
-#: whether an effect needs nothing else.
-_LENGTHS = MappingProxyType(
-    {
-        "screw_pitch": (Words(en="Screw pitch", de="Spindelsteigung"), 1 / 20),
-        "signal_period": (Words(en="Signal period of the scale", de="Signalperiode des Maßstabs"), 1 / 2000),
-        "scale_element": (Words(en="Length of a scale's element", de="Länge eines Maßstabelements"), 1 / 5),
-    }
-)
-_OF_ROTARY = MappingProxyType({"screw_pitch": Words(en="Pitch of the gear", de="Teilung des Getriebes")})
-
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """A length that the job does not state."""
-
-    key: str  #: Its key in the job's `axis`.
-    name: Words  #: What people call it.
-    unit: str  #: Symbol of its unit in the job: mm or degrees.
-    effects: tuple[str, ...]  #: Identifiers of the effects that can be tried once it is stated.
-
-
-def asked(loaded: Loaded, effects: Sequence[Effect]) -> tuple[Asked, ...]:
-    """Return the lengths that would let more effects be tried, the most effects first."""
-    design, axis = loaded.study.observed.design, loaded.job.axis
-    present = set(loaded.study.model.identifiers)
-    waiting = [each for each in effects if each.identifier not in present and each.untestable(design)]
-    found = []
-    for key, (name, share) in _LENGTHS.items():
-        if getattr(axis, key) is not None:
-            continue
-        with_it = replace(design, axis=design.axis.with_length(key, share * design.length))
-        tried = tuple(each.identifier for each in waiting if each.untestable(with_it) is None)
-        if tried:
-            called = _OF_ROTARY.get(key, name) if axis.kind is AxisKind.ROTARY else name
-            found.append(Asked(key, called, axis.position_unit.symbol, tried))
-    return tuple(sorted(found, key=lambda each: -len(each.effects)))
-
 
 _FULL_RANGE = Words(en="{name}: full range", de="{name}: volle Spanne")
 _INSTRUMENT_U = "instrument.expanded_uncertainty"

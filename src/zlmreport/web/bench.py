@@ -11,18 +11,18 @@ from pathlib import Path
 from threading import RLock
 
 from zlmreport import pipeline
-from zlmreport.certificate.results import Evaluated
-from zlmreport.correction.corrections import without_excluded
+from zlmreport.document.certificate.results import Evaluated
 from zlmreport.errors import Place, ZlmreportError
+from zlmreport.evaluation.correction.corrections import without_excluded
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.model.axis_model import AxisModel, chosen_terms
-from zlmreport.model.sessions import with_zeros
-from zlmreport.model.study import Fitted, Study, addition
-from zlmreport.plugins import Registry
+from zlmreport.model.diagnosis.study import Fitted, Study, addition
+from zlmreport.model.effects.axis_model import AxisModel, chosen_terms
+from zlmreport.model.fitting.sessions import with_zeros
+from zlmreport.plugin.registry import Registry
 
 #: Where mistakes stand that are made on the page.
 PLACE = Place("workbench")

@@ -22,10 +22,11 @@ from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.study import Fitted, addition, refuse_useless
-from zlmreport.web.asked import asked, lacking
+from zlmreport.model.diagnosis.asking import lengths_asked
+from zlmreport.model.diagnosis.study import Fitted, addition, refuse_useless
+from zlmreport.web.asked import lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
-from zlmreport.web.journal import REDO, UNDO, Entry, Journal, entry, redoable, undoable
+from zlmreport.web.journal import REDO, UNDO, Journal, JournalStep, entry, redoable, undoable
 
 _KEY = "model.effects"
 _TABLE = "axis.compensation_table"
@@ -112,7 +113,7 @@ def change(bench: Bench, request: Request) -> None:
 def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     registry = bench.registry
     named, removed = addition(request.effect, loaded.job, registry, registry.effects, PLACE)
-    edit = edit_effects(bench.path, loaded.job, registry, add=named, remove=removed)
+    edit = edit_effects(bench.path, loaded.job, registry, add=[named], remove=removed)
     added = named.choice.identifier
     refuse_useless(added, bench.whole(loaded), _tried(bench, loaded, edit), loaded.job)
     return _Step(edit, request.effect)
@@ -198,7 +199,12 @@ def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
 
 def _asked_for(bench: Bench, loaded: Loaded) -> dict[str, str]:
     """Return the keys that the page asks for, each with the symbol of its unit."""
-    units = {f"axis.{each.key}": each.unit for each in asked(loaded, bench.registry.effects)}
+    units = {
+        f"axis.{each.key}": each.unit
+        for each in lengths_asked(
+            loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
+        )
+    }
     if loaded.job.keys.axis.compensation_table is None:
         units[_TABLE] = ""
     for field in lacking(loaded, bench.registry):
@@ -219,7 +225,7 @@ def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
     return _put_back(bench, loaded, redoable(Journal.beside(bench.path).entries(), loaded.digest))
 
 
-def _put_back(bench: Bench, loaded: Loaded, last: Entry | None) -> _Step:
+def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:
     """Return the change that puts back what a line of the record replaced."""
     if last is None:
         raise NothingToUndoError

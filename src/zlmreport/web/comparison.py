@@ -11,19 +11,19 @@ from typing import Any
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.certificate.linked import drawn_values
-from zlmreport.certificate.results import Evaluated
+from zlmreport.document.certificate.results import Evaluated
+from zlmreport.document.subjects.fit import parameter_rows
+from zlmreport.document.subjects.linked import drawn_values
+from zlmreport.document.writer import NOTHING, Writer, written
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.contradictions import last_day
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.study import Fitted
-from zlmreport.presenting.model import parameter_rows
-from zlmreport.presenting.writer import NOTHING, Writer, written
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.panels import symbol
 
@@ -47,11 +47,11 @@ class _Test:
     @property
     def means(self) -> FloatArray:
         """Mean deviations, shape (direction, target)."""
-        return position_statistics(self.measurements.deviations()).mean
+        return position_statistics(self.measurements.deviations(), self.measurements.target_positions).mean
 
 
 @dataclass(slots=True)
-class Comparison:
+class ComparedTests:
     """The tests that are laid over that of the job on the bench."""
 
     bench: Bench  #: The job that is worked on.
@@ -59,7 +59,7 @@ class Comparison:
     _as_found: dict[str, tuple[MeasurementSet, tuple[Evaluated, ...]]] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, bench: Bench, others: Sequence[Bench]) -> Comparison:
+    def of(cls, bench: Bench, others: Sequence[Bench]) -> ComparedTests:
         """Return the comparison; raise what is wrong with the other jobs, all at once."""
         problems: list[Problem] = []
         for each in others:

@@ -25,10 +25,10 @@ from zlmreport import version
 from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.files import Document, cache_folder, write
 from zlmreport.language import Language
-from zlmreport.model.comparison import Told, untold
-from zlmreport.model.effect import Effect
-from zlmreport.planning.deciding import experiment_of_tie, experiment_values
-from zlmreport.plugins import Registry, find_plugins
+from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.planning.deciding import experiment_of_tie, experiment_values
+from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.web.bench import Bench
 from zlmreport.web.view import diagnosed
 
@@ -37,7 +37,7 @@ _KEPT = 200
 
 
 @dataclass(frozen=True, slots=True)
-class Answers:
+class DiagnosesByContent:
     """Diagnoses by the content of the files that they were made from."""
 
     folder: Path | None  #: Where they lie; None for memory alone.
@@ -45,7 +45,7 @@ class Answers:
     _known: dict[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def of_user(cls, effects: Iterable[Effect]) -> Answers:
+    def of_user(cls, effects: Iterable[Effect]) -> DiagnosesByContent:
         """Return those of a user, of this program with these effects."""
         folder = cache_folder()
         return cls(folder / "diagnoses" if folder else None, _program(effects))
@@ -93,7 +93,7 @@ class Diagnoses:
     """The diagnosis of a job, made beside the pages."""
 
     path: Path  #: The job file.
-    answers: Answers  #: Diagnoses that were made before.
+    answers: DiagnosesByContent  #: Diagnoses that were made before.
     plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
     _worker: subprocess.Popen[str] | None = None
     _asked: str = ""

@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 
+from zlmreport.document.subjects.fit import parameter_rows
 from zlmreport.job.types import keys_in
 from zlmreport.language import Language, Words
+from zlmreport.language.formatting import general_number
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.curve import effect_positions
-from zlmreport.model.design import Design, at_positions
-from zlmreport.model.effect import Effect, Parameter, Shape, unit_of
-from zlmreport.plugins import Registry
-from zlmreport.presenting.model import parameter_rows
-from zlmreport.quantities.arrays import FloatArray
-from zlmreport.quantities.formatting import general_number
+from zlmreport.model.effects.design import Design, at_positions
+from zlmreport.model.effects.effect import Effect, Parameter, Shape, unit_of
+from zlmreport.model.fitting.curve import effect_positions
+from zlmreport.plugin.registry import Registry
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.panels import parameter_values, symbol

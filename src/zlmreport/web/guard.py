@@ -83,7 +83,7 @@ class Door:
         return secrets.compare_digest(offered.encode(), self.token.encode())
 
 
-class Guard:
+class DoorKeeper:
     """Stands before the application, and lets through what `Door` says.
 
     `door`: Where it listens, and what opens it.

@@ -24,7 +24,7 @@ REDO = "redo"
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class JournalStep:
     """One change of the job."""
 
     at: str  #: When, ISO 8601 with the offset of the local time.
@@ -59,7 +59,7 @@ class Journal:
         """Return the record of a job: ``job.yaml`` has ``job.history.jsonl``."""
         return cls(job.with_suffix(SUFFIX))
 
-    def entries(self) -> tuple[Entry, ...]:
+    def entries(self) -> tuple[JournalStep, ...]:
         """Return all changes, the oldest first; lines that are none are passed over."""
         try:
             lines = self.path.read_text("utf-8").splitlines()
@@ -71,7 +71,7 @@ class Journal:
             raise unreadable(self.path, error) from error
         return tuple(found for line in lines if (found := _entry(line)))
 
-    def append(self, entry: Entry) -> None:
+    def append(self, entry: JournalStep) -> None:
         """Write a change behind the others."""
         line = json.dumps({"schema": SCHEMA, **asdict(entry)}, ensure_ascii=False)
         try:
@@ -81,10 +81,12 @@ class Journal:
             raise unwritable(self.path, error) from error
 
 
-def entry(action: str, subject: str, contents: tuple[bytes, bytes], errors: tuple[float, float]) -> Entry:
+def entry(
+    action: str, subject: str, contents: tuple[bytes, bytes], errors: tuple[float, float]
+) -> JournalStep:
     """Return the record of a change made now: contents of the job and its errors, before and after."""
     before, after = contents
-    return Entry(
+    return JournalStep(
         at=dt.datetime.now().astimezone().isoformat(timespec="seconds"),
         action=action,
         subject=subject,
@@ -96,22 +98,22 @@ def entry(action: str, subject: str, contents: tuple[bytes, bytes], errors: tupl
     )
 
 
-def undoable(entries: Sequence[Entry], digest: str) -> Entry | None:
+def undoable(entries: Sequence[JournalStep], digest: str) -> JournalStep | None:
     """Return the change that an undo would take back; None if the job is not as that change left it."""
     standing, _ = _stacks(entries)
     return standing[-1] if standing and standing[-1].after == digest else None
 
 
-def redoable(entries: Sequence[Entry], digest: str) -> Entry | None:
+def redoable(entries: Sequence[JournalStep], digest: str) -> JournalStep | None:
     """Return the undo that a redo would take back; None if the job is not as that undo left it."""
     _, taken_back = _stacks(entries)
     return taken_back[-1] if taken_back and taken_back[-1].after == digest else None
 
 
-def _stacks(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
+def _stacks(entries: Sequence[JournalStep]) -> tuple[list[JournalStep], list[JournalStep]]:
     """Return the changes that stand, and the undos since the last change: the last of each can be undone."""
-    standing: list[Entry] = []
-    taken_back: list[Entry] = []
+    standing: list[JournalStep] = []
+    taken_back: list[JournalStep] = []
     for each in entries:
         if each.action == UNDO and standing:
             standing.pop()
@@ -125,11 +127,11 @@ def _stacks(entries: Sequence[Entry]) -> tuple[list[Entry], list[Entry]]:
     return standing, taken_back
 
 
-def _entry(line: str) -> Entry | None:
+def _entry(line: str) -> JournalStep | None:
     try:
         values = json.loads(line)
         if values.pop("schema") != SCHEMA:
             return None
-        return Entry(**values)
+        return JournalStep(**values)
     except (ValueError, TypeError, KeyError, AttributeError):
         return None

@@ -31,7 +31,7 @@ _ENDED = "zlmreport ended unexpectedly"
 
 
 @dataclass(frozen=True, slots=True)
-class Made:
+class CommandResult:
     """What a command came to."""
 
     files: tuple[Path, ...] = ()  #: What it wrote.
@@ -46,7 +46,7 @@ class Made:
         return sheet | {each.name: each for each in self.files if each.suffix == _PDF}
 
 
-def documents(output: str, complaints: str) -> Made:
+def documents(output: str, complaints: str) -> CommandResult:
     """Return what ``zlmreport JOB.yaml [SHEET.yaml] --json`` came to, by what it printed.
 
     A sheet that does not hold the certificate is none.
@@ -54,19 +54,19 @@ def documents(output: str, complaints: str) -> Made:
     try:
         job, *sheets = json.loads(output)["jobs"]
     except (ValueError, KeyError, TypeError):
-        return Made(problems=_lines(complaints))
+        return CommandResult(problems=_lines(complaints))
     problems = (f"{each['file']}:{each['line']}: {each['message']}" for each in job["problems"])
     sheet = next((Path(name) for each in sheets for name in each["files"] if name.endswith(_PDF)), None)
-    return Made(tuple(map(Path, job["files"])), tuple(problems), sheet=sheet)
+    return CommandResult(tuple(map(Path, job["files"])), tuple(problems), sheet=sheet)
 
 
-def values(output: str, complaints: str) -> Made:
+def values(output: str, complaints: str) -> CommandResult:
     """Return what another command came to, by the values that it printed; what it wrote is among them."""
     try:
         found = json.loads(output)
     except ValueError:
-        return Made(problems=_lines(complaints))
-    return Made(tuple(map(Path, found.get("files", ()))), (), found)
+        return CommandResult(problems=_lines(complaints))
+    return CommandResult(tuple(map(Path, found.get("files", ()))), (), found)
 
 
 def _lines(complaints: str) -> tuple[str, ...]:
@@ -77,12 +77,14 @@ def _lines(complaints: str) -> tuple[str, ...]:
 class Making:
     """One command of a job, run from its page."""
 
-    read: Callable[[str, str], Made]  #: Returns what the command came to, by its output and its complaints.
+    read: Callable[
+        [str, str], CommandResult
+    ]  #: Returns what the command came to, by its output and its complaints.
     plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
     _process: subprocess.Popen[str] | None = None
     _stamp: str = ""
     _began: float = 0.0
-    _made: Made | None = None
+    _made: CommandResult | None = None
     _lock: Lock = field(default_factory=Lock)
 
     def begin(self, stamp: str, *arguments: str) -> None:
@@ -125,7 +127,7 @@ class Making:
     def file(self, name: str) -> Path | None:
         """Return where a file lies that the command wrote; None for any other name."""
         with self._lock:
-            made = self._made or Made()
+            made = self._made or CommandResult()
             return (made.pages() | {each.name: each for each in made.files}).get(name)
 
     def end(self) -> None:

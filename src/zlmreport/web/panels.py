@@ -9,23 +9,24 @@ from typing import Any
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.certificate.conformity import STATEMENTS
-from zlmreport.certificate.results import Evaluated
-from zlmreport.compensation.basis import FittedModel, compensated
+from zlmreport.document.blocks import Facts
+from zlmreport.document.certificate.conformity import STATEMENTS
+from zlmreport.document.certificate.results import Evaluated
+from zlmreport.document.subjects.fit import (
+    ParameterRow,
+    deviation,
+    error_facts,
+    parameter_rows,
+)
+from zlmreport.document.writer import NOTHING, Writer, written
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
-from zlmreport.model.design import Design
-from zlmreport.model.study import Fitted, corrected
-from zlmreport.plugins import Registry
-from zlmreport.presenting.model import (
-    ErrorRows,
-    ParameterRow,
-    deviation,
-    parameter_rows,
-)
-from zlmreport.presenting.writer import NOTHING, Writer, written
-from zlmreport.quantities.formatting import spans
+from zlmreport.language.formatting import spans
+from zlmreport.model.compensation.basis import FittedModel, compensated
+from zlmreport.model.diagnosis.study import Fitted, corrected
+from zlmreport.model.effects.design import Design
+from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
 
 
@@ -54,7 +55,7 @@ class Panels:
 
     def error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
-        return error_values(ErrorRows.of(self.whole.error, self.design.axis, self.language))
+        return error_values(error_facts(self.whole.error, self.design.axis, self.language))
 
     def effects(self) -> list[dict[str, Any]]:
         """Return the effects of the model with their parameters."""
@@ -169,9 +170,9 @@ class Panels:
         }
 
 
-def error_values(rows: ErrorRows) -> list[dict[str, str]]:
+def error_values(facts: Facts) -> list[dict[str, str]]:
     """Return how far model and readings are apart: name and value."""
-    return [{"name": name, "value": value} for name, value in rows.named]
+    return [{"name": name, "value": value} for name, value in facts.pairs]
 
 
 def parameter_values(row: ParameterRow) -> dict[str, Any]:

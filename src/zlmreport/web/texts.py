@@ -5,17 +5,29 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from zlmreport.certificate.linked import GRAPH_TEXTS
+from zlmreport.document.subjects.compensation import CONFIRMED
+from zlmreport.document.subjects.diagnosis import CANDIDATES, VERDICT
+from zlmreport.document.subjects.fit import EFFECTS
+from zlmreport.document.subjects.forecast import FALL
+from zlmreport.document.subjects.linked import GRAPH_TEXTS
 from zlmreport.language import Language, Words
+from zlmreport.model.compensation.confirmation import ConfirmationVerdict
 
+_CONFIRMED = {
+    ConfirmationVerdict.HELD: "held",
+    ConfirmationVerdict.WRONG_SIGN: "wrongSign",
+    ConfirmationVerdict.HALF: "half",
+    ConfirmationVerdict.SHIFTED: "shifted",
+    ConfirmationVerdict.OTHER: "otherTable",
+}
 TEXTS: Mapping[str, Words] = MappingProxyType(
     {
         **GRAPH_TEXTS,
-        "verdict": Words(en="Verdict", de="Befund"),
-        "candidates": Words(en="What may be missing", de="Was fehlen kann"),
+        "verdict": VERDICT,
+        "candidates": CANDIDATES,
         "otherEffect": Words(en="Add another effect", de="Anderen Einfluss hinzufügen"),
-        "fall": Words(en="How the error falls", de="Wie die Abweichung sinkt"),
-        "model": Words(en="The model's effects", de="Die Einflüsse des Modells"),
+        "fall": FALL,
+        "model": EFFECTS,
         "noEffects": Words(
             en="The model has no effect yet. Begin with offset.",
             de="Das Modell hat noch keinen Einfluss. Beginnen Sie mit offset.",
@@ -63,28 +75,8 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "secondTest": Words(en="Second test", de="Zweite Prüfung"),
         "hold": Words(en="Hold it against the table", de="Gegen die Tabelle halten"),
         "holding": Words(en="The two tests are being compared …", de="Die Prüfungen werden verglichen …"),
-        "held": Words(
-            en="The second test holds the forecast: E is {share} % of what it was.",
-            de="Die zweite Prüfung hält die Vorhersage: E beträgt {share} % von vorher.",
-        ),
-        "wrongSign": Words(
-            en="The table acts with the wrong sign: turn it. E is {share} % of what it was.",
-            de="Die Tabelle wirkt mit falschem Vorzeichen: Kehren Sie es um. E beträgt {share} % von vorher.",
-        ),
-        "half": Words(
-            en="Half of the table acts; look for a factor of two. E is {share} % of what it was.",
-            de="Die Tabelle wirkt zur Hälfte; suchen Sie einen Faktor zwei. E beträgt {share} % von vorher.",
-        ),
-        "shifted": Words(
-            en="The table acts at other positions; look at its start. E is {share} % of what it was.",
-            de="Die Tabelle wirkt an anderen Positionen; prüfen Sie ihren Anfang. E beträgt {share} % von "
-            "vorher.",
-        ),
-        "otherTable": Words(
-            en="The second test does not show this table; is it active? E is {share} % of what it was.",
-            de="Die zweite Prüfung zeigt diese Tabelle nicht; ist sie wirksam? E beträgt {share} % von "
-            "vorher.",
-        ),
+        **{name: CONFIRMED[verdict] for verdict, name in _CONFIRMED.items()},
+        "left": Words(en="E is {share} % of what it was.", de="E beträgt {share} % von vorher."),
         "tests": Words(en="Tests of this axis", de="Prüfungen dieser Achse"),
         "thisTest": Words(en="this page", de="diese Seite"),
         "difference": Words(en="Difference to this test", de="Unterschied zu dieser Prüfung"),

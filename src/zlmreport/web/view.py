@@ -5,26 +5,26 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from zlmreport.certificate.linked import failure_values, graphs, model_curves
+from zlmreport.document.figures.model_diagram import ModelDiagram
+from zlmreport.document.subjects.diagnosis import CandidateRow, DiagnosisRows
+from zlmreport.document.subjects.fit import no_table_takes_away
+from zlmreport.document.subjects.linked import failure_values, graphs, model_curves
 from zlmreport.errors import InputError
-from zlmreport.figures.model_diagram import ModelDiagram
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
-from zlmreport.model.diagnosis import Diagnosis
-from zlmreport.model.effect import Effect
-from zlmreport.model.faults import Fault
-from zlmreport.model.study import Study
-from zlmreport.presenting.diagnosis import CandidateRow, DiagnosisRows
-from zlmreport.presenting.model import no_table_takes_away
-from zlmreport.web.asked import asked, field_values, lacking
+from zlmreport.model.diagnosis.asking import lengths_asked
+from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.faults import Fault
+from zlmreport.model.diagnosis.study import Study
+from zlmreport.model.effects.effect import Effect
+from zlmreport.web.asked import field_values, lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import offered
-from zlmreport.web.journal import REDO, UNDO, Entry, Journal, redoable, undoable
+from zlmreport.web.journal import REDO, UNDO, Journal, JournalStep, redoable, undoable
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
 _READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
 _ARROWS = {"+": "↑", "-": "↓"}
-_AXIS = Words(en="axis {axis}", de="Achse {axis}")
 _STEPS = {
     "add": Words(en="{subject} added", de="{subject} hinzugefügt"),
     "remove": Words(en="{subject} removed", de="{subject} entfernt"),
@@ -66,7 +66,9 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
                 "unit": each.unit,
                 "effects": list(each.effects),
             }
-            for each in asked(loaded, bench.registry.effects)
+            for each in lengths_asked(
+                loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
+            )
         ],
         **{
             name: None if entry is None else _done(entry).in_language(language)
@@ -121,7 +123,7 @@ def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str,
     return {"stamp": loaded.stamp, "model": model_curves(ModelDiagram(whole.fit, whole.error, (low, high)))}
 
 
-def step(entry: Entry, language: Language) -> dict[str, str]:
+def step(entry: JournalStep, language: Language) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
     words = _done(entry)
     if entry.action in {UNDO, REDO}:
@@ -129,7 +131,7 @@ def step(entry: Entry, language: Language) -> dict[str, str]:
     return {"at": entry.at[11:19], "text": words.in_language(language)}
 
 
-def _done(entry: Entry) -> Words:
+def _done(entry: JournalStep) -> Words:
     """Return what a step did; of one that took another back or brought it back, what that did."""
     action, subject = entry.action, entry.subject
     if action in {UNDO, REDO}:
@@ -145,7 +147,7 @@ def _done(entry: Entry) -> Words:
 
 def _subject(job: Job, language: Language) -> str:
     machine = job.keys.machine
-    parts = (_AXIS.given(axis=job.axis.name).in_language(language), machine.type, machine.serial)
+    parts = (job.axis.heading.in_language(language), machine.type, machine.serial)
     return ", ".join(part for part in parts if part)
 
 
@@ -159,7 +161,7 @@ def diagnosed(
         "statement": rows.statement,
         "failures": [failure_values(each, diagnosis, study) for each in rows.failures],
         "faults": [_fault(each, study, language) for each in diagnosis.faults],
-        "candidates": [_candidate(each, rows) for each in (*rows.candidates, *rows.implausible)],
+        "candidates": [_candidate(each, rows) for each in rows.candidates],
         "serious": sum(each.is_serious for each in rows.candidates),
         "hidden": [
             {"effects": list(each.effects), "reason": each.reason}
@@ -190,8 +192,8 @@ def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
         "share": row.candidate.probability,
         "plausible": row.candidate.is_plausible,
         "p": row.p,
-        "rmsBefore": diagnosed.error.rms,
-        "rmsAfter": row.error.rms,
+        "rmsBefore": diagnosed.error.pairs[0][1],
+        "rmsAfter": row.error.pairs[0][1],
         "error": error_values(row.error),
         "parameters": [parameter_values(each) for each in row.parameters],
         "explains": row.explains,

@@ -7,11 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from zlmreport.compensation.curve import CompensationTable
 from zlmreport.errors import InputError, Place
+from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.plugins import find_plugins
-from zlmreport.quantities.arrays import read_only_floats
+from zlmreport.model.compensation.curve import CompensationTable
+from zlmreport.plugin.registry import find_plugins
 
 PLACE = Place("job.yaml", 1)
 #: A screw every 30 mm, µm moving forward; moving back 12 µm more. The files below are of this curve.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from zlmreport.model.design import Design
-from zlmreport.model.effect import Effect
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
 from zlmreport.testing import full_designs
 from zlmreport_plugins.effects import zlmreport_effects
 from zlmreport_step_gauge.effects import zlmreport_effects as effects_of_gauge
@@ -13,10 +13,13 @@ from zlmreport_step_gauge.effects import zlmreport_effects as effects_of_gauge
 EFFECTS: Mapping[str, Effect] = {
     effect.identifier: effect for effect in (*zlmreport_effects(), *effects_of_gauge())
 }
-ROTARY_ONLY = {"eccentricity", "ellipticity", "gear-mesh"}
+ROTARY_ONLY = {"eccentricity", "ellipticity", "gear-mesh", "lost-motion-turn"}
+OF_A_PAUSE = {"growth-after-pause"}
 
 
 def design_for(identifier: str, method: str = "linear") -> Design:
     """Return a complete test on which an effect can be tested."""
+    if identifier in OF_A_PAUSE:
+        return full_designs()["a complete test with a pause"]
     kind = "rotary" if identifier in ROTARY_ONLY else method
     return full_designs()[f"a complete {kind} test"]

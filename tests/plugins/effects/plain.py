@@ -11,7 +11,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.model.design import Design
+from zlmreport.model.effects.design import Design
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,17 @@ def ppm(r: Reading) -> float:
     return here - n(20.0, 101325.0, 0.5)
 
 
+def nearest(position: float, increment: float) -> float:
+    """Return the nearest whole increment; half-way the upper one."""
+    return math.floor(position / increment + 0.5) * increment
+
+
+def fallen_back(r: Reading, v: Values) -> float:
+    """Return what a pause took back and is not grown again yet."""
+    since = r.t - v["restart"]
+    return v["fallback"] * math.exp(-since / v["time_constant"]) if since >= 0 else 0.0
+
+
 def normal(r: Reading) -> float:
     return (2 * r.P - r.first - r.last) / (r.last - r.first)
 
@@ -115,6 +126,25 @@ EQUATIONS: Mapping[str, Equation] = {
     "eccentricity": lambda r, v: wave(math.radians(r.P), v),
     "ellipticity": lambda r, v: wave(math.radians(2 * r.P), v),
     "gear-mesh": lambda r, v: wave(math.radians(v["teeth"] * r.P), v),
+    "worn-zone": lambda r, v: v["height"] / 2 ** ((2 * (r.P - v["place"]) / v["width"]) ** 2),
+    "control-increment": lambda r, v: v["factor"] * (nearest(r.P, v["increment"]) - r.P) * 1e3,
+    "scale-elements": lambda r, v: v["reset"] * (r.P % v["element"] / v["element"] - 0.5),
+    "lost-motion-step": lambda r, v: r.d * v["step"] / 2 if v["place"] < r.P else 0.0,
+    "lost-motion-wave": lambda r, v: r.d * wave(2 * math.pi * r.P / v["period"], v),
+    "lost-motion-turn": lambda r, v: r.d * wave(math.radians(r.P), v),
+    "one-way-kink": lambda r, v: v["slope"] * 1e-3 * max(0.0, r.P - v["kink"]) * (r.d > 0),
+    "drive-period": lambda r, v: wave(2 * math.pi * r.P / 10 * v["ratio"], v),
+    "pole-pitch": lambda r, v: wave(2 * math.pi * r.P / 24, v),
+    "growth-from-bearing": lambda r, v: (
+        v["growth"] * 1e-3 * (r.P - v["fixed_point"]) * (1 - math.exp(-r.t / v["time_constant"]))
+    ),
+    "growth-after-pause": lambda r, v: (
+        r.P * 1e-3 * (v["growth"] * (1 - math.exp(-r.t / v["time_constant"])) - fallen_back(r, v))
+    ),
+    "material-expansion": lambda r, v: v["expansion"] * r.P * 1e-3 * (r.log["material_temperature"] - 20),
+    "passing-warmth": lambda r, v: v["drift"] / 2 ** ((2 * (r.t - v["peak"]) / v["spell"]) ** 2),
+    "first-run-slope": lambda r, v: v["slope"] * r.P * 1e-3 if r.c == 1 else 0.0,
+    "run-displaced": lambda r, v: v["step"] if r.c == v["which"] else 0.0,
     "probe-radius": lambda r, v: v["radius_error"] * r.log["face"],
     "gauge-misalignment": lambda r, v: -v["shortening"] * r.P * 1e-3,
 }
@@ -130,6 +160,7 @@ def readings(design: Design) -> list[Reading]:
     logs = {
         "axis_temperature": (1.0, -273.15),
         "screw_temperature": (1.0, -273.15),
+        "material_temperature": (1.0, -273.15),
         "air_temperature": (1.0, -273.15),
         "air_pressure": (0.01, 0.0),
         "relative_humidity": (100.0, 0.0),

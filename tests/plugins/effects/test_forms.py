@@ -9,9 +9,8 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.effects.installed import EFFECTS, design_for
-from zlmreport_plugins.effects.geometry import PolynomialOptions
-from zlmreport_plugins.effects.periodic import HarmonicOptions
-from zlmreport_plugins.effects.thermal import BearingOptions
+from zlmreport.language import Language
+from zlmreport_plugins.effects.polynomial import PolynomialOptions
 
 NO_THETA = np.empty(0)
 
@@ -28,24 +27,26 @@ def test_polynomial_is_a_cubic_unless_a_job_says_otherwise() -> None:
 
 @pytest.mark.parametrize("identifier", ["screw-pitch", "encoder-interpolation"])
 def test_harmonics_are_a_key(identifier: str) -> None:
-    effect = EFFECTS[identifier].with_settings(HarmonicOptions(harmonics=(1, 4)))
+    effect = EFFECTS[identifier].with_settings(EFFECTS[identifier].options(harmonics=(1, 4)))
     assert [parameter.name for parameter in effect.linear] == ["sine", "cosine", "sine_4", "cosine_4"]
 
 
 @pytest.mark.parametrize("identifier", ["screw-pitch", "encoder-interpolation"])
 def test_a_contest_tries_one_harmonic_the_other_and_both(identifier: str) -> None:
-    assert [len(form.linear) for form in EFFECTS[identifier].forms()] == [2, 2, 4]
+    forms = [len(form.linear) for form in EFFECTS[identifier].forms()]
+    assert [forms[0], forms[1], 4 in forms] == [2, 2, True]
 
 
 @pytest.mark.parametrize("harmonics", [(), (0,), (5,), (1, 1)])
 def test_harmonics_that_are_none_are_refused(harmonics: tuple[int, ...]) -> None:
     with pytest.raises(ValidationError):
-        HarmonicOptions(harmonics=harmonics)
+        EFFECTS["screw-pitch"].options(harmonics=harmonics)
 
 
 def test_bearing_at_the_other_end_turns_the_fan_round() -> None:
     design = design_for("screw-expansion")
-    last = EFFECTS["screw-expansion"].with_settings(BearingOptions(fixed_bearing="last"))
+    effect = EFFECTS["screw-expansion"]
+    last = effect.with_settings(effect.options(fixed_bearing="last"))
     at_bearing = replace(design, position=np.full_like(design.position, 1.0))
     assert np.all(last.columns(at_bearing, NO_THETA) == 0.0)
 
@@ -91,7 +92,17 @@ def test_teeth_are_whole_numbers_that_the_targets_can_tell() -> None:
     design = design_for("gear-mesh")
     bare = replace(design, axis=replace(design.axis, screw_pitch=None))
     teeth = EFFECTS["gear-mesh"].grid(bare)[:, 0]
-    np.testing.assert_array_equal(teeth, np.arange(3, 11))
+    assert set(range(3, 11)) < set(teeth)
+
+
+def test_teeth_that_no_job_states_are_those_of_usual_wheels_too_and_that_is_said() -> None:
+    design, effect = design_for("gear-mesh"), EFFECTS["gear-mesh"]
+    bare = replace(design, axis=replace(design.axis, screw_pitch=None))
+    assert {60, 90, 120, 180, 360} < set(effect.grid(bare)[:, 0])
+    said = effect.tried_in(bare)
+    assert said is not None
+    assert "usual numbers of teeth" in said.in_language(Language.ENGLISH)
+    assert effect.tried_in(design) is None
 
 
 def test_a_pitch_of_the_gear_tells_the_teeth() -> None:

@@ -10,8 +10,8 @@ import pytest
 
 from plugins.effects.installed import EFFECTS, ROTARY_ONLY, design_for
 from zlmreport.language import Language
-from zlmreport.model.design import Design
-from zlmreport.model.observations import of_readings
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import of_readings
 
 LINEAR_ONLY = {
     *("cosine-error", "screw-pitch", "abbe", "scale-expansion", "screw-expansion", "thermal-growth"),

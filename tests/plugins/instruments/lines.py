@@ -10,9 +10,9 @@ from itertools import islice
 from typing import Any
 
 from processes import PATIENCE
-from zlmreport.emulation.channels import PseudoTerminal, serve
-from zlmreport.emulation.emulator import Emulator, Troubles
-from zlmreport.live.reading import LiveReading
+from zlmreport.live.emulation.channels import PseudoTerminal, serve
+from zlmreport.live.emulation.emulator import Emulator, Troubles
+from zlmreport.live.ports.reading import LiveReading
 from zlmreport.plugin.protocols import Instrument
 
 

@@ -8,9 +8,9 @@ import pytest
 
 from plugins.instruments.exchanges import questions_and_answers
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.errors import AccessError
-from zlmreport.live.reading import Fault
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.live.ports.reading import Fault
 from zlmreport_plugins.instruments.ids3010 import Answer, Ids3010, Ids3010Emulator, answer_to, question
 
 EXCHANGE = questions_and_answers()

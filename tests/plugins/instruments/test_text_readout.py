@@ -8,9 +8,9 @@ import pytest
 from pydantic import ValidationError
 
 from plugins.instruments.lines import plugged_in, readings_of
-from zlmreport.emulation.emulator import MovingAxis, Scene
-from zlmreport.live.port import Framing
-from zlmreport.live.reading import Fault
+from zlmreport.live.emulation.emulator import MovingAxis, Scene
+from zlmreport.live.ports.port import Framing
+from zlmreport.live.ports.reading import Fault
 from zlmreport_plugins.instruments.text_readout import (
     TextDecoder,
     TextEmulator,

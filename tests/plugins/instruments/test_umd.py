@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from plugins.instruments.exchanges import DATA, lines
-from zlmreport.correction.refractive_index import index_change
-from zlmreport.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
-from zlmreport.live.dialogue import WrongDeviceError
-from zlmreport.live.reading import Fault, LiveReading
+from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
+from zlmreport.live.ports.dialogue import WrongDeviceError
+from zlmreport.live.ports.reading import Fault, LiveReading
+from zlmreport.measurement.refractive_index import index_change
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, cycle_length
 from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, Frame, UmdEmulator, frame_in
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from zlmreport.planning.programs import Motion
-from zlmreport.plugins import find_plugins
+from zlmreport.model.planning.programs import Motion
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import sample_motion
 
 REGISTRY = find_plugins()

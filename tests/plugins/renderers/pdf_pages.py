@@ -11,9 +11,9 @@ from io import BytesIO
 from pypdf import PageObject, PdfReader
 from pypdf.generic import DictionaryObject
 
-from typesetting import samples
-from zlmreport.certificate.columns import text_of
-from zlmreport.certificate.document import Certificate, Table
+from document.typesetting import samples
+from zlmreport.document.blocks import Table, text_of
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 

@@ -12,8 +12,8 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from certificate.documents import COMPLETE, certificate
-from zlmreport.certificate.document import Certificate
+from document.certificate.documents import COMPLETE, certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
 from zlmreport.evaluation.evaluation import Conformity, Decision
 from zlmreport_plugins.renderers.dcc import DccRenderer

@@ -13,10 +13,11 @@ import numpy as np
 import pytest
 from pypdf import PdfReader
 
-from certificate.documents import certificate, having
-from certificate.everything import EVERYTHING, write_tables
+from document.certificate.documents import certificate, having
+from document.certificate.everything import EVERYTHING, write_tables
 from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
-from zlmreport.certificate.document import Certificate, Facts, Notice, Paragraph, Table
+from zlmreport.document.blocks import Facts, Notice, Paragraph, Table
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.evaluation import changes
 from zlmreport.measurement.axis import Axis, AxisKind

@@ -12,9 +12,9 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from document.typesetting import samples
 from plugins.renderers.pdf_pages import numbers_of, printed_numbers
-from typesetting import samples
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.html import HtmlRenderer
 

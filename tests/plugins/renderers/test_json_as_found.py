@@ -13,7 +13,7 @@ import pytest
 from environments import ROOT
 from zlmreport import pipeline
 from zlmreport.job.loading import load
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))

@@ -14,20 +14,20 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
+from document.typesetting import samples
+from evaluation.uncertainty.budgets import contribution
 from model.hidden_effect import example_diagnosis
-from typesetting import samples
-from uncertainty.budgets import contribution
-from zlmreport.certificate.attachments import Role, Source
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.attachments import Role, Source
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, NoBudget
+from zlmreport.evaluation.uncertainty.expanded import with_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import Exclusion, SourceFile
-from zlmreport.uncertainty.budget import Acts, Budget, Distribution, NoBudget
-from zlmreport.uncertainty.expanded import with_uncertainty
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 SCHEMA = json.loads((files("zlmreport_plugins.renderers") / "results.schema.json").read_text("utf-8"))

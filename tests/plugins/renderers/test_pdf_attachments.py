@@ -11,8 +11,8 @@ import pytest
 from pypdf import PdfReader
 from pypdf.generic import DictionaryObject
 
-from typesetting import samples
-from zlmreport.certificate.attachments import Attachment, Relationship
+from document.typesetting import samples
+from zlmreport.document.certificate.attachments import Attachment, Relationship
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 ATTACHED = (

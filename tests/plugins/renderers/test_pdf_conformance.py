@@ -10,15 +10,15 @@ import pytest
 from PIL import Image
 from pypdf import PdfReader
 
+from document.typesetting import samples
 from environments import ROOT
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import sample
-from typesetting import samples
 from zlmreport import pipeline
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 
 

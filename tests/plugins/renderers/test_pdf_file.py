@@ -14,14 +14,14 @@ from PIL import Image
 from pypdf import PdfReader
 from weasyprint import HTML
 
+from document.typesetting import samples
 from plugins.renderers.pdf_pages import elements, fonts, read, sample
 from processes import PYTHON, run
-from typesetting import samples
 from zlmreport.errors import AccessError
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf import PdfRenderer, press
 
-TESTS = Path(samples.__file__).parents[1]
+TESTS = Path(samples.__file__).parents[2]
 
 
 def test_metadata_tell_what_the_document_is() -> None:
@@ -124,7 +124,7 @@ def test_the_logo_is_printed() -> None:
 _WATCHED = """
 import sys
 opened = []
-from typesetting import samples
+from document.typesetting import samples
 from zlmreport_plugins.renderers.pdf import PdfRenderer, press
 customer = "<img src='file:///etc/passwd'> <link href='http://example.com/'>"
 PdfRenderer().render(samples.certificate(standards=1))

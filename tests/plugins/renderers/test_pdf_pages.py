@@ -6,17 +6,10 @@ from dataclasses import replace
 
 import pytest
 
+from document.typesetting import samples
 from plugins.renderers.pdf_pages import page_of, read, sample, texts
-from typesetting import samples
-from zlmreport.certificate.document import (
-    Align,
-    Certificate,
-    Column,
-    Paragraph,
-    RowGroup,
-    Section,
-    Table,
-)
+from zlmreport.document.blocks import Align, Column, Paragraph, RowGroup, Section, Table
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 
 MILLIMETRES = {"A4": (210.0, 297.0), "Letter": (215.9, 279.4)}

@@ -10,8 +10,8 @@ from itertools import pairwise
 import pikepdf
 import pytest
 
-from typesetting import samples
-from zlmreport.certificate.document import Align, Column, Graph, Paragraph, RowGroup, Section, Table
+from document.typesetting import samples
+from zlmreport.document.blocks import Align, Column, Graph, Paragraph, RowGroup, Section, Table
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from typesetting import samples
+from document.typesetting import samples
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 from zlmreport_plugins.renderers.pdf.press import Supply
 

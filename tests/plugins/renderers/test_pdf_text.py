@@ -6,6 +6,7 @@ import unicodedata
 
 import pytest
 
+from document.typesetting import samples
 from plugins.renderers.pdf_pages import (
     numbers_of,
     printed_numbers,
@@ -13,7 +14,6 @@ from plugins.renderers.pdf_pages import (
     sample,
     texts,
 )
-from typesetting import samples
 from zlmreport.language import Language
 
 

@@ -6,10 +6,10 @@ from types import ModuleType
 
 import pytest
 
+from document.typesetting import samples
 from plugins.renderers import pdf_pages, typst_pages
 from plugins.renderers.pdf_pages import texts
-from typesetting import samples
-from zlmreport.certificate.document import Facts, Notice, Section
+from zlmreport.document.blocks import Facts, Notice, Section
 
 
 @pytest.fixture(params=[pdf_pages, typst_pages], ids=["pdf", "pdf-typst"])

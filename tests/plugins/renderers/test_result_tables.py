@@ -12,10 +12,10 @@ from typing import Any
 import openpyxl
 import pytest
 
-from typesetting import samples
-from zlmreport.certificate.document import Certificate
+from document.typesetting import samples
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.evaluation.uncertainty.budget import NoBudget
 from zlmreport.language import Language, Words
-from zlmreport.uncertainty.budget import NoBudget
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, harmless
 

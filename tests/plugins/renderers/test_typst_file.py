@@ -13,19 +13,19 @@ import pikepdf
 import pytest
 from PIL import Image
 
+from document.typesetting import samples
 from pdf_conformance import complaints
 from plugins.renderers.pdf_pages import elements, fonts
 from plugins.renderers.test_pdf_attachments import ATTACHED, specifications
 from plugins.renderers.typst_pages import read, sample
 from processes import PYTHON, run
-from typesetting import samples
-from zlmreport.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import AccessError
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf import PdfRenderer
 from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
-TESTS = Path(samples.__file__).parents[1]
+TESTS = Path(samples.__file__).parents[2]
 
 
 def _with_logo(kind: str) -> Certificate:

@@ -7,22 +7,13 @@ from dataclasses import replace
 import pytest
 from pypdf import PdfReader
 
+from document.typesetting import samples
 from plugins.renderers.pdf_pages import page_of, texts
 from plugins.renderers.typst_pages import read, sample
-from typesetting import samples
-from zlmreport.certificate.document import (
-    Align,
-    Certificate,
-    Column,
-    Facts,
-    Notice,
-    Paragraph,
-    RowGroup,
-    Section,
-    Table,
-)
-from zlmreport.figures.canvas import Face
-from zlmreport.figures.metrics import advance
+from zlmreport.document.blocks import Align, Column, Facts, Notice, Paragraph, RowGroup, Section, Table
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.metrics import advance
 from zlmreport.language import Language
 
 _POINTS = 72 / 25.4

@@ -11,17 +11,18 @@ from pathlib import Path
 import pytest
 from pypdf import PdfReader
 
+from document.typesetting import samples
 from environments import ROOT
 from plugins.renderers import pdf_pages
 from plugins.renderers.pdf_pages import numbers_of, printed_numbers, texts
 from plugins.renderers.typst_pages import read, sample
-from typesetting import samples
 from zlmreport import pipeline
-from zlmreport.certificate.document import Certificate, Facts, Formulas, Graph, Notice, Paragraph, Table
+from zlmreport.document.blocks import Facts, Formulas, Graph, Notice, Paragraph, Table
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.plugins import find_plugins
+from zlmreport.plugin.registry import find_plugins
 
 
 def _letters(reader: PdfReader, running: tuple[str, ...]) -> Counter[str]:

@@ -7,8 +7,8 @@ from io import BytesIO
 
 from pypdf import PdfReader
 
-from typesetting import samples
-from zlmreport.certificate.document import Certificate
+from document.typesetting import samples
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 

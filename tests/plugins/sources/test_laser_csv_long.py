@@ -206,7 +206,7 @@ def test_times_may_be_iso_8601_across_midnight(file: File, first: str, second: s
 def test_times_are_all_written_alike(file: File, second: str) -> None:
     table = f"target,direction,run,deviation,time\n0,+,1,1,2026-11-18T10:00:00\n10,+,1,1,{second}\n"
     assert file.complaint(table) == (
-        f"x.csv:3:10: {second!r} is no time (ISO 8601) written like the first one, '2026-11-18T10:00:00'"
+        f"x.csv:3:10: {second!r} is no time written like the first one, '2026-11-18T10:00:00'"
     )
 
 
@@ -214,7 +214,8 @@ def test_a_direction_that_the_file_lacks_is_asked_of_the_job(file: File) -> None
     table = "target,run,deviation\n0,1,1\n100,1,2\n"
     assert file.complaint(table) == (
         "x.csv:1:1: there is no column 'direction'; name it in the job, as in 'columns: {direction: …}' "
-        "(the file has 'target', 'run', 'deviation'); or say 'direction: up' for all readings"
+        "(the file has 'target', 'run', 'deviation'); or say 'direction: up' for all readings, "
+        "or 'direction: by-order'"
     )
     measurements = file.read(table, direction="reverse")
     assert measurements.approaches == (Approach.NEGATIVE,)
@@ -308,7 +309,7 @@ def test_deviation_and_position_are_not_read_both(file: File) -> None:
 def test_a_table_without_a_header_is_asked_for_one(file: File) -> None:
     assert file.complaint(ROWS) == (
         "x.csv:1:1: the table begins with numbers; its first row names the columns, "
-        "as in target,direction,run,deviation"
+        "as in target,direction,run,deviation, or the job does: 'header: [target, …]'"
     )
 
 

@@ -8,18 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from capture.moves import MM, UM, Axis, listed, planned
-from capture.recording import recorded, written
+from live.capture.moves import MM, UM, Axis, listed, planned
+from live.capture.recording import recorded, written
 from plugins.sources.reading import DATA, JOB, said
-from zlmreport.capture.events import Ended, Resumed
-from zlmreport.capture.journal import Journal
 from zlmreport.errors import AccessError, InputError
 from zlmreport.language import Language
-from zlmreport.live.reading import Fault
+from zlmreport.live.capture.events import Ended, Resumed
+from zlmreport.live.capture.journal import Journal
+from zlmreport.live.ports.reading import Fault
 from zlmreport.measurement import axis as axes
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet, MissingReading
-from zlmreport.planning.methods import Method
+from zlmreport.model.planning.methods import Method
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport_plugins.sources.serial_interferometer import SerialInterferometer
 
@@ -35,7 +35,7 @@ def read(journal: Path, name: str = "X") -> MeasurementSet:
 
 
 def beam_lost(axis: Axis) -> chain:
-    return axis.stand(0.01, faults=Fault.BEAM_LOST, value=float("nan"), message="the beam is broken")
+    return axis.stand(1.5, faults=Fault.BEAM_LOST, value=float("nan"), message="the beam is broken")
 
 
 def broken_in_run_1(path: Path, *, until: float) -> Path:

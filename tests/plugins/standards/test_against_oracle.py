@@ -11,7 +11,7 @@ import pytest
 from plugins.standards.installed import STANDARDS
 from plugins.standards.oracle import evaluated_plainly
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.quantities.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray
 
 #: Some tens of operations, each rounded to a double, on readings that cancel to no less than this part.
 RELATIVE = 1e-12

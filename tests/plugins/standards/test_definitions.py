@@ -9,7 +9,7 @@ import pytest
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluation import Group, Quantity
 from zlmreport.language import Language
-from zlmreport.quantities.formatting import plain
+from zlmreport.language.formatting import plain
 from zlmreport.testing import check_standard
 
 ISO_1988 = "A A_fwd A_bwd R R_fwd R_bwd B B_mean"

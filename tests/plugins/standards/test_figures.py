@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
+from zlmreport.document.figures.figure import Arrow, Bracket, Figure, Panel, Role
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.figures.figure import Arrow, Bracket, Figure, Panel, Role
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind

@@ -10,9 +10,9 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
-from zlmreport.plugin import (
+from zlmreport.plugin import REFERENCE_TEMPERATURE, Options, Words, hookimpl
+from zlmreport.plugin.instrument import (
     NO_FAULT,
-    REFERENCE_TEMPERATURE,
     STANDARD_HUMIDITY,
     STANDARD_PRESSURE,
     Emulator,
@@ -21,15 +21,13 @@ from zlmreport.plugin import (
     Instrument,
     LiveConnection,
     LiveReading,
-    Options,
     Patience,
     Port,
     PortOptions,
+    SampleClock,
     Scene,
     WholeLines,
-    Words,
     WrongDeviceError,
-    hookimpl,
     refractive_index,
     streamed_readings,
 )
@@ -71,7 +69,8 @@ class UmdDecoder:
     A line has no checksum, but each repeats what the one before said: the number of the sample is the next,
     and DISP has gone on by VEL, which is the difference of the cycles REF and MEAS. A line that does not
     follow its predecessor so is no reading, and neither is the first after one. Homodyne displays send no
-    VEL, REF and MEAS: there the number alone is checked, and a lost beam is not seen.
+    VEL, REF and MEAS: there the number alone is checked, and a lost beam is not seen. The number says when a
+    sample was taken, too, by the rate that the display announces.
     """
 
     def __init__(self, model: Model, setup: Setup) -> None:
@@ -85,6 +84,7 @@ class UmdDecoder:
         self._accepted: int | None = None
         self._void = 0
         self._links = _LINKS - 1
+        self._clock = SampleClock()
 
     def feed(self, data: bytes, now: float) -> list[LiveReading]:
         """Return the readings that these bytes complete.
@@ -140,19 +140,21 @@ class UmdDecoder:
         if self._accepted is not None:
             step = frame.sequence - self._accepted
             if step <= 0:
+                self._clock.restart()
                 faults |= Fault.RESTARTED
                 message = "the display began anew: its zero is another one; begin the run again"
             skipped = max(0, step - 1 - self._void)
         self._accepted, self._void = frame.sequence, 0
         displacement = counts.displacement - counts.phase / counting.phase_steps
         value = displacement / counting.per_cycle * self._setup.length
-        return LiveReading(value, now, faults, skipped, message, self._low_speed.conditions)
+        taken = self._clock.time(frame.sequence, counting.rate, now)
+        return LiveReading(value, taken, faults, skipped, message, self._low_speed.conditions)
 
     def _unreadable(self, now: float) -> LiveReading:
         self._void += 1
         return LiveReading(
             float("nan"),
-            now,
+            now if self._accepted is None else self._clock.now,
             Fault.UNREADABLE,
             message="a line was garbled or lost",
             conditions=self._low_speed.conditions,

@@ -12,17 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from zlmreport.plugin import (
-    CELSIUS,
-    HECTOPASCAL,
-    NO_CONDITIONS,
-    PERCENT,
-    STATE_OF_AIR,
-    ReadingScale,
-    Scene,
-    Trouble,
-    index_change,
-)
+from zlmreport.plugin import CELSIUS, HECTOPASCAL, PERCENT, STATE_OF_AIR, ReadingScale
+from zlmreport.plugin.instrument import NO_CONDITIONS, Scene, Trouble, index_change
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import Certificate, DataSource, InputError, Place, Relationship, Words, hookimpl
+from zlmreport.plugin import InputError, Place, Words, hookimpl
+from zlmreport.plugin.renderer import Certificate, Relationship
+from zlmreport.plugin.source import DataSource
 from zlmreport_plugins.renderers.dcc.administrative import administrative_data
 from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, dcc, written
 from zlmreport_plugins.renderers.dcc.results import measurement_results

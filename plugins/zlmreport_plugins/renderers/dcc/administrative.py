@@ -10,8 +10,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from xml.etree import ElementTree as ET
 
-from zlmreport.plugin import (
-    CONDITION_NAMES,
+from zlmreport.plugin import CONDITION_NAMES, InputError, Language, Problem, Words
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import (
+    DIGEST,
     TRACEABLE,
     Block,
     Cell,
@@ -20,18 +22,13 @@ from zlmreport.plugin import (
     Explained,
     Facts,
     Formulas,
-    InputError,
-    Job,
     Laboratory,
-    Language,
     Notice,
     Paragraph,
-    Problem,
     RowGroup,
     Symbol,
     Table,
     Verdict,
-    Words,
     address_lines,
     notation_spans,
     place_of_work,
@@ -151,6 +148,7 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
         dcc("usedLangCodeISO639_1", language),
         dcc("mandatoryLangCodeISO639_1", language),
         dcc("uniqueIdentifier", certificate.number),
+        _digest(certificate),
         dcc("receiptDate", received.isoformat()) if received else None,
         dcc("beginPerformanceDate", min(days).isoformat()),
         dcc("endPerformanceDate", max(days).isoformat()),
@@ -163,6 +161,19 @@ def _core_data(certificate: Certificate, job: Job) -> ET.Element:
         )
         if amended
         else None,
+    )
+
+
+def _digest(certificate: Certificate) -> ET.Element | None:
+    """Return the digest of readings and results, by which paper and file are held together."""
+    return group(
+        "identifications",
+        dcc(
+            "identification",
+            dcc("issuer", "calibrationLaboratory"),
+            dcc("value", certificate.digest),
+            Writer(certificate.language).named("name", DIGEST),
+        ),
     )
 
 
@@ -355,8 +366,8 @@ def _is_by_position(table: Table) -> bool:
 def _said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """Yield what a block says: name, text, items; a graph says nothing that a table does not."""
     match block:
-        case Paragraph(text):
-            yield title, text, ()
+        case Paragraph(text, verdict=verdict):
+            yield title, f"{verdict.word}: {text}" if verdict else text, ()
         case Notice(heading, items):
             yield title, heading, items
         case Facts(pairs, heading):

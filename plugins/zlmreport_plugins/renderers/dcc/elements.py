@@ -10,7 +10,8 @@ from collections.abc import Sequence
 from typing import TypeAlias
 from xml.etree import ElementTree as ET
 
-from zlmreport.plugin import COVERAGE_PROBABILITY, Unit
+from zlmreport.plugin import Unit
+from zlmreport.plugin.renderer import COVERAGE_PROBABILITY
 
 MICROMETRE_PER_METRE_KELVIN = r"\micro\metre\metre\tothe{-1}\kelvin\tothe{-1}"
 DEGREE_CELSIUS = r"\degreecelsius"
@@ -28,6 +29,7 @@ _UNITS = {
     "um": r"\micro\metre",
     "deg": r"\degree",
     "arcsec": r"\arcsecond",
+    "um/m": r"\micro\metre\metre\tothe{-1}",
 }
 
 
@@ -39,11 +41,14 @@ RUN = "zlmreport_run"
 DEVIATION = "zlmreport_deviation"
 TIME = "zlmreport_time"
 CONDITION = "zlmreport_condition_"
+#: Begins the identifier of the readings of one of several measured lines; its name follows.
+TEST = "zlmreport_test_"
 #: Kinds beside DEVIATION, and what each says of the measurement set.
 TRAITS = {
     "zlmreport_indication": "is_indication",
     "zlmreport_oneSidedTargets": "one_sided_targets",
     "zlmreport_relativeReversal": "reversal_is_relative",
+    "zlmreport_reversedArtefact": "artefact_is_reversed",
 }
 
 

@@ -11,22 +11,24 @@ import numpy as np
 from zlmreport.plugin import (
     CONDITION_NAMES,
     CONDITIONS,
-    CONFORMITY_STATEMENTS,
     Approach,
-    Budget,
-    Certificate,
-    Conformity,
-    Decision,
-    EvaluatedParameter,
     Evaluation,
     FloatArray,
-    Job,
     MeasurementSet,
-    NoBudget,
     Unit,
     Words,
+)
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import (
+    CONFORMITY_STATEMENTS,
+    Budget,
+    Certificate,
+    Decision,
+    EvaluatedParameter,
+    NoBudget,
     changes,
 )
+from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.dcc.administrative import Writer, equipment, influences, software, state
 from zlmreport_plugins.renderers.dcc.elements import (
     CONDITION,
@@ -38,6 +40,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     SCALES,
     SECOND,
     TARGET,
+    TEST,
     TIME,
     TRAITS,
     dcc,
@@ -49,32 +52,30 @@ from zlmreport_plugins.renderers.dcc.elements import (
 )
 
 _RESULTS = Words(
-    en="Positioning accuracy of axis {axis} by {designation}",
-    de="Positioniergenauigkeit der Achse {axis} nach {designation}",
+    en="{subject} by {designation}",
+    de="{subject} nach {designation}",
 )
 _RESULTS_BY_METHOD = Words(
-    en="Positioning accuracy of axis {axis} by the method of {designation}",
-    de="Positioniergenauigkeit der Achse {axis} nach dem Verfahren von {designation}",
+    en="{subject} by the method of {designation}",
+    de="{subject} nach dem Verfahren von {designation}",
 )
+_OF_LINE = Words("{name}: {said}", "{name}: {said}")
 _PARAMETERS = Words(en="Parameters of the axis", de="Kenngrößen der Achse")
+_OF_NO_AXIS = Words(en="Parameters", de="Kenngrößen")
 _POSITIONS = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
-_TARGET = Words(en="Target position", de="Sollposition")
-_COLUMNS = {
-    "mean_fwd": Words(
-        en="Mean deviation, positive approach", de="Mittlere Abweichung, positive Anfahrrichtung"
-    ),
-    "mean_bwd": Words(
-        en="Mean deviation, negative approach", de="Mittlere Abweichung, negative Anfahrrichtung"
-    ),
-    "mean": Words(en="Mean deviation of both approaches", de="Mittlere Abweichung beider Anfahrrichtungen"),
-    "s_fwd": Words(
-        en="Standard deviation, positive approach", de="Standardabweichung, positive Anfahrrichtung"
-    ),
-    "s_bwd": Words(
-        en="Standard deviation, negative approach", de="Standardabweichung, negative Anfahrrichtung"
-    ),
-    "reversal": Words(en="Reversal value", de="Umkehrspanne"),
-}
+_CURVES = Words(en="Mean curves", de="Mittlere Kurven")
+_MEAN = Words(en="Mean deviation, {of}", de="Mittlere Abweichung, {of}")
+_MEAN_OF_BOTH = Words(
+    en="Mean deviation of both approaches", de="Mittlere Abweichung beider Anfahrrichtungen"
+)
+_MEAN_OF_SENSES = Words(en="Mean deviation of both senses", de="Mittlere Abweichung beider Richtungssinne")
+_DEVIATIONS = Words(en="Standard deviation, {of}", de="Standardabweichung, {of}")
+_REVERSAL = Words(en="Reversal value", de="Umkehrspanne")
+_DIFFERENCE = Words(en="Difference of both senses", de="Differenz beider Richtungssinne")
+_APPROACHES = (
+    Words(en="positive approach", de="positive Anfahrrichtung"),
+    Words(en="negative approach", de="negative Anfahrrichtung"),
+)
 _LIMIT = Words(en="Limit", de="Grenzwert")
 _ACCEPTED = Words(en="Acceptance limit", de="Annahmegrenze")
 _FOUND = Words(en="{requirement}: {found}", de="{requirement}: {found}")
@@ -101,6 +102,10 @@ _BUDGET = Words(
     en="Uncertainty budget: standard uncertainties at the end of the measured length",
     de="Messunsicherheitsbilanz: Standardunsicherheiten am Ende der Messlänge",
 )
+_BUDGET_OF_NO_LENGTH = Words(
+    en="Uncertainty budget: standard uncertainties of a reading",
+    de="Messunsicherheitsbilanz: Standardunsicherheiten eines Messwerts",
+)
 _COMBINED = Words(en="Combined standard uncertainty", de="Kombinierte Standardunsicherheit")
 _CHANGES = Words(
     en="Changes of the parameters: as left − as found; U is the sum of both U and holds whatever errors the "
@@ -110,6 +115,7 @@ _CHANGES = Words(
 )
 _READINGS = Words(en="Readings, in the order in which they were taken", de="Messwerte, in der Reihenfolge")
 _DIRECTION = Words(en="Direction of approach", de="Anfahrrichtung")
+_SENSE = Words(en="Sense of motion: 1 is {first}", de="Richtungssinn: 1 ist {first}")
 _RUN = Words(en="Number of the run", de="Nummer des Durchlaufs")
 _DEVIATION = Words(en="Deviation", de="Abweichung")
 _TIME = Words(en="Time from the first reading", de="Zeit seit dem ersten Messwert")
@@ -131,43 +137,95 @@ class _Test:
     budget: Budget | NoBudget | None
     job: Job
     earlier: Sequence[Evaluation] = ()
+    #: name and line: What one of several is called; of lines that are evaluated together, its readings.
+    name: str = ""
+    line: MeasurementSet | None = None
 
 
 def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
-    """Return the results by every standard of the job: as found, where there are such, and as left."""
-    writer, before = Writer(certificate.language), job.as_found
-    work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
-    tests = [_Test(state("after", work, writer), certificate.evaluations, certificate.budget, job, found)]
-    if before:
-        tests.insert(0, _Test(state("before", work, writer), found, certificate.budget_as_found, before))
+    """Return the results by every standard of the job: as found, where there are such, and as left.
+
+    Of one document of several measurements those of each, one after the other.
+    """
+    parts = [(part, part.job or job, name) for name, part in certificate.parts.items()]
     return dcc(
         "measurementResults",
         *(
-            _measurement_result(index, test, certificate, writer)
-            for test in tests
-            for index in range(len(test.evaluations))
+            each
+            for part, of_part, named in parts or [(certificate, job, "")]
+            for each in _of_measurement(part, of_part, named)
         ),
     )
+
+
+def _of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[ET.Element]:
+    """Yield the results of one measurement; `named` is what its document calls it."""
+    writer, before = Writer(certificate.language), job.as_found
+    work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
+    after = state("after", work, writer)
+    tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, named)]
+    if before:
+        tests.insert(0, _Test(state("before", work, writer), found, certificate.budget_as_found, before))
+    tests += (
+        _Test(
+            None,
+            [of.evaluation for of in each.evaluated],
+            each.budget,
+            each.job,
+            name="-".join(filter(None, (named, each.name))),
+            line=each.measurements,
+        )
+        for each in certificate.tests
+    )
+    for test in tests:
+        for index in range(len(test.evaluations)):
+            yield _measurement_result(index, test, certificate, writer)
+        if test.line and not test.evaluations and not test.job.keys.agreement.simplified:
+            yield _readings_alone(test, test.line, certificate, writer)
+
+
+def _readings_alone(
+    test: _Test, line: MeasurementSet, certificate: Certificate, writer: Writer
+) -> ET.Element:
+    """Return a measured line that no standard evaluates but together with others."""
+    return dcc(
+        "measurementResult",
+        writer.named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
+        dcc("usedSoftware", software(certificate, writer)),
+        group("measuringEquipments", equipment(test.job, writer)),
+        group("influenceConditions", *influences(test.job, writer)),
+        dcc("results", _result_of_readings(test, line, writer)),
+        group("measurementMetaData", *_budget(test, writer)),
+    )
+
+
+def _result_of_readings(test: _Test, line: MeasurementSet, writer: Writer) -> ET.Element:
+    named = {"id": f"{TEST}{test.name}"} if test.name else {}
+    return _result(_READINGS, _readings(line, writer), writer, refType=READINGS, **named)
 
 
 def _measurement_result(index: int, test: _Test, certificate: Certificate, writer: Writer) -> ET.Element:
     """Return the results by one standard; the first of a test has its readings, too.
 
-    Readings stay out where the customer agreed to a document without them.
+    Readings stay out where the customer agreed to a document without them; what is evaluated of several lines
+    has none of its own.
     """
     evaluation, job = test.evaluations[index], test.job
+    measurements = evaluation.measurements
     by, kind = (_RESULTS_BY_METHOD, "reference") if evaluation.is_method else (_RESULTS, "norm")
-    name = by.given(axis=job.axis.name, designation=evaluation.designation)
+    name = by.given(subject=measurements.axis.subject, designation=evaluation.designation)
+    if test.name:
+        name = _OF_LINE.given(name=test.name, said=name)
     parameters = (_parameter(each, evaluation, writer) for each in evaluation.parameters)
-    results = [
-        _result(_PARAMETERS, parameters, writer),
-        _result(_POSITIONS, _positions(evaluation, writer), writer),
-    ]
+    is_continuous = measurements.axis.measurand.is_continuous
+    results = [_result(_OF_NO_AXIS if is_continuous else _PARAMETERS, parameters, writer)]
     if test.earlier:
-        results.insert(1, _result(_CHANGES, _changes(test.earlier[index], evaluation, writer), writer))
-    if index == 0 and not job.keys.agreement.simplified:
-        readings = _readings(evaluation.measurements, writer)
-        results.append(_result(_READINGS, readings, writer, refType=READINGS))
+        results.append(_result(_CHANGES, _changes(test.earlier[index], evaluation, writer), writer))
+    if not measurements.tests:
+        heading = _CURVES if is_continuous else _POSITIONS
+        results.append(_result(heading, _positions(evaluation, writer), writer))
+        if index == 0 and not job.keys.agreement.simplified:
+            results.append(_result_of_readings(test, measurements, writer))
     return dcc(
         "measurementResult",
         writer.named("name", name),
@@ -188,7 +246,7 @@ def _result(name: Words, of: Iterable[ET.Element], writer: Writer, **kind: str) 
 
 
 def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Writer) -> ET.Element:
-    axis_unit = evaluation.measurements.axis.deviation_unit
+    axis_unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
     unit = unit_of(axis_unit)
     uncertainty = parameter.expanded_uncertainty
     return quantity(
@@ -202,7 +260,7 @@ def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Wr
         ),
         group(
             "measurementMetaData",
-            _conformity(parameter, evaluation, writer),
+            _conformity(parameter, axis_unit, writer),
             _interval(parameter, axis_unit, writer),
         ),
     )
@@ -210,8 +268,9 @@ def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Wr
 
 def _changes(before: Evaluation, after: Evaluation, writer: Writer) -> Iterator[ET.Element]:
     """Yield by how much each parameter changed, with its U where both are known."""
-    unit = after.measurements.axis.deviation_unit
+    usual = after.measurements.axis.deviation_unit
     for each in changes(before, after):
+        unit = each.either.quantity.unit_or(usual)
         if each.value is not None:
             uncertainty = each.expanded_uncertainty
             yield quantity(
@@ -243,7 +302,7 @@ def _interval(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) ->
     )
 
 
-def _conformity(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Writer) -> ET.Element | None:
+def _conformity(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) -> ET.Element | None:
     """Return what is stated of a parameter's limit, with the limits; None where it has none."""
     decision, limit = parameter.decision, parameter.limit
     if decision is None or limit is None:
@@ -254,13 +313,12 @@ def _conformity(parameter: EvaluatedParameter, evaluation: Evaluation, writer: W
         "metaData",
         dcc("declaration", writer.content(statement)),
         dcc("conformity", stated) if stated else None,
-        dcc("data", *_limits(decision, limit, evaluation, writer)),
+        dcc("data", *_limits(decision, limit, axis_unit, writer)),
         refType="basic_conformity",
     )
 
 
-def _limits(decision: Decision, limit: float, evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
-    axis_unit = evaluation.measurements.axis.deviation_unit
+def _limits(decision: Decision, limit: float, axis_unit: Unit, writer: Writer) -> Iterator[ET.Element]:
     unit = unit_of(axis_unit)
     yield quantity(writer.named("name", _LIMIT), real(axis_unit.from_si(limit), unit))
     accepted = decision.acceptance_limit
@@ -275,7 +333,7 @@ def _positions(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
     axis = evaluation.measurements.axis
     targets = axis.position_unit.from_si(evaluation.measurements.target_positions).tolist()
     yield quantity(
-        writer.named("name", _TARGET),
+        writer.named("name", axis.measurand.target),
         real_list(targets, unit_of(axis.position_unit)),
         kind="basic_nominalValue",
     )
@@ -296,14 +354,17 @@ def _positions(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
 def _columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, FloatArray | None]]:
     """Yield each column's name, its values by target position, m or rad, and their U where that is known."""
     statistics, uncertain = evaluation.statistics, evaluation.mean_uncertainty
-    for key, approach in (("mean_fwd", Approach.POSITIVE), ("mean_bwd", Approach.NEGATIVE)):
+    measurand = evaluation.measurements.axis.measurand
+    ways = measurand.senses if measurand.is_continuous else _APPROACHES
+    for approach in Approach:
         of_approach = uncertain.by_approach[approach.index] if uncertain else None
-        yield _COLUMNS[key], statistics.mean[approach.index], of_approach
+        yield _MEAN.given(of=ways[approach.index]), statistics.mean[approach.index], of_approach
     of_both = uncertain.bidirectional if uncertain else None
-    yield _COLUMNS["mean"], statistics.mean_bidirectional, of_both
-    yield _COLUMNS["s_fwd"], statistics.s_positive, None
-    yield _COLUMNS["s_bwd"], statistics.s_negative, None
-    yield _COLUMNS["reversal"], statistics.reversal_value, None
+    both = _MEAN_OF_SENSES if measurand.is_continuous else _MEAN_OF_BOTH
+    yield both, statistics.mean_bidirectional, of_both
+    for way, values in zip(ways, (statistics.s_positive, statistics.s_negative), strict=True):
+        yield _DEVIATIONS.given(of=way), values, None
+    yield _DIFFERENCE if measurand.is_continuous else _REVERSAL, statistics.reversal_value, None
     for column in evaluation.columns:
         yield column.quantity.name, column.values, None
 
@@ -322,9 +383,9 @@ def _findings(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
 def _budget(test: _Test, writer: Writer) -> Iterator[ET.Element]:
     """Yield the contributions to the uncertainty of a test; what they leave out is among the statements."""
     budget = test.budget
-    if not isinstance(budget, Budget):
+    if not isinstance(budget, Budget) or budget.tests:  # each line has its own
         return
-    unit = test.job.axis.deviation_unit
+    unit, has_length = test.job.axis.deviation_unit, not test.job.axis.measurand.is_continuous
     contributions = (
         quantity(
             writer.named("name", each.name),
@@ -336,7 +397,7 @@ def _budget(test: _Test, writer: Writer) -> Iterator[ET.Element]:
     combined = real(unit.from_si(budget.standard_uncertainty), unit_of(unit))
     yield dcc(
         "metaData",
-        writer.named("name", _BUDGET),
+        writer.named("name", _BUDGET if has_length else _BUDGET_OF_NO_LENGTH),
         dcc("data", *contributions, quantity(writer.named("name", _COMBINED), combined)),
     )
 
@@ -352,8 +413,9 @@ def _readings(measurements: MeasurementSet, writer: Writer) -> Iterator[ET.Eleme
     def column(name: Words | str, values: Iterable[float], unit: str, kind: str) -> ET.Element:
         return quantity(writer.named("name", name), real_list(tuple(values), unit), kind=kind)
 
-    yield column(_TARGET, targets, unit_of(axis.position_unit), TARGET)
-    yield column(_DIRECTION, measurements.approach, ONE, DIRECTION)
+    yield column(axis.measurand.target, targets, unit_of(axis.position_unit), TARGET)
+    sense = _SENSE.given(first=axis.measurand.senses[0])
+    yield column(sense if axis.measurand.is_continuous else _DIRECTION, measurements.approach, ONE, DIRECTION)
     yield column(_RUN, measurements.run, ONE, RUN)
     deviation = axis.deviation_unit.from_si(measurements.deviation)
     kinds = [DEVIATION, *(kind for kind, attribute in TRAITS.items() if getattr(measurements, attribute))]

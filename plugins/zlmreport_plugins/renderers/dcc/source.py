@@ -19,16 +19,11 @@ from zlmreport.plugin import (
     Options,
     Place,
     Problem,
-    Provenance,
-    Reading,
-    SourceContext,
-    TextFile,
     Unit,
     Words,
-    collect_readings,
     quoted,
-    read_text,
 )
+from zlmreport.plugin.source import Provenance, Reading, SourceContext, TextFile, collect_readings, read_text
 from zlmreport_plugins.renderers.dcc.elements import (
     CONDITION,
     DCC,
@@ -39,6 +34,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     SCALES,
     SI,
     TARGET,
+    TEST,
     TIME,
     TRAITS,
     unit_of,
@@ -58,6 +54,9 @@ class DccOptions(Options):
     file: JobPath = Field(description="The DCC (.xml), relative to the file that names it.")
     state: Literal["as found", "as left"] = Field(
         "as left", description="Which measurement of an axis that was adjusted: as found or as left."
+    )
+    test: str | None = Field(
+        None, description="Which of several measured lines, by its name.", examples=["x"]
     )
 
 
@@ -121,6 +120,12 @@ def _readings(root: ET.Element, options: DccOptions, text: TextFile) -> ET.Eleme
             f"carries no readings (no result of the kind {READINGS}): its results cannot be evaluated again"
         )
         raise InputError.at(text.place(), message)
+    tests = {each.get("id", "").removeprefix(TEST): each for each in found if each.get("id")}
+    if tests or options.test:
+        if options.test in tests:
+            return tests[options.test]
+        names = ", ".join(tests) or "none"
+        raise InputError.at(text.place(), f"say which of its lines is meant: test (it has: {names})")
     if options.state == "as found" and len(found) == 1:
         raise InputError.at(text.place(), "has readings of one measurement only, and none as found")
     return found[0 if options.state == "as found" else -1]

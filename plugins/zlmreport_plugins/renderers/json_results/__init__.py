@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import Renderer, hookimpl
+from zlmreport.plugin import hookimpl
+from zlmreport.plugin.renderer import Renderer
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer
 

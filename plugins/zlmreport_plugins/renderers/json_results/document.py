@@ -13,25 +13,34 @@ from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 from zlmreport.plugin import (
-    COVERAGE_PROBABILITY,
     MICROMETRE,
+    MILLIMETRE,
     Approach,
+    Axis,
+    Language,
+    MeasurementSet,
+    NominalCircle,
+    Words,
+)
+from zlmreport.plugin.extension import Job
+from zlmreport.plugin.renderer import (
+    COVERAGE_PROBABILITY,
     Budget,
     Certificate,
     CertificateSource,
-    MeasurementSet,
     NoBudget,
     Relationship,
-    SourceFile,
-    Words,
     report_changes,
     report_evaluation,
 )
+from zlmreport.plugin.source import SourceFile
 
 SCHEMA = "zlmreport/results/1"
 
 Json: TypeAlias = dict[str, Any]
 
+#: Of a minute.
+_SECONDS = 60.0
 _DIRECTIONS = {Approach.POSITIVE: "fwd", Approach.NEGATIVE: "bwd"}
 
 
@@ -52,6 +61,8 @@ class JsonResultsRenderer:
 
 def results(certificate: Certificate) -> Json:
     """Return the results as values of JSON."""
+    if certificate.parts:
+        return _results_of_parts(certificate)
     measurements = certificate.measurements
     return {
         "schema": SCHEMA,
@@ -60,11 +71,37 @@ def results(certificate: Certificate) -> Json:
             report_evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
         **_as_found(certificate),
-        **_uncertainty(certificate.budget, certificate),
+        **_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
         "model": _model(certificate),
-        "measurements": _measurements(measurements),
+        "measurements": _measurements(measurements, certificate.job),
+        **_tests(certificate),
         "provenance": _provenance(certificate),
     }
+
+
+def _results_of_parts(certificate: Certificate) -> Json:
+    """Return the results of one document of several measurements: all of them, and each by itself."""
+    whole = {name: results(part) for name, part in certificate.parts.items()}
+    return {
+        "schema": SCHEMA,
+        "certificate": _certificate(certificate),
+        "evaluations": [
+            {**evaluation, "measurement": name}
+            for name, part in whole.items()
+            for evaluation in part["evaluations"]
+        ],
+        **_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
+        "model": _model(certificate),
+        "parts": {
+            name: {key: value for key, value in part.items() if key in _OF_A_PART}
+            for name, part in whole.items()
+        },
+        "provenance": _provenance(certificate),
+    }
+
+
+#: What the results of one of several measurements have of their own.
+_OF_A_PART = ("evaluations", "as_found", "uncertainty", "model", "measurements", "tests")
 
 
 def _certificate(certificate: Certificate) -> Json:
@@ -73,6 +110,8 @@ def _certificate(certificate: Certificate) -> Json:
         "title": certificate.title,
         "language": certificate.language.value,
     }
+    if certificate.digest:
+        identity["digest"] = certificate.digest
     if certificate.issued is not None:
         identity["issued"] = certificate.issued.isoformat()
     amends = certificate.job.keys.certificate.amends if certificate.job else None
@@ -87,29 +126,44 @@ def _as_found(certificate: Certificate) -> Json:
     if not found:
         return {}
     measurements = found[0].measurements
+    job = certificate.job.as_found if certificate.job else None
     provenance = measurements.provenance
     return {
         "as_found": {
             "evaluations": [report_evaluation(evaluation, certificate.language) for evaluation in found],
             "changes": [report_changes(*pair) for pair in zip(found, certificate.evaluations, strict=True)],
-            **_uncertainty(certificate.budget_as_found, certificate),
-            "measurements": _measurements(measurements),
+            **_uncertainty(certificate.budget_as_found, measurements.axis, certificate.language),
+            "measurements": _measurements(measurements, job),
             "source": provenance.source,
             "files": [_file(file) for file in provenance.files],
         }
     }
 
 
-def _uncertainty(budget: Budget | NoBudget | None, certificate: Certificate) -> Json:
+def _tests(certificate: Certificate) -> Json:
+    """Return what is known of each of several measured lines; nothing where there is only one."""
+    found = {
+        each.name: {
+            "evaluations": [report_evaluation(of.evaluation, certificate.language) for of in each.evaluated],
+            **_uncertainty(each.budget, each.measurements.axis, certificate.language),
+            "measurements": _measurements(each.measurements, each.job),
+            "source": each.measurements.provenance.source,
+            "files": [_file(file) for file in each.measurements.provenance.files],
+        }
+        for each in certificate.tests
+    }
+    return {"tests": found} if found else {}
+
+
+def _uncertainty(budget: Budget | NoBudget | None, axis: Axis, language: Language) -> Json:
     """Return an uncertainty budget, or why there is none; nothing where nobody asked for one."""
-    language = certificate.language
     if budget is None:
         return {}
     gaps = {"missing": list(budget.missing), "negligible": dict(budget.negligible)}
     if isinstance(budget, NoBudget):
         reason = budget.reason.in_language(language)
         return {"uncertainty": {"state": "incomplete", **gaps, "not_evaluated": reason, "contributions": []}}
-    unit = certificate.measurements.axis.deviation_unit
+    unit = axis.deviation_unit
     contributions = [
         {
             "name": each.name.in_language(language),
@@ -122,6 +176,9 @@ def _uncertainty(budget: Budget | NoBudget | None, certificate: Certificate) -> 
         }
         for each in budget.contributions
     ]
+    if budget.tests:  # each line has its own
+        state = "complete" if budget.is_complete else "incomplete"
+        return {"uncertainty": {"state": state, **gaps, "contributions": []}}
     longer = budget.uncorrected_expansion
     return {
         "uncertainty": {
@@ -133,6 +190,16 @@ def _uncertainty(budget: Budget | NoBudget | None, certificate: Certificate) -> 
             "combined_standard_uncertainty": unit.from_si(budget.standard_uncertainty),
             # By how much the measured length was longer than at 20 °C, micrometres; null if unknown.
             "uncorrected_expansion": None if longer is None else MICROMETRE.from_si(longer),
+            # In no u, and in every U whole.
+            "known_errors": [
+                {
+                    "name": each.name.in_language(language),
+                    "stated": each.stated.in_language(language),
+                    "source": each.source.in_language(language),
+                    "largest": unit.from_si(each.largest),
+                }
+                for each in budget.known_errors
+            ],
         }
     }
 
@@ -142,7 +209,11 @@ def _model(certificate: Certificate) -> Json:
     diagnosis = certificate.diagnosis
     if diagnosis is None:
         return {"effects": [], "parameters": [], "error": {}}
-    from zlmreport.plugin import report_error, report_model, report_precision  # noqa: PLC0415 - brings the error model
+    from zlmreport.plugin.effect import (  # noqa: PLC0415 - brings the error model
+        report_error,
+        report_model,
+        report_precision,
+    )
 
     error = report_error(diagnosis.error, certificate.measurements.axis)
     simplified = certificate.job is not None and certificate.job.keys.agreement.simplified
@@ -154,17 +225,38 @@ def _model(certificate: Certificate) -> Json:
     }
 
 
-def _measurements(measurements: MeasurementSet) -> Json:
+def _measurements(measurements: MeasurementSet, job: Job | None) -> Json:
     axis = measurements.axis
+    stated = job.keys.measurement.at.items() if job else ()
+    at = {name: list(each) if isinstance(each, tuple) else each for name, each in stated}
     return {
         "axis": axis.name,
         "kind": axis.kind.value,
         "units": {"position": axis.position_unit.ascii, "deviation": axis.deviation_unit.ascii},
+        **({} if axis.measurand.is_position else {"measurand": axis.measurand.identifier}),
+        **({"error": axis.error} if axis.error else {}),
+        **({"circle": _circle(axis.circle)} if axis.circle else {}),
+        **({"at": at} if at else {}),
         "runs": len(measurements.runs),
         "readings": sum(not math.isnan(value) for value in measurements.deviation.tolist()),
         "missing": list(_missing(measurements)),
         "excluded": list(_excluded(measurements)),
     }
+
+
+def _circle(circle: NominalCircle) -> Json:
+    return {
+        "plane": circle.plane,
+        "radius": _typed(MILLIMETRE.from_si(circle.radius)),
+        "feed": _typed(MILLIMETRE.from_si(circle.feed) * _SECONDS),
+        "centre": [_typed(MILLIMETRE.from_si(each)) for each in circle.centre],
+        "calibrated_length": circle.is_calibrated,
+    }
+
+
+def _typed(value: float) -> float:
+    """Return a number as somebody wrote it, which SI and back may have changed in its last digit."""
+    return float(f"{value:.12g}")
 
 
 def _missing(measurements: MeasurementSet) -> Iterator[Json]:
@@ -188,22 +280,26 @@ def _excluded(measurements: MeasurementSet) -> Iterator[Json]:
 
 
 def _provenance(certificate: Certificate) -> Json:
-    provenance = certificate.measurements.provenance
+    parts = tuple(certificate.parts.values()) or (certificate,)
+    read = [line for part in parts for line in part.measurements.lines]
+    files = dict.fromkeys(file for each in read for file in each.provenance.files)
+    language = certificate.language
     return {
         "generator": certificate.generator,
         "plugins": dict(sorted(certificate.plugins.items())),
-        "source": provenance.source,
-        "files": [_file(file) for file in provenance.files],
+        "source": ", ".join(dict.fromkeys(each.provenance.source for each in read)),
+        "files": [_file(file) for file in files],
         "sources": [_source(source) for source in certificate.sources],
-        "remarks": [words.in_language(certificate.language) for words in provenance.remarks],
+        "remarks": [words.in_language(language) for each in read for words in each.provenance.remarks],
         "corrections": [
             {
-                "name": each.name.in_language(certificate.language),
-                "method": each.method.in_language(certificate.language),
-                "inputs": each.inputs.in_language(certificate.language),
-                "largest": certificate.measurements.axis.deviation_unit.from_si(each.largest),
+                "name": each.name.in_language(language),
+                "method": each.method.in_language(language),
+                "inputs": each.inputs.in_language(language),
+                "largest": line.axis.deviation_unit.from_si(each.largest),
             }
-            for each in provenance.corrections
+            for line in read
+            for each in line.provenance.corrections
         ],
     }
 

@@ -16,7 +16,8 @@ from datetime import datetime, time
 from typing import Any, TypeAlias
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from zlmreport.plugin import Approach, Certificate, Words
+from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.json_results.document import Json, results
 
 _HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
@@ -68,6 +69,7 @@ _DEVIATION = Words(en="Deviation", de="Abweichung")
 #: What no cell can hold.
 _NOT_IN_CELLS = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
 _LONGEST_TEXT = 32_767
+_LONGEST_TITLE = 31
 _WIDEST_COLUMN = 60
 _CHART_CM = (24.0, 11.0)
 #: Means of each direction, as the results file calls them.
@@ -111,14 +113,29 @@ class CsvRenderer:
 def values(certificate: Certificate) -> Iterator[Value]:
     """Yield every number of the evaluations and of the error model."""
     found = results(certificate)
-    for test, prefix in ((found, ""), (found.get("as_found"), "as_found.")):
-        if test:
-            unit = test["measurements"]["units"]["deviation"]
-            for evaluation in test["evaluations"]:
-                yield from _of_evaluation(evaluation, unit, prefix)
-            for contributor in _missing(test):
-                yield Value("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
-    yield from _of_model(found["model"])
+    for test, prefix in measured(found):
+        unit = test["measurements"]["units"]["deviation"]
+        for evaluation in test["evaluations"]:
+            yield from _of_evaluation(evaluation, unit, prefix)
+        for contributor in _missing(test):
+            yield Value("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
+    for part in found.get("parts", {"": found}).values():
+        yield from _of_model(part["model"])
+
+
+def measured(found: Json) -> Iterator[tuple[Json, str]]:
+    """Yield what has evaluations of its own, with what its quantities begin with.
+
+    The measurement itself with nothing; ``as_found.`` before an adjustment; of several measured lines, and of
+    the measurements of one document, their names: ``x.``, ``EYX.``.
+    """
+    for name, part in found.get("parts", {"": found}).items():
+        prefix = f"{name}." if name else ""
+        yield part, prefix
+        if "as_found" in part:
+            yield part["as_found"], f"{prefix}as_found."
+        for line, test in part.get("tests", {}).items():
+            yield test, f"{prefix}{line}."
 
 
 def _missing(test: Json) -> Sequence[str]:
@@ -194,14 +211,24 @@ class _Sheets:
     def fill(self) -> None:
         """Add every sheet that has something to say."""
         found = results(self._certificate)
-        self._evaluations(found, "{sheet}")
-        if "as_found" in found:
-            self._evaluations(found["as_found"], self._say(_AS_FOUND))
-        self._readings()
-        if found["model"]["parameters"]:
-            self._model(found["model"])
+        for test, prefix in measured(found):
+            self._evaluations(test, self._title(prefix), _targets(test["measurements"]))
+        parts = self._certificate.parts or {"": self._certificate}
+        for name, part in parts.items():
+            for line, measurements in (part.measurements.tests or {"": part.measurements}).items():
+                self._readings(measurements, " ".join(filter(None, (name, line))))
+        for name, part in found.get("parts", {"": found}).items():
+            if part["model"]["parameters"]:
+                self._model(part["model"], name)
 
-    def _evaluations(self, found: Json, title: str) -> None:
+    def _title(self, prefix: str) -> str:
+        """Return how the sheets of a test are called: ``{sheet}``, ``{sheet} EYX``, ``{sheet} as found``."""
+        names = prefix.rstrip(".").split(".")
+        is_before = names[-1] == "as_found"
+        title = " ".join(filter(None, ("{sheet}", *(names[:-1] if is_before else names))))
+        return self._say(_AS_FOUND).replace("{sheet}", title) if is_before else title
+
+    def _evaluations(self, found: Json, title: str, target: Words) -> None:
         missing = ", ".join(_missing(found))
         rows = [
             [
@@ -225,7 +252,7 @@ class _Sheets:
         keys = list(dict.fromkeys(key for _, position in positions for key in position if key != "target"))
         columns = [
             self._say(_STANDARD),
-            f"{self._say(_TARGET)} / {units['position']}",
+            f"{self._say(target)} / {units['position']}",
             *(key if key.startswith("n_") else f"{key} / {units['deviation']}" for key in keys),
         ]
         table = [[standard, row["target"], *map(row.get, keys)] for standard, row in positions]
@@ -233,21 +260,28 @@ class _Sheets:
         drawn = [(2 + index, key) for index, key in enumerate(["target", *keys]) if key in _MEANS]
         of_first = sum(row[0] == table[0][0] for row in table) if table else 0
         if drawn and of_first:
-            self._chart(sheet, drawn, of_first, units)
+            self._chart(sheet, drawn, of_first, self._say(target), units)
 
-    def _readings(self) -> None:
+    def _readings(self, measurements: MeasurementSet, name: str) -> None:
         if self._certificate.job and self._certificate.job.keys.agreement.simplified:
             return  # agreed with the customer: a document without them
-        measurements = self._certificate.measurements
         axis = measurements.axis
         units = ("", "", f" / {axis.position_unit.ascii}", f" / {axis.deviation_unit.ascii}")
-        headings = [self._say(each) + unit for each, unit in zip(_READING_HEADINGS, units, strict=True)]
+        measurand = axis.measurand
+        named = (*_READING_HEADINGS[:2], measurand.target, _DEVIATION) if measurand.is_continuous else None
+        headings = [
+            self._say(each) + unit for each, unit in zip(named or _READING_HEADINGS, units, strict=True)
+        ]
+        ways = [
+            self._say(sense) if measurand.is_continuous else each.arrow
+            for each, sense in zip(Approach, measurand.senses, strict=True)
+        ]
         targets = axis.position_unit.from_si(measurements.target_positions)
         deviations = axis.deviation_unit.from_si(measurements.deviation)
         rows: list[list[_Cell]] = [
             [
                 int(run),
-                Approach(approach).arrow,
+                ways[Approach(approach).index],
                 float(f"{targets[target]:.15g}"),
                 None if deviation != deviation else float(deviation),  # noqa: PLR0124 (what is missing is no number)
             ]
@@ -255,20 +289,21 @@ class _Sheets:
                 measurements.run, measurements.approach, measurements.target, deviations, strict=True
             )
         ]
-        self._sheet(self._say(_READINGS), headings, rows)
+        self._sheet(" ".join(filter(None, (self._say(_READINGS), name))), headings, rows)
 
-    def _model(self, model: Json) -> None:
+    def _model(self, model: Json, name: str) -> None:
         rows = [
             [each["effect"], each["name"], each["value"], each["unit"], each.get("expanded_uncertainty")]
             for each in model["parameters"]
         ]
-        self._sheet(self._say(_MODEL), map(self._say, _MODEL_HEADINGS), rows)
+        title = " ".join(filter(None, (self._say(_MODEL), name)))
+        self._sheet(title, map(self._say, _MODEL_HEADINGS), rows)
 
     def _sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[_Cell]]) -> Any:
         from openpyxl.styles import Font  # noqa: PLC0415 (slow to load)
         from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
 
-        sheet = self._book.create_sheet(title)
+        sheet = self._book.create_sheet(title[:_LONGEST_TITLE])
         widths: dict[int, int] = {}
         for number, row in enumerate([list(headings), *rows], start=1):
             for column, value in enumerate(row, start=1):
@@ -289,13 +324,15 @@ class _Sheets:
         sheet.freeze_panes = "A2"
         return sheet
 
-    def _chart(self, sheet: Any, drawn: Sequence[tuple[int, str]], rows: int, units: Json) -> None:
+    def _chart(
+        self, sheet: Any, drawn: Sequence[tuple[int, str]], rows: int, target: str, units: Json
+    ) -> None:
         """Add a chart of the means over the targets of the first standard, beside the table."""
         from openpyxl.chart import Reference, ScatterChart, Series  # noqa: PLC0415 (slow to load)
         from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
 
         chart = ScatterChart(scatterStyle="lineMarker")
-        chart.x_axis.title = f"{self._say(_TARGET)} / {units['position']}"
+        chart.x_axis.title = f"{target} / {units['position']}"
         chart.y_axis.title = f"{self._say(_DEVIATION)} / {units['deviation']}"
         chart.x_axis.delete = chart.y_axis.delete = False
         chart.x_axis.tickLblPos = "low"
@@ -312,6 +349,11 @@ class _Sheets:
 
     def _say(self, words: Words) -> str:
         return words.in_language(self._certificate.language)
+
+
+def _targets(measurements: Json) -> Words:
+    """Return what positions are of a measurement in a results file."""
+    return CIRCLE.target if measurements.get("measurand") == CIRCLE.identifier else _TARGET
 
 
 def _clean(text: str) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import AccessError, Certificate, Place, Words, hookimpl
+from zlmreport.plugin import AccessError, Place, Words, hookimpl
+from zlmreport.plugin.renderer import Certificate
 
 
 class PdfRenderer:
@@ -24,7 +25,7 @@ class PdfRenderer:
             raise AccessError.at(
                 Place("pdf"),
                 f"WeasyPrint cannot be loaded: {error}; it needs the library Pango "
-                "(Debian, Ubuntu: apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0)",
+                "(Debian, Ubuntu: apt-get install libpango-1.0-0 libpangoft2-1.0-0)",
             ) from error
         return press().print(certificate)
 

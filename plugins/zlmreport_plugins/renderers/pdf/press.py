@@ -26,21 +26,16 @@ from weasyprint.text.fonts import FontConfiguration
 from weasyprint.text.line_break import create_layout
 from weasyprint.urls import URLFetcher, URLFetcherResponse
 
-from zlmreport.plugin import (
+from zlmreport.plugin import Figure, Language
+from zlmreport.plugin.html import GRAPH_ADDRESS, LOGO_ADDRESS, compose_html
+from zlmreport.plugin.page import (
     FONT_FACES,
-    GRAPH_ADDRESS,
-    LOGO_ADDRESS,
-    Certificate,
     Colour,
-    Figure,
     Fill,
     FontFace,
-    Language,
-    Look,
     Segment,
     Stroke,
     TextRun,
-    compose_html,
     draw_figure,
     figure_size,
     font_face_rules,
@@ -48,7 +43,8 @@ from zlmreport.plugin import (
     own_style,
     style_sheet,
 )
-from zlmreport_plugins.renderers.pdf import structure
+from zlmreport.plugin.renderer import Certificate, Look
+from zlmreport_plugins.renderers.pdf import structure, subset
 
 #: For archives, with its structure tagged: it costs a tenth more time than a plain one.
 VARIANT = "pdf/a-3a"
@@ -74,6 +70,7 @@ class Press:
     """Prints documents, one at a time."""
 
     def __init__(self) -> None:
+        subset.settle()
         self._fonts = FontConfiguration()
         self._lock = Lock()
         profile = (files("weasyprint.pdf") / "sRGB2014.icc").read_bytes()

@@ -14,7 +14,7 @@ from xml.sax.saxutils import escape
 
 import pydyf
 
-from zlmreport.plugin import Certificate
+from zlmreport.plugin.renderer import Certificate
 
 #: An element of the structure, or any other dictionary of a PDF.
 Element: TypeAlias = Any

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from zlmreport.plugin import AccessError, Certificate, InputError, Place, Words, hookimpl
+from zlmreport.plugin import AccessError, InputError, Place, Words, hookimpl
+from zlmreport.plugin.renderer import Certificate
 
 
 class TypstRenderer:

@@ -11,34 +11,35 @@ from itertools import repeat
 from math import inf
 from typing import Any, TypeAlias
 
-from zlmreport.plugin import (
+from zlmreport.plugin import Figure, Language
+from zlmreport.plugin.page import (
+    Colour,
+    Fill,
+    FontFace,
+    Segment,
+    Stroke,
+    TextRun,
+    draw_figure,
+    figure_size,
+    hexadecimal_colour,
+)
+from zlmreport.plugin.renderer import (
     Align,
     Cell,
     Certificate,
-    Colour,
     Explained,
     Facts,
-    Figure,
-    Fill,
-    FontFace,
     Formulas,
     Graph,
-    Language,
     Letterhead,
     Notice,
     NumberedBlock,
     Paragraph,
-    Segment,
-    Stroke,
     Symbol,
     Table,
-    TextRun,
     Verdict,
     decimal_padding,
-    draw_figure,
     facts_side_by_side,
-    figure_size,
-    hexadecimal_colour,
     numbered_blocks,
     table_layout,
 )
@@ -49,6 +50,8 @@ Data: TypeAlias = dict[str, Any]
 
 # Widths of places, in em of their type.
 _PAGE = 53.0
+#: Of type in which the law is quoted.
+_FINE = 0.765
 _CAPTION = 56.0
 _NOTICE = 49.0
 _TITLE = 21.0
@@ -136,12 +139,18 @@ def _block(numbered: NumberedBlock, language: Language) -> Data:
                 "alternative": figure.alternative.in_language(language),
                 **graph_data(figure, language),
             }
-        case Paragraph(text):
-            return {"kind": "paragraph", "text": fitted(text, _PAGE)}
-        case Notice(heading, items):
+        case Paragraph(text, fine=fine, verdict=verdict):
+            return {
+                "kind": "paragraph",
+                "text": fitted(text, _PAGE / _FINE if fine else _PAGE),
+                "fine": fine,
+                "verdict": _cell(verdict, _PAGE) if verdict else None,
+            }
+        case Notice(heading, items, is_quoted):
             return {
                 "kind": "notice",
-                "heading": fitted(heading, _NOTICE, FontFace.SEMIBOLD),
+                "quoted": is_quoted,
+                "heading": fitted(heading, _NOTICE, FontFace.REGULAR if is_quoted else FontFace.SEMIBOLD),
                 "items": [fitted(item, _NOTICE) for item in items],
                 "whole": len(heading) + sum(map(len, items)) <= _WHOLE,
             }

@@ -17,7 +17,7 @@ from threading import Lock
 
 import typst
 
-from zlmreport.plugin import Certificate
+from zlmreport.plugin.renderer import Certificate
 from zlmreport_plugins.renderers.pdf_typst.contents import contents, enclosures
 from zlmreport_plugins.renderers.pdf_typst.words import demand_letters
 

@@ -15,16 +15,14 @@ from itertools import groupby
 from typing import Any, TypeAlias
 from unicodedata import category, combining, name, normalize
 
-from zlmreport.plugin import (
+from zlmreport.plugin import InputError, Place, held_together
+from zlmreport.plugin.page import (
     FontFace,
-    InputError,
-    Place,
     has_letter,
-    held_together,
     mark_offset,
-    notation_spans,
     text_advance,
 )
+from zlmreport.plugin.renderer import notation_spans
 
 #: A text, or its stretches, each with the way in which it is set.
 Text: TypeAlias = str | list[tuple[Any, str]]

@@ -12,28 +12,31 @@ from pydantic import AfterValidator, Field
 
 from zlmreport.plugin import (
     Approach,
-    DataSource,
     InputError,
     JobPath,
     MeasurementSet,
     Options,
     Place,
     Problem,
+    Unit,
+    Words,
+    did_you_mean,
+    hookimpl,
+    position_units,
+    quoted,
+    unit_named,
+)
+from zlmreport.plugin.source import (
+    DataSource,
     Provenance,
     Reading,
     SourceContext,
     TextFile,
-    Unit,
-    Words,
     collect_readings,
-    did_you_mean,
-    hookimpl,
     known_encoding,
     parse_number,
-    position_units,
-    quoted,
     read_text,
-    unit_named,
+    refuse_other_than_positions,
 )
 
 UNIT, CYCLES, POSITIONS = "UNIT", "CYCLES", "POSITIONS"
@@ -254,6 +257,7 @@ class Ecmc:
 
     def read(self, options: EcmcOptions, context: SourceContext) -> MeasurementSet:
         """Read a log; raise `InputError` with every defect and its place."""
+        refuse_other_than_positions(context.axis, context.place, "such a log has positions and nothing else")
         text = read_text(options.file, options.encoding)
         problems: list[Problem] = []
         found = entries(text, problems)

@@ -3,48 +3,57 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from zlmreport.plugin import CONDITIONS, Approach, InputError, Problem, Reading, SourceContext, quoted
-from zlmreport_plugins.sources.laser_csv.columns import (
+from zlmreport.plugin import CONDITIONS, Approach, InputError, Problem, quoted
+from zlmreport.plugin.source import Reading, SourceContext
+from zlmreport.plugin.table import (
     Cells,
-    Column,
     Heading,
-    column_of,
-    find,
+    TextColumn,
+    TextRow,
+    TextTable,
+    find_heading,
     missing_column,
     read_headings,
     time_reader,
 )
-from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions, run_and_direction
-from zlmreport_plugins.sources.laser_csv.table import Row, Table
+from zlmreport_plugins.sources.laser_csv.columns import column_of
+from zlmreport_plugins.sources.laser_csv.options import (
+    LaserCsvOptions,
+    direction,
+    names_direction,
+    run_and_direction,
+)
 
 
 @dataclass(frozen=True, slots=True)
 class LongLayout:
     """The columns of a long table."""
 
-    target: Column  #: The target position.
-    value: Column  #: The deviation or the actual position.
-    direction: Column | None  #: None where the job states one direction for all readings.
-    run: Column | None  #: None where the file has none: all readings are of one run.
-    time: Column | None  #: None where there is none.
-    conditions: tuple[Column, ...]  #: All the others.
-    stated_direction: Approach | None  #: The direction that the job states.
+    target: TextColumn  #: The target position.
+    value: TextColumn  #: The deviation or the actual position.
+    direction: TextColumn | None  #: None where the job states one direction for all readings.
+    run: TextColumn | None  #: None where the file has none: all readings are of one run.
+    time: TextColumn | None  #: None where there is none.
+    conditions: tuple[TextColumn, ...]  #: All the others.
+    #: The direction that the job states; where the order of the rows tells it, that is found afterwards.
+    stated_direction: Approach | None
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[TextColumn, ...]:
         """Every column that is read."""
         others = (self.target, self.value, self.direction, self.run, self.time)
         return (*(column for column in others if column), *self.conditions)
 
     @property
-    def value_columns(self) -> tuple[Column, ...]:
+    def value_columns(self) -> tuple[TextColumn, ...]:
         """The columns of readings."""
         return (self.value,)
 
-    def number_columns(self) -> Iterator[Column]:
+    def number_columns(self) -> Iterator[TextColumn]:
         """Yield the columns that hold numbers with decimals."""
         return (column for column in self.columns if column not in {self.direction, self.run})
 
@@ -53,7 +62,7 @@ class LongLayout:
         time_of = time_reader(cells, self.time)
         for row in cells.table.rows:
             target = cells.demanded_number(row, self.target)
-            approach = cells.approach(row, self.direction) if self.direction else self.stated_direction
+            approach = cells.word(row, self.direction, direction) if self.direction else self.stated_direction
             run = cells.run(row, self.run) if self.run else 1.0
             value = cells.number(row, self.value)
             time = time_of(row)
@@ -71,17 +80,19 @@ class LongLayout:
             )
 
 
-def long_layout(table: Table, options: LaserCsvOptions, context: SourceContext) -> LongLayout:
+def long_layout(table: TextTable, options: LaserCsvOptions, context: SourceContext) -> LongLayout:
     """Return the columns of a long table; raise InputError with all that are missing or in doubt."""
-    among = read_headings(table, options)
+    among = read_headings(table, options, names_direction)
     by_name = {
         name: heading
         for name in ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
-        if (heading := find(name, among, table, options))
+        if (heading := find_heading(name, among, table, options))
     }
     problems = list(_missing(by_name, among, table, options))
     if problems:
         raise InputError(problems)
+    if "position" in by_name and not context.axis.measurand.is_position:
+        raise InputError.at(table.place(table.header, by_name["position"].index), _no_positions(context))
     known = {name: column_of(name, heading, options, context, table) for name, heading in by_name.items()}
     taken = {found.index for found in known.values()}
     return LongLayout(
@@ -93,17 +104,63 @@ def long_layout(table: Table, options: LaserCsvOptions, context: SourceContext) 
         (
             *(known[name] for name in CONDITIONS if name in known),
             *(
-                Column(other.index, other.text, other.text, None)
+                TextColumn(other.index, other.text, other.text, None)
                 for other in among
                 if other.index not in taken
             ),
         ),
-        options.stated_direction,
+        Approach.POSITIVE if options.direction == "by-order" else options.stated_direction,
+    )
+
+
+def in_order(readings: Iterable[Reading], options: LaserCsvOptions) -> list[Reading]:
+    """Return the readings of a long table with what their order tells, where the job says so.
+
+    Directions: a target above the one before was approached upwards, one below it downwards, and where the
+    same one follows, the axis turned there. Runs: the n-th reading of a target in a direction is of run n.
+    """
+    found = list(readings)
+    if options.direction == "by-order":
+        targets = [reading.target_position for reading in found]
+        found = [
+            replace(reading, approach=Approach(sense))
+            for reading, sense in zip(found, senses(targets), strict=True)
+        ]
+    return found
+
+
+def counted(readings: Iterable[Reading]) -> Iterator[Reading]:
+    """Yield readings with their runs: the n-th of a target in a direction is of run n."""
+    taken: Counter[tuple[float, Approach]] = Counter()
+    for reading in readings:
+        same = (reading.target_position, reading.approach)
+        taken[same] += 1
+        yield replace(reading, run=float(taken[same]))
+
+
+def senses(targets: Sequence[float]) -> list[int]:
+    """Return for each target, in order, in which sense it was approached: +1 or −1.
+
+    >>> senses([0, 5, 10, 10, 5, 0, 0, 5])
+    [1, 1, 1, -1, -1, -1, 1, 1]
+    """
+    senses: list[int] = []
+    coming = 1
+    for before, at in reversed([(targets[max(index - 1, 0)], at) for index, at in enumerate(targets)]):
+        coming = (at > before) - (at < before) or coming
+        senses.append(coming)
+    return senses[::-1]
+
+
+def _no_positions(context: SourceContext) -> str:
+    return (
+        "actual positions give deviations of positioning only, and this job is on "
+        f"{context.axis.measurand.identifier}; its readings are deviations"
     )
 
 
 def _missing(
-    by_name: Iterable[str], among: Sequence[Heading], table: Table, options: LaserCsvOptions
+    by_name: Iterable[str], among: Sequence[Heading], table: TextTable, options: LaserCsvOptions
 ) -> Iterator[Problem]:
     """Yield the columns that are missing, or that contradict each other or the job."""
     place = table.place(table.header, 0)
@@ -111,10 +168,13 @@ def _missing(
         yield Problem(place, "the header names runs as columns; say 'layout: wide' in the job")
         return
     if "target" not in by_name:
-        yield missing_column("target", among, table)
+        yield missing_column("target", among, table, options)
     if "direction" not in by_name and not options.direction:
-        problem = missing_column("direction", among, table)
-        yield Problem(problem.place, f"{problem.message}; or say 'direction: up' for all readings")
+        problem = missing_column("direction", among, table, options)
+        yield Problem(
+            problem.place,
+            f"{problem.message}; or say 'direction: up' for all readings, or 'direction: by-order'",
+        )
     if "direction" in by_name and options.direction:
         yield Problem(
             place, "the file has directions, and the job states one for all ('direction'); remove it there"
@@ -125,7 +185,7 @@ def _missing(
             "there are both deviations and positions; name one of the columns in the job under 'ignore'",
         )
     if "deviation" not in by_name and "position" not in by_name:
-        problem = missing_column("deviation", among, table)
+        problem = missing_column("deviation", among, table, options)
         yield Problem(problem.place, f"{problem.message}; actual positions stand in a column 'position'")
     if "deviation" not in by_name and options.sign == "nominal-actual":
         yield Problem(
@@ -133,7 +193,7 @@ def _missing(
         )
 
 
-def _kept(cells: Cells, row: Row, condition: Column) -> float:
+def _kept(cells: Cells, row: TextRow, condition: TextColumn) -> float:
     """Return a condition; NaN if it is none, which is noted then."""
     noted = len(cells.problems)
     value = cells.number(row, condition)
@@ -156,7 +216,7 @@ _RULE = (
 class RunColumn:
     """A column of one run in one direction."""
 
-    column: Column
+    column: TextColumn
     run: int
     approach: Approach
 
@@ -165,20 +225,20 @@ class RunColumn:
 class WideLayout:
     """The columns of a wide table."""
 
-    target: Column  #: The target position.
+    target: TextColumn  #: The target position.
     runs: tuple[RunColumn, ...]  #: The columns of readings.
 
     @property
-    def columns(self) -> tuple[Column, ...]:
+    def columns(self) -> tuple[TextColumn, ...]:
         """Every column that is read."""
         return (self.target, *self.value_columns)
 
     @property
-    def value_columns(self) -> tuple[Column, ...]:
+    def value_columns(self) -> tuple[TextColumn, ...]:
         """The columns of readings."""
         return tuple(run.column for run in self.runs)
 
-    def number_columns(self) -> Iterator[Column]:
+    def number_columns(self) -> Iterator[TextColumn]:
         """Yield the columns that hold numbers with decimals."""
         return iter(self.columns)
 
@@ -201,11 +261,13 @@ class WideLayout:
                     yield Reading(place, target, run.approach, float(run.run), deviation)
 
 
-def wide_layout(table: Table, options: LaserCsvOptions, context: SourceContext) -> WideLayout:
+def wide_layout(table: TextTable, options: LaserCsvOptions, context: SourceContext) -> WideLayout:
     """Return the columns of a wide table; raise InputError with every column that has no meaning."""
-    among = read_headings(table, options)
-    target = find("target", among, table, options)
-    problems = [] if target else [missing_column("target", among, table)]
+    among = read_headings(table, options, names_direction)
+    target = find_heading("target", among, table, options)
+    problems = [] if target else [missing_column("target", among, table, options)]
+    if options.values == "position" and not context.axis.measurand.is_position:
+        problems.append(Problem(table.place(table.header, 0), _no_positions(context)))
     if options.values == "position" and options.sign == "nominal-actual":
         problems.append(
             Problem(

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Annotated, Literal, Self
+from typing import Literal, Self
 
-from pydantic import AfterValidator, Field, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from zlmreport.plugin import (
     CONDITIONS,
@@ -15,27 +15,63 @@ from zlmreport.plugin import (
     POSITION_UNITS,
     TIME_UNITS,
     Approach,
-    DecimalSign,
-    JobPath,
-    Options,
     ReadingScale,
     Unit,
     did_you_mean,
-    known_encoding,
-    unit_named,
 )
+from zlmreport.plugin.table import TableOptions, TablePlace
 
 #: The columns that have a meaning; any other is kept as a condition under its own name.
 COLUMN_NAMES = ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
 
 _SIGNS = {"+": Approach.POSITIVE, "-": Approach.NEGATIVE, MINUS_SIGN: Approach.NEGATIVE}
-_ARROWS = {"↑": Approach.POSITIVE, "↓": Approach.NEGATIVE}
+_ARROWS = {
+    **dict.fromkeys("↑→", Approach.POSITIVE),
+    **dict.fromkeys("↓←", Approach.NEGATIVE),
+}
 _WORDS = {
-    **dict.fromkeys(("up", "forward", "forwards", "fwd", "positive", "pos"), Approach.POSITIVE),
-    **dict.fromkeys(("down", "reverse", "rev", "backward", "backwards", "bwd"), Approach.NEGATIVE),
-    **dict.fromkeys(("negative", "neg"), Approach.NEGATIVE),
-    **dict.fromkeys(("auf", "hin", "vor", "vorwärts", "positiv"), Approach.POSITIVE),
-    **dict.fromkeys(("ab", "rück", "rueck", "zurück", "rückwärts", "negativ"), Approach.NEGATIVE),
+    **dict.fromkeys(
+        (
+            *("up", "forward", "forwards", "fwd", "positive", "pos", "plus", "increasing"),
+            *(
+                "auf",
+                "aufwärts",
+                "hin",
+                "hinweg",
+                "hinfahrt",
+                "vor",
+                "vorwärts",
+                "vorlauf",
+                "positiv",
+                "steigend",
+            ),
+        ),
+        Approach.POSITIVE,
+    ),
+    **dict.fromkeys(
+        (
+            *(
+                "down",
+                "reverse",
+                "rev",
+                "backward",
+                "backwards",
+                "bwd",
+                "negative",
+                "neg",
+                "minus",
+                "decreasing",
+            ),
+            *("ab", "abwärts", "rück", "rueck", "rückweg", "rückfahrt", "zurück", "rückwärts", "rücklauf"),
+            *("negativ", "fallend"),
+        ),
+        Approach.NEGATIVE,
+    ),
+}
+#: In cells only: in a header they may be the initial of anything.
+_LETTERS = {
+    **dict.fromkeys("fvuph", Approach.POSITIVE),
+    **dict.fromkeys("brdn", Approach.NEGATIVE),
 }
 _NUMBERS = {
     "1": Approach.POSITIVE,
@@ -44,24 +80,18 @@ _NUMBERS = {
     f"{MINUS_SIGN}1": Approach.NEGATIVE,
 }
 _SPELLED_OUT: Mapping[str, Approach] = MappingProxyType({**_SIGNS, **_ARROWS, **_WORDS})
-_DIRECTIONS: Mapping[str, Approach] = MappingProxyType({**_SPELLED_OUT, **_NUMBERS})
+_DIRECTIONS: Mapping[str, Approach] = MappingProxyType({**_SPELLED_OUT, **_LETTERS, **_NUMBERS})
 
 _IN_HEADERS = "|".join(re.escape(spelling) for spelling in sorted(_SPELLED_OUT, key=len, reverse=True))
-_RUN = r"(?:(?:run|cycle|lauf|messlauf|zyklus)[\s_.]*)?"
+_RUN = (
+    r"(?:(?:run|cycle|pass|test|measurement|meas\.?|lauf|messlauf|durchlauf|durchgang|zyklus|messung|messreihe)"
+    r"[\s_.]*)?"
+)
 #: ``1+``, ``1 ↓``, ``Run 1 fwd``, ``RUN 1``; ``+1``, ``fwd 1``, ``forward run 1``.
 _HEADERS = (
     rf"{_RUN}(?P<run>[1-9][0-9]{{0,5}})[\s_.]*(?P<direction>{_IN_HEADERS})?",
     rf"(?P<direction>{_IN_HEADERS})[\s_.]*{_RUN}(?P<run>[1-9][0-9]{{0,5}})",
 )
-
-
-def folded(name: str) -> str:
-    """Return a name without what people do not mind: case, and blanks, hyphens or underscores.
-
-    >>> folded(" Air Temperature ")
-    'air_temperature'
-    """
-    return re.sub(r"[\s_-]+", "_", name.strip().casefold())
 
 
 def direction(spelling: str) -> Approach:
@@ -98,7 +128,6 @@ def run_and_direction(header: str) -> tuple[int, Approach | None] | None:
     return None
 
 
-_DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t"}
 _UNITS: Mapping[str, Mapping[str, Unit | ReadingScale]] = {
     **dict.fromkeys(("target", "deviation", "position"), POSITION_UNITS),
     "time": TIME_UNITS,
@@ -106,10 +135,28 @@ _UNITS: Mapping[str, Mapping[str, Unit | ReadingScale]] = {
 }
 
 
-class LaserCsvOptions(Options):
+class _Part(TablePlace):
+    """Where a table stands in its file, and what it does not say of the direction."""
+
+    direction: Literal["+", "-", "up", "down", "forward", "reverse", "by-order"] | None = Field(
+        None,
+        description="Direction of all readings, where the file names none; by-order: rows stand in the order "
+        "in which they were taken, and a target above the one before was approached upwards.",
+    )
+
+
+class LaserCsvOptions(_Part, TableOptions):
     """Where the table is, and what it does not say itself."""
 
-    file: JobPath = Field(description="The table, relative to the file that names it.")
+    column_names = COLUMN_NAMES
+    column_units = _UNITS
+    header_example = "target,direction,run,deviation"
+
+    parts: tuple[_Part, ...] = Field(
+        (),
+        description="Several tables of one file that are one test, such as one of each direction: of each "
+        "what the other keys do not say.",
+    )
     layout: Literal["long", "wide"] = Field(
         "long",
         description="long: one reading a row; wide: one target position a row and one column a run and "
@@ -124,71 +171,51 @@ class LaserCsvOptions(Options):
         default_factory=dict,
         description="The file's own names: {target: Soll, position: Ist}. For a wide table also {1+: RUN 1}.",
     )
-    ignore: tuple[str, ...] = Field((), description="Columns of the file that are not read, by name.")
+    runs: Literal["counted"] | None = Field(
+        None,
+        description="counted: the file names no runs, and the n-th reading of a target in a direction is of "
+        "run n. Without it all are of one run.",
+    )
     units: dict[str, str] = Field(
         default_factory=dict,
-        description="Units by column: {target: inch, deviation: mm}. Without it the unit in the header's "
-        "brackets holds, and without that mm and micrometres (degrees and arc seconds).",
-    )
-    delimiter: Literal[",", ";", "\t", "comma", "semicolon", "tab"] | None = Field(
-        None, description="What parts the columns; told apart if not stated."
-    )
-    decimal: Literal[".", ",", "point", "comma"] | None = Field(
-        None, description="The decimal sign; told apart if not stated."
+        description="Units by column: {target: inch, deviation: mm}. Without it the unit behind the number, "
+        "in the header's brackets or in a row below the header holds, and without that mm and micrometres "
+        "(degrees and arc seconds).",
     )
     sign: Literal["actual-nominal", "nominal-actual"] = Field(
         "actual-nominal", description="How the file forms its deviations; no file tells."
     )
-    direction: Literal["+", "-", "up", "down", "forward", "reverse"] | None = Field(
-        None, description="Direction of all readings, where the file names none."
-    )
-    lines: tuple[Annotated[int, Field(ge=1)], Annotated[int, Field(ge=1)]] | None = Field(
-        None, description="First line (the header) and last line of the table, where the file holds more."
-    )
-    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
-        None, description="Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
-    )
 
-    @field_validator("columns")
     @classmethod
-    def _columns_are_known(cls, columns: dict[str, str]) -> dict[str, str]:
-        for name in columns:
-            if folded(name) not in COLUMN_NAMES and run_and_direction(name) is None:
-                raise ValueError(
-                    f"{name!r} is no column of a measurement file; {did_you_mean(name, COLUMN_NAMES)}"
-                )
-        return columns
-
-    @field_validator("units")
-    @classmethod
-    def _units_are_of_columns(cls, units: dict[str, str]) -> dict[str, str]:
-        for name, spelling in units.items():
-            if name not in _UNITS:
-                raise ValueError(f"{name!r} is no column with a unit; {did_you_mean(name, list(_UNITS))}")
-            unit_named(spelling, _UNITS[name])
-        return units
+    def knows_column(cls, name: str) -> bool:
+        """Whether a job may name a column so."""
+        return super().knows_column(name) or run_and_direction(name) is not None
 
     @model_validator(mode="after")
-    def _keys_agree(self) -> Self:
+    def _layout_agrees(self) -> Self:
         if self.layout == "long" and self.values == "position":
             raise ValueError("'values' is for 'layout: wide'; a long table has a column 'position' instead")
-        if self.lines and self.lines[0] >= self.lines[1]:
-            raise ValueError("'lines' names the header's line and the last line; the second is the larger")
+        if self.layout == "wide" and (self.runs or self.is_by_order):
+            raise ValueError(
+                "'runs: counted' and 'direction: by-order' are for 'layout: long'; the columns of a wide "
+                "table tell run and direction"
+            )
         return self
 
     @property
-    def stated_delimiter(self) -> str | None:
-        """The delimiter that the job states."""
-        return _DELIMITERS.get(self.delimiter, self.delimiter) if self.delimiter else None
+    def tables(self) -> tuple[LaserCsvOptions, ...]:
+        """The keys of each table of the file: one, where the job states no parts."""
+        if not self.parts:
+            return (self,)
+        stated = ({name: getattr(part, name) for name in part.model_fields_set} for part in self.parts)
+        return tuple(self.model_copy(update=each) for each in stated)
 
     @property
-    def stated_decimal_sign(self) -> DecimalSign | None:
-        """The decimal sign that the job states."""
-        if self.decimal is None:
-            return None
-        return DecimalSign.COMMA if self.decimal in {",", "comma"} else DecimalSign.POINT
+    def is_by_order(self) -> bool:
+        """Whether the order of the rows tells the directions, of one table at least."""
+        return any(part.direction == "by-order" for part in (self, *self.parts))
 
     @property
     def stated_direction(self) -> Approach | None:
         """The direction of all readings that the job states."""
-        return direction(self.direction) if self.direction else None
+        return None if self.direction in {None, "by-order"} else direction(self.direction)

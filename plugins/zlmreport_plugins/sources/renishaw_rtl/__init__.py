@@ -13,28 +13,29 @@ from zlmreport.plugin import (
     MILLIRADIAN,
     POSITION_UNITS,
     AxisKind,
-    DataSource,
     InputError,
     JobPath,
     MeasurementSet,
     Options,
     Place,
     Problem,
+    Unit,
+    Words,
+    hookimpl,
+    quoted,
+    same_in_all_languages,
+    unit_named,
+)
+from zlmreport.plugin.source import (
+    DataSource,
     Provenance,
     Reading,
     SourceContext,
     TextFile,
-    Unit,
-    Words,
     collect_readings,
-    hookimpl,
     known_encoding,
     parse_number,
-    position_units,
-    quoted,
     read_text,
-    same_in_all_languages,
-    unit_named,
 )
 from zlmreport_plugins.sources.renishaw_rtl.contents import (
     Deviation,
@@ -228,7 +229,7 @@ def _deviation_unit(options: RenishawRtlOptions, context: SourceContext) -> Unit
     if options.deviation_unit is None:
         return _UNITS[context.axis.kind]
     try:
-        return unit_named(options.deviation_unit, position_units(context.axis.kind))
+        return unit_named(options.deviation_unit, context.axis.deviation_units)
     except ValueError as error:
         raise InputError.at(context.place, f"deviation_unit: {error}") from error
 

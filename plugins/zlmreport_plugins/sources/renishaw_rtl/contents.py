@@ -9,16 +9,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from zlmreport.plugin import (
-    Approach,
-    InputError,
-    Place,
-    Problem,
-    TextFile,
-    did_you_mean,
-    parse_number,
-    quoted,
-)
+from zlmreport.plugin import Approach, InputError, Place, Problem, did_you_mean, quoted
+from zlmreport.plugin.source import TextFile, parse_number
 
 _HEAD = re.compile(r"([A-Z][A-Z0-9 -]*)::")
 

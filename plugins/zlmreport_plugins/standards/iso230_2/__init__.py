@@ -14,23 +14,29 @@ import math
 from collections.abc import Iterable, Iterator
 
 from zlmreport.plugin import (
-    Arithmetic,
+    ANGLE,
+    POSITIONING,
     Axis,
     AxisKind,
-    Basis,
+    ErrorSymbol,
     Evaluation,
     Figure,
-    Finding,
-    Information,
+    Measurand,
     MeasurementSet,
     Options,
+    Words,
+    hookimpl,
+)
+from zlmreport.plugin.standard import (
+    Arithmetic,
+    Basis,
+    Finding,
+    Information,
     PositionStatistics,
     Standard,
-    Words,
     both_directions,
     exceeds,
     fewest_runs,
-    hookimpl,
     mean_interval,
     measured_length,
     no_missing_readings,
@@ -184,6 +190,14 @@ _SOURCE = Words(
 )
 
 
+_OF_ANGLES = Words(
+    "This standard is on positioning: its formulas are applied to angles, as is usual, and nothing else of "
+    "it.",
+    "Diese Norm gilt der Positionierung: auf Winkel sind, wie üblich, ihre Formeln angewandt und sonst "
+    "nichts von ihr.",
+)
+
+
 def notes(edition: Edition) -> tuple[Words, ...]:
     """Return the notes of an edition."""
     general = (_FULL_WIDTHS.given(k=edition.coverage_factor), _REPEATABILITY)
@@ -202,14 +216,22 @@ class Iso230Part2:
     options = Options
     information = tuple(Information)
 
-    def __init__(self, edition: Edition) -> None:
+    measurands = (POSITIONING, ANGLE)
+
+    def __init__(self, edition: Edition, *, of_angle: bool = False) -> None:
         self.edition = edition
         self.identifier = f"iso230-2:{edition.year}"
         self.designation = f"ISO 230-2:{edition.year}"
         self.position_index = edition.position_index
-        self.quantities = editions.parameters(edition)
+        self.quantities = editions.parameters(edition, of_angle=of_angle)
         self.position_quantities = editions.by_position(edition)
-        self.notes = notes(edition)
+        self.notes = (*((_OF_ANGLES,) if of_angle else ()), *notes(edition))
+
+    def of_error(self, error: ErrorSymbol | Measurand) -> Iso230Part2:
+        """Return the edition as it evaluates an error: the angles of an axis by the same formulas."""
+        measurand = error if isinstance(error, Measurand) else error.measurand
+        of_angle = measurand.identifier == ANGLE.identifier
+        return Iso230Part2(self.edition, of_angle=True) if of_angle else self
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold the edition's test design against the test."""

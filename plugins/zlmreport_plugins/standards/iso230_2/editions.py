@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from zlmreport.plugin import Basis, PositionQuantity, Quantity, QuantityGroup, Words
+from zlmreport.plugin import Words
+from zlmreport.plugin.standard import Basis, PositionQuantity, Quantity, QuantityGroup
 
 _SINCE_1988 = {
     "A": Words("Bidirectional accuracy of positioning", "Zweiseitige Positioniergenauigkeit"),
@@ -91,6 +92,48 @@ _SINCE_2014 = _SINCE_2006 | {
 #: The names by year of the edition, then by symbol.
 NAMES = {1988: _SINCE_1988, 1997: _SINCE_1988, 2006: _SINCE_2006, 2014: _SINCE_2014}
 
+
+_OF_ANGLES = {
+    "A": Words("Bidirectional accuracy of the angle", "Zweiseitige Genauigkeit des Winkels"),
+    "E": Words("Bidirectional systematic angular error", "Zweiseitige systematische Winkelabweichung"),
+    "M": Words(
+        "Range of the mean bidirectional angular error",
+        "Spannweite der mittleren zweiseitigen Winkelabweichung",
+    ),
+    "R": Words("Bidirectional repeatability of the angle", "Zweiseitige Wiederholpräzision des Winkels"),
+    "B": Words("Reversal error of the angle", "Umkehrspanne des Winkels"),
+    "B_mean": Words("Mean reversal error of the angle", "Mittlere Umkehrspanne des Winkels"),
+    "A_fwd": Words(
+        "Accuracy of the angle, positive direction",
+        "Genauigkeit des Winkels, positive Richtung",
+    ),
+    "A_bwd": Words(
+        "Accuracy of the angle, negative direction",
+        "Genauigkeit des Winkels, negative Richtung",
+    ),
+    "E_fwd": Words(
+        "Systematic angular error, positive direction",
+        "Systematische Winkelabweichung, positive Richtung",
+    ),
+    "E_bwd": Words(
+        "Systematic angular error, negative direction",
+        "Systematische Winkelabweichung, negative Richtung",
+    ),
+    "R_fwd": Words(
+        "Repeatability of the angle, positive direction",
+        "Wiederholpräzision des Winkels, positive Richtung",
+    ),
+    "R_bwd": Words(
+        "Repeatability of the angle, negative direction",
+        "Wiederholpräzision des Winkels, negative Richtung",
+    ),
+}
+_TURN = Words(
+    "How far the moving component turns, by the formula of the positioning error: on an arm of 100 mm 1″ is "
+    "0.485 µm.",
+    "Wie weit sich die bewegte Baugruppe dreht, nach der Formel der Positionierabweichung: an einem Arm von "
+    "100 mm ist 1″ 0,485 µm.",
+)
 
 _ALWAYS_POSITIVE = Words(
     "all positions are approached in the positive direction",
@@ -234,16 +277,19 @@ EDITIONS = (
 )
 
 
-def parameters(edition: Edition) -> tuple[Quantity, ...]:
-    """Return the parameters of the axis in the order of the results table."""
+def parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quantity, ...]:
+    """Return the parameters of the axis in the order of the results table.
+
+    `of_angle`: Whether they are those of an angular error, of which the standard has the formulas only.
+    """
     return tuple(
         Quantity(
             symbol=symbol,
             notation=_NOTATIONS.get(symbol, symbol),
-            name=NAMES[edition.year][symbol],
+            name=_OF_ANGLES[symbol] if of_angle else NAMES[edition.year][symbol],
             group=_GROUPS[symbol[0]],
             formula=formula,
-            meaning=MEANINGS[symbol],
+            meaning=_TURN if of_angle else MEANINGS[symbol],
             printed_sign=_printed_sign(edition, symbol),
         )
         for symbol, formula in _formulas(edition).items()

@@ -6,20 +6,17 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from zlmreport.plugin import (
+from zlmreport.plugin import Approach, Evaluation, Figure, Words
+from zlmreport.plugin.standard import (
     APPROACH_TITLES,
     LIMIT_ROLES,
     MEAN_ROLES,
-    Approach,
     Arrow,
     Band,
     Curve,
     Diagram,
-    Evaluation,
-    Figure,
     Panel,
     Role,
-    Words,
     alternative_text,
     diagram_panel,
     graph_in_words,

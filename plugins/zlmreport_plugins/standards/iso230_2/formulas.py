@@ -13,8 +13,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from zlmreport.plugin import (
-    FloatArray,
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.standard import (
     PositionStatistics,
     largest_over_positions,
     mean_over_positions,

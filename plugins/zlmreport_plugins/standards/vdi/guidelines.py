@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from zlmreport.plugin import PositionQuantity, Quantity, QuantityGroup, Words
+from zlmreport.plugin import Words
+from zlmreport.plugin.standard import PositionQuantity, Quantity, QuantityGroup
 
 #: VDI/DGQ 3441, by symbol.
 OF_A_PART_MADE = {

@@ -36,6 +36,10 @@ COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProx
         "fleet report": ("write the overview of a fleet: who fails, who drifts", documents.fleet_report),
         "init": ("write a commented job with sample data that runs as it is", documents.init),
         "look": ("say what a file of measurements holds, and the keys that read it", documents.look),
+        "machine": (
+            "hold a machine against its tests: what its axes predict, what they lack",
+            documents.machine,
+        ),
         "model": (
             "fit a job's error model, find what it lacks, add it, watch the error fall",
             documents.model,
@@ -64,6 +68,21 @@ COMMANDS: Mapping[str, tuple[str, Callable[[str], CommandParser]]] = MappingProx
 )
 
 
+#: What somebody wants, and the command for it: for those who typed none.
+_WANTED = (
+    ("init first", "a job with sample data, to begin with"),
+    ("init --from FILE first", "a job that reads your own table"),
+    ("JOB.yaml", "its certificate"),
+    ("model build JOB.yaml", "what causes the deviations"),
+    ("workbench JOB.yaml", "the same with a mouse, in the browser"),
+    ("machine diagnose MACHINE.yaml", "what a circle says of the axes"),
+    ("compensate JOB.yaml", "a table that takes them away"),
+    ("verify FILE.pdf", "whether a certificate holds"),
+    ("fleet FLEET.yaml", "certificates of many machines"),
+    ("--help", "all commands"),
+)
+
+
 def parsers() -> tuple[CommandParser, ...]:
     """Return the parser of the main job, and then of every command."""
     return tuple(parser_for(command) for command in ("", *COMMANDS))
@@ -80,6 +99,8 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     Raises `InputError` if there is no such command or option, with the nearest that there is; `SystemExit`
     after ``--help`` and ``--version`` have been printed.
     """
+    if not arguments:
+        raise InputError.at(Place("zlmreport"), _overview())
     words = 2 if " ".join(arguments[:2]) in COMMANDS else 1
     if _may_be_an_extensions(arguments):
         from zlmreport.cli.extension import command_of_extension, parser_of
@@ -93,11 +114,19 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
         options = parser.parse_strictly(rest)
         if command == "model":
             documents.demand_model_action(options, parser)
+        if command == "machine":
+            documents.demand_machine_action(options, parser)
         return command, options
     options = parser_for("").parse_strictly(arguments)
     for job in options.jobs:
         _refuse_mistaken_command(job)
     return MAIN_JOB, options
+
+
+def _overview() -> str:
+    wide = max(len(command) for command, _ in _WANTED)
+    lines = (f"  zlmreport {command:{wide}}  {result}" for command, result in _WANTED)
+    return "\n".join(("name a job, or say what you want:", *lines))
 
 
 def _may_be_an_extensions(arguments: Sequence[str]) -> bool:

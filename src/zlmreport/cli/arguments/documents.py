@@ -27,10 +27,21 @@ exit codes: 0 done; 1 done, but a limit is not met (only with --fail-on-nonconfo
 MODEL_ACTIONS = {
     "fit": "the parameters with their uncertainties, and the error that is left",
     "diagnose": "where the model fails, and which effect is missing",
+    "build": "all of it in one go: add what has evidence of its own, step by step",
     "add": "write an effect into the job, and show the error before and after",
     "remove": "take an effect out of the job, and show the same",
     "history": "how the error fell, effect by effect",
     "learn": "from a folder of earlier tests: the file for model.priors of a job",
+}
+MACHINE_ACTIONS = {
+    "predict": "what the axes predict of each test, of the work space and of its diagonals",
+    "check": "what is known of the 21 errors, what is not, and which tests there are",
+    "diagnose": "where circles differ from what is predicted, and which effect is missing",
+    "plan": "the next run of a ballbar: what it decides, in how many minutes, how likely",
+    "build": "add effects as long as each has evidence of its own, and write them into the file",
+    "certificate": "write the document: errors, map, circles predicted and measured, verdict",
+    "add": "write an effect into the machine file, and show the error before and after",
+    "remove": "take an effect out of the machine file, and show the same",
 }
 _MOST_WORKERS = 1024
 
@@ -96,6 +107,7 @@ def init(command: str) -> CommandParser:
         type=Path,
         help="measurements that there are: a job that reads them is written instead (see zlmreport look)",
     )
+    _add_sheet(parser)
     return parser
 
 
@@ -104,11 +116,20 @@ def look(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Say what a file of measurements holds, what only its author can say of it, and the source:\n"
-        "block of a job that reads it. A workbook is saved as CSV first.",
-        "example:\n  zlmreport look x-axis.csv\n  zlmreport init --from x-axis.csv job",
+        "block of a job that reads it as it is: text in any usual encoding, or a workbook (.xlsx); with\n"
+        "lines above and below the table, a row of units, on its side, long or wide.",
+        "examples:\n  zlmreport look x-axis.csv\n  zlmreport look protocol.xlsx --sheet Readings\n"
+        "  zlmreport init --from x-axis.csv job",
     )
     parser.add_argument("file", metavar="FILE", type=Path, help="a table, or a file of an instrument")
+    _add_sheet(parser)
     return parser
+
+
+def _add_sheet(parser: CommandParser) -> None:
+    parser.add_argument(
+        "--sheet", metavar="NAME", default="", help="the sheet of a workbook; without it the likeliest one"
+    )
 
 
 def new(command: str) -> CommandParser:
@@ -165,13 +186,16 @@ def verify(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Evaluate a certificate again from the job and the readings that it carries, print it again, and\n"
-        "say for every number, page and attached file whether it holds. Nothing is written.",
+        "say for every number, page and attached file whether it holds. Nothing is written. A file that\n"
+        "was made beside a PDF (json, xml, html, csv, xlsx) is held against the PDF of its name beside it.",
         "example:\n  zlmreport verify CAL-2026-0117.pdf\n\n"
         "exit codes: 0 everything holds; 1 something does not; 2 the file is no certificate of zlmreport,\n"
         "or cannot be evaluated here; 3 the file cannot be read; 5 not decided: something could not be\n"
         "compared here",
     )
-    parser.add_argument("certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not")
+    parser.add_argument(
+        "certificate", metavar="FILE.pdf", type=Path, help="certificate, signed or not, or a file of one"
+    )
     parser.flag("--json", "print every finding as JSON")
     parser.add_argument(
         "--trusted",
@@ -199,6 +223,7 @@ def model(command: str) -> CommandParser:
         "makes no sense or explains nothing.",
         "examples:\n"
         "  zlmreport model diagnose configs/hidden-effect/job.yaml\n"
+        "  zlmreport model build x-axis.yaml --dry-run\n"
         "  zlmreport model add x-axis.yaml screw-pitch\n"
         "  zlmreport model add x-axis.yaml 'polynomial: {order: 5}'\n"
         "  zlmreport model learn earlier -o priors.yaml",
@@ -223,6 +248,7 @@ def model(command: str) -> CommandParser:
     parser.add_argument(
         "-o", "--output", metavar="FILE", type=Path, help="of learn: the file; without it, it is printed"
     )
+    parser.flag("--dry-run", "of build: show what would be added, and leave the job as it is")
     parser.flag("--json", "print the values in full precision as JSON")
     return parser
 
@@ -240,8 +266,53 @@ def demand_model_action(options: argparse.Namespace, parser: CommandParser) -> N
         parser.error(f"--at belongs to fit, not to {options.action}")
     if options.output and options.action != "learn":
         parser.error(f"--output belongs to learn, not to {options.action}")
+    if options.dry_run and options.action != "build":
+        parser.error(f"--dry-run belongs to build, not to {options.action}")
     if not takes_effect and options.effect:
         parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
+
+
+def machine(command: str) -> CommandParser:
+    """Return the parser of ``zlmreport machine``."""
+    parser = CommandParser(
+        f"zlmreport {command}",
+        "Hold a whole machine against its tests:\n\n"
+        + "\n".join(f"  {action:12} {text}" for action, text in MACHINE_ACTIONS.items()),
+        "examples:\n  zlmreport machine predict configs/machine/machine.yaml",
+    )
+    parser.add_argument("action", metavar="ACTION", help=", ".join(MACHINE_ACTIONS))
+    parser.add_argument("job", metavar="MACHINE.yaml", type=Path, help="machine file")
+    parser.add_argument(
+        "effect", metavar="EFFECT", nargs="?", default="", help="of add and remove: an effect of circles"
+    )
+    parser.add_argument(
+        "-o",
+        "--output",
+        metavar="DIR",
+        type=Path,
+        help="of certificate: folder; out beside the file without it",
+    )
+    parser.add_argument(
+        "--format", metavar="F,F", help="of certificate: formats, parted by commas; without it pdf,json"
+    )
+    parser.flag("--dry-run", "of build: write nothing")
+    parser.flag("--json", "print the values in full precision as JSON")
+    return parser
+
+
+def demand_machine_action(options: argparse.Namespace, parser: CommandParser) -> None:
+    """Refuse an action that there is not."""
+    if options.action not in MACHINE_ACTIONS:
+        parser.error(
+            f"unknown action {options.action!r}; {did_you_mean(options.action, list(MACHINE_ACTIONS))}"
+        )
+    takes_effect = options.action in {"add", "remove"}
+    if takes_effect and not options.effect.strip():
+        parser.error(f"{options.action} needs the name of an effect, such as servo-mismatch")
+    if not takes_effect and options.effect:
+        parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
+    if options.dry_run and options.action != "build":
+        parser.error(f"--dry-run belongs to build, not to {options.action}")
 
 
 def surface(command: str) -> CommandParser:

@@ -30,6 +30,7 @@ def plan(command: str) -> CommandParser:
         "  zlmreport plan x-axis.yaml --decide screw-pitch",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    _add_test(parser)
     parser.add_argument(
         "--decide",
         metavar="E,E",
@@ -201,6 +202,10 @@ def simulate(command: str) -> CommandParser:
     return parser
 
 
+def _add_test(parser: CommandParser) -> None:
+    parser.add_argument("--test", metavar="NAME", help="of several measured lines of the job, this one")
+
+
 def capture(command: str) -> CommandParser:
     """Return the parser of ``zlmreport capture``."""
     parser = CommandParser(
@@ -216,6 +221,7 @@ def capture(command: str) -> CommandParser:
         "  zlmreport capture x-axis.yaml --end && zlmreport x-axis.yaml",
     )
     parser.add_argument("job", metavar="JOB.yaml", type=Path, help="job file")
+    _add_test(parser)
     parser.flag("--resume", "go on with a capture that was interrupted, from its journal")
     parser.add_argument(
         "--answer",

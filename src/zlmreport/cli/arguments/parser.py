@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from zlmreport.errors import InputError, Place, did_you_mean
 
 JSON_HELP = "print a machine-readable summary (zlmreport/summary/1) instead of tables"
-#: As `zlmreport.emulation.emulator` knows them; a test holds the two together.
+#: As `zlmreport.live.emulation.emulator` knows them; a test holds the two together.
 FAULTS = ("lost-beam", "skipped", "error", "garbled", "unplugged")
 
 

@@ -1,0 +1,48 @@
+"""The effects of drives and structure on circles that come with zlmreport."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from zlmreport.plugin import hookimpl
+from zlmreport.plugin.circle_effect import CircleEffect
+from zlmreport_plugins.circle_effects.drives import (
+    DriveCompliance,
+    DynamicCrossTalk,
+    ServoLag,
+    ServoMismatch,
+)
+from zlmreport_plugins.circle_effects.geometry import Bow, CyclicError, ScaleMismatch, Squareness
+from zlmreport_plugins.circle_effects.reversals import (
+    CircleBacklash,
+    LateralPlay,
+    OverCompensation,
+    ReversalSpikes,
+    StickSlip,
+)
+from zlmreport_plugins.circle_effects.set_up import CentreOffset, Radius, RadiusDrift
+from zlmreport_plugins.circle_effects.vibration import Vibration
+
+
+@hookimpl
+def zlmreport_circle_effects() -> Iterable[CircleEffect]:
+    """Return all of them: of the set-up, of geometry, of drives, at reversals, in time."""
+    return (
+        CentreOffset(),
+        Radius(),
+        RadiusDrift(),
+        ScaleMismatch(),
+        Squareness(),
+        Bow(),
+        CyclicError(),
+        ServoLag(),
+        ServoMismatch(),
+        DynamicCrossTalk(),
+        DriveCompliance(),
+        CircleBacklash(),
+        OverCompensation(),
+        LateralPlay(),
+        ReversalSpikes(),
+        StickSlip(),
+        Vibration(),
+    )

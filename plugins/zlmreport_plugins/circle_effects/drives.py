@@ -1,0 +1,149 @@
+"""What drives make of a circle: lags that shrink and turn it, and what gives way to acceleration."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from zlmreport.plugin import Words
+from zlmreport.plugin.circle_effect import (
+    MILLISECOND,
+    PER_ACCELERATION,
+    SQUARE_MILLISECOND,
+    CircleDesign,
+    CircleEffect,
+    CircleTerm,
+    Estimate,
+    Law,
+    Parity,
+    Searched,
+    pair_words,
+)
+from zlmreport_plugins.circle_effects.shared import differences
+
+
+class ServoLag(CircleEffect):
+    """−(T_s² + T_p²)·F²/(2R); T_s of smoothing, T_p of the position loop (JSPE 54 (1988) 1113)."""
+
+    identifier = "servo-lag"
+    title = Words(en="Servo lag", de="Schleppabstand")
+    equation = "−T²·F²/(2R)"
+    explains = Words(
+        en="both drives follow with the same delay: the circle shrinks with the square of the feed",
+        de="beide Antriebe folgen mit gleicher Verzögerung: Der Kreis schrumpft mit dem Quadrat des "
+        "Vorschubs",
+    )
+    law = Law(Parity.EVEN, feed=2.0, radius=-1.0)
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return T²."""
+        return [
+            CircleTerm(
+                "T²", SQUARE_MILLISECOND, -design.centripetal / 2.0, low=0.0, high=0.15**2, usual=0.03**2
+            )
+        ]
+
+
+class ServoMismatch(CircleEffect):
+    """½s·F·(T_u − T_v)·sin2θ; T the lag of an axis."""
+
+    identifier = "servo-mismatch"
+    title = Words(en="Servo mismatch", de="Unterschied der Schleppabstände")
+    equation = "½·s·F·(T₁ − T₂)·sin 2θ"
+    explains = Words(en="one drive lags behind the other", de="ein Antrieb läuft dem anderen nach")
+    law = Law(Parity.ODD, feed=1.0)
+    is_asked_for = True
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return the difference of lags of neighbouring axes."""
+        terms = []
+        for name, share in differences(design):
+            lag = share[design.first] - share[design.second]
+            column = 0.5 * design.sense * design.feed * lag * np.sin(2 * design.angle)
+            one, other = name.split("-")
+            terms.append(
+                CircleTerm(f"T_{one}-T_{other}", MILLISECOND, column, low=-0.05, high=0.05, usual=1e-3)
+            )
+        return terms
+
+    def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say who lags behind whom."""
+        for each in estimates:
+            early, late = _axes(each)
+            early, late = (early, late) if each.value < 0 else (late, early)
+            time, u = _pair(each, abs(each.value))
+            yield _LAGS.given(late=late, early=early, time=time, u=u)
+
+    def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say that drives follow alike."""
+        for each in estimates:
+            one, other = _axes(each)
+            time, u = _pair(each, each.value)
+            yield _ALIKE.given(one=one, other=other, time=time, u=u)
+
+
+def _axes(estimate: Estimate) -> list[str]:
+    return estimate.name.replace("T_", "").split("-")
+
+
+def _pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
+    return pair_words(estimate.unit.from_si(value), estimate.unit.from_si(estimate.expanded_uncertainty))
+
+
+_LAGS = Words(
+    en="{late} lags behind {early} by {time} ± {u} ms",
+    de="{late} läuft {early} um {time} ± {u} ms nach",
+)
+_ALIKE = Words(
+    en="{one} and {other} follow alike: their lags differ by {time} ± {u} ms",
+    de="{one} und {other} folgen gleich schnell: Ihre Verzögerungen unterscheiden sich um {time} ± {u} ms",
+)
+
+
+class DynamicCrossTalk(CircleEffect):
+    """½c·(F²/R)·sin2θ: an axis that accelerates bends the machine across."""
+
+    identifier = "dynamic-cross-talk"
+    title = Words(en="Dynamic cross-talk", de="Dynamisches Übersprechen")
+    equation = "½·c·(F²/R)·sin 2θ"
+    explains = Words(
+        en="the acceleration of an axis bends the machine across it",
+        de="die Beschleunigung einer Achse biegt die Maschine quer dazu",
+    )
+    law = Law(Parity.EVEN, feed=2.0, radius=-1.0)
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return the compliance c of each plane."""
+        return [
+            CircleTerm(
+                plane, PER_ACCELERATION,
+                0.5 * design.centripetal * np.sin(2 * design.angle) * design.is_plane(plane),
+                low=-1e-4, high=1e-4, usual=1e-5,
+            )
+            for plane in design.planes
+        ]  # fmt: skip
+
+
+class DriveCompliance(CircleEffect):
+    """(F²/R)·(k_u·cos²θ + k_v·sin²θ): a drive that gives way to the acceleration of its axis."""
+
+    identifier = "drive-compliance"
+    title = Words(en="Drive compliance", de="Nachgiebigkeit der Antriebe")
+    equation = "½·(F²/R)·(k₁ − k₂)·cos 2θ"
+    explains = Words(
+        en="a drive gives way to the acceleration of its axis",
+        de="ein Antrieb gibt der Beschleunigung seiner Achse nach",
+    )
+    law = Law(Parity.EVEN, feed=2.0, radius=-1.0)
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return the difference of compliances of neighbouring axes."""
+        return [
+            CircleTerm(
+                name, PER_ACCELERATION,
+                design.centripetal * sum(share[axis] * design.wave(axis) ** 2 for axis in design.axes),
+                low=-1e-4, high=1e-4, usual=1e-5,
+            )
+            for name, share in differences(design)
+        ]  # fmt: skip

@@ -1,0 +1,211 @@
+"""What the geometry of a machine makes of a circle, alike in both senses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from zlmreport.plugin import ARCSECOND, MICROMETRE, MICROMETRE_PER_METRE, MILLIMETRE, FloatArray, Words
+from zlmreport.plugin.circle_effect import (
+    AXES,
+    ONE,
+    CircleDesign,
+    CircleEffect,
+    CircleTerm,
+    Estimate,
+    Law,
+    Parity,
+    Searched,
+    SearchedParameter,
+    pair_words,
+)
+from zlmreport_plugins.circle_effects.shared import differences
+
+
+class ScaleMismatch(CircleEffect):
+    """R·(α_u·cos²θ + α_v·sin²θ): ½R(α_u − α_v)·cos2θ in one plane."""
+
+    identifier = "scale-mismatch"
+    title = Words(en="Scale mismatch", de="Maßstabsunterschied")
+    equation = "½·R·(α₁ − α₂)·cos 2θ"
+    explains = Words(en="the scales of the axes differ", de="die Maßstäbe der Achsen unterscheiden sich")
+    law = Law(Parity.EVEN, radius=1.0)
+    is_asked_for = True
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return the difference of scales of neighbouring axes."""
+        return [
+            CircleTerm(
+                name, MICROMETRE_PER_METRE,
+                design.radius * sum(share[axis] * design.wave(axis) ** 2 for axis in design.axes),
+                low=-1e-3, high=1e-3, usual=20e-6,
+            )
+            for name, share in differences(design)
+        ]  # fmt: skip
+
+    def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say whose scale is longer."""
+        for each in estimates:
+            one, other = each.name.split("-")
+            longer, shorter = (one, other) if each.value > 0 else (other, one)
+            value, u = _pair(each, abs(each.value))
+            yield _LONGER.given(longer=longer, shorter=shorter, value=value, u=u)
+
+    def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say that scales agree."""
+        for each in estimates:
+            one, other = each.name.split("-")
+            value, u = _pair(each, each.value)
+            yield _AGREE.given(one=one, other=other, value=value, u=u)
+
+
+def _pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
+    unit = estimate.unit
+    return pair_words(unit.from_si(value), unit.from_si(estimate.expanded_uncertainty))
+
+
+_LONGER = Words(
+    en="the scale of {longer} is longer than that of {shorter} by {value} ± {u} µm/m",
+    de="der Maßstab von {longer} ist um {value} ± {u} µm/m länger als der von {shorter}",
+)
+_AGREE = Words(
+    en="the scales of {one} and {other} agree: they differ by {value} ± {u} µm/m",
+    de="die Maßstäbe von {one} und {other} stimmen überein: Sie unterscheiden sich um {value} ± {u} µm/m",
+)
+
+#: The squareness error of a plane, its axes, and the sign with which it turns sin 2θ.
+_SQUARENESS = {"XY": ("C0Y", -1.0), "YZ": ("A0Z", -1.0), "ZX": ("B0Z", 1.0)}
+
+
+class Squareness(CircleEffect):
+    """−½R·C0Y·sin2θ in XY, −½R·A0Z·sin2θ in YZ, +½R·B0Z·sin2θ in ZX."""
+
+    identifier = "squareness"
+    title = Words(en="Squareness", de="Rechtwinkligkeit")
+    equation = "−½·R·C0Y·sin 2θ"
+    explains = Words(
+        en="the axes are not square, or less so than was measured",
+        de="die Achsen stehen nicht rechtwinklig, oder anders als gemessen",
+    )
+    law = Law(Parity.EVEN, radius=1.0)
+    is_asked_for = True
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return the squareness error of each plane."""
+        return [
+            CircleTerm(
+                name, ARCSECOND,
+                0.5 * sign * design.radius * np.sin(2 * design.angle) * design.is_plane(plane),
+                low=-2e-3, high=2e-3, usual=20e-6,
+            )
+            for plane, (name, sign) in _SQUARENESS.items()
+            if plane in design.planes
+        ]  # fmt: skip
+
+    def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say how far the axes are out of square."""
+        yield from _of_planes(estimates, _OUT_OF_SQUARE)
+
+    def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say that the axes are square."""
+        yield from _of_planes(estimates, _SQUARE)
+
+
+def _of_planes(estimates: Sequence[Estimate], words: Words) -> Iterator[Words]:
+    planes = {name: plane for plane, (name, _) in _SQUARENESS.items()}
+    for each in estimates:
+        value, u = _pair(each, each.value)
+        plane = planes[each.name]
+        yield words.given(one=plane[0], other=plane[1], name=each.name, value=value, u=u)
+
+
+_OUT_OF_SQUARE = Words(
+    en="{one} and {other} are out of square: {name} ({value} ± {u})″ beyond what the axes' errors hold",
+    de="{one} und {other} stehen nicht rechtwinklig: {name} ({value} ± {u})″ über das hinaus, was die "
+    "Abweichungen der Achsen enthalten",
+)
+_SQUARE = Words(
+    en="{one} and {other} are square: {name} ({value} ± {u})″ beyond what the axes' errors hold",
+    de="{one} und {other} stehen rechtwinklig: {name} ({value} ± {u})″ über das hinaus, was die "
+    "Abweichungen der Achsen enthalten",
+)
+
+#: Powers of the coordinate to which guides bend.
+_POWERS = (2.0, 3.0, 4.0)
+
+
+class Bow(CircleEffect):
+    """k·(x/R₀)ⁿ·sinθ and k·(y/R₀)ⁿ·cosθ, n = 2, 3, 4; R₀ is the largest radius.
+
+    A bow of a scale (EXX) makes the same of a circle as one of the other guide.
+    """
+
+    identifier = "bow"
+    title = Words(en="Bow", de="Krümmung")
+    equation = "k·(x/R₀)^n·sinθ; k·(y/R₀)^n·cosθ; n = 2, 3, 4"
+    explains = Words(
+        en="a guide is bent, or the other axis' scale is, which is one thing on a circle",
+        de="eine Führung ist krumm oder der Maßstab der anderen Achse; auf dem Kreis ist das dasselbe",
+    )
+    law = Law(Parity.EVEN, radius=None)
+    searched = (SearchedParameter("power", ONE),)
+    is_single = True
+
+    def grid(self, _: CircleDesign) -> list[Searched]:
+        """Return the powers."""
+        return [(power,) for power in _POWERS]
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return the bow of the guide of each axis."""
+        share = design.radius / float(design.radius.max())
+        return [
+            CircleTerm(
+                f"guide of {AXES[axis]}", MICROMETRE,
+                (share * design.wave(axis)) ** searched[0] * design.other_wave(axis),
+                low=-3e-4, high=3e-4, usual=5e-6,
+            )
+            for axis in design.axes
+        ]  # fmt: skip
+
+
+#: Periods of a cyclic error over the diameter of the circle: from few to as many as the readings resolve.
+_FEWEST_PERIODS, _STEP_OF_PERIODS, _MOST_PERIODS = 3.0, 0.4, 40.0
+
+
+class CyclicError(CircleEffect):
+    """cosθ·(p·sin + q·cos)(2π·x/P), x = x₀ + R·cosθ: periodic in the position of an axis."""
+
+    identifier = "cyclic-error"
+    title = Words(en="Cyclic error", de="Periodischer Fehler")
+    equation = "cosθ·(p·sin + q·cos)(2π·x/P); Y likewise"
+    explains = Words(
+        en="an error that repeats with the position of an axis: screw pitch, scale",
+        de="ein Fehler, der sich mit der Position einer Achse wiederholt: Spindelsteigung, Maßstab",
+    )
+    law = Law(Parity.EVEN, radius=None)
+    searched = (SearchedParameter("pitch", MILLIMETRE, is_refined=True),)
+
+    def grid(self, design: CircleDesign) -> list[Searched]:
+        """Return pitches that the readings resolve: 4πR/P readings a turn at least."""
+        largest, smallest = float(design.radius.max()), float(design.radius.min())
+        most = min(design.fewest_of_a_turn / (2.0 * np.pi), _MOST_PERIODS) * smallest / largest
+        periods = np.arange(_FEWEST_PERIODS, max(most, _FEWEST_PERIODS + 0.1), _STEP_OF_PERIODS)
+        return [(2.0 * largest / each,) for each in periods.tolist()]
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return sine and cosine of each axis."""
+        centres = np.array([each.nominal.centre for each in design.tests])[design.test]
+        terms: list[CircleTerm] = []
+        for axis in design.axes:
+            wave = design.wave(axis)
+            phase = 2.0 * np.pi * (centres[:, axis] + design.radius * wave) / searched[0]
+            terms += _sine_and_cosine(AXES[axis], wave, phase)
+        return terms
+
+
+def _sine_and_cosine(axis: str, wave: FloatArray, phase: FloatArray) -> list[CircleTerm]:
+    return [
+        CircleTerm(f"{axis} {name}", MICROMETRE, wave * turned, axis, low=-1e-4, high=1e-4, usual=2e-6)
+        for name, turned in (("sin", np.sin(phase)), ("cos", np.cos(phase)))
+    ]

@@ -1,0 +1,242 @@
+"""What happens where an axis turns: lost motion, play across, spikes, stick-slip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from itertools import product
+
+import numpy as np
+
+from zlmreport.plugin import DEGREE, MICROMETRE, FloatArray, Words
+from zlmreport.plugin.circle_effect import (
+    AXES,
+    ONE,
+    CircleDesign,
+    CircleEffect,
+    CircleTerm,
+    Estimate,
+    Law,
+    Parity,
+    Searched,
+    SearchedParameter,
+    pair_words,
+)
+
+_LARGEST_LOST_MOTION = 5e-4  # m
+#: Whether both ends of the travel lose alike, or each has its own.
+_ALIKE, _EACH_END = 0.0, 1.0
+
+
+def _lost_motion(design: CircleDesign, low: float, high: float, ends: float) -> Iterator[CircleTerm]:
+    """Yield −½B·d·cosθ of each axis, sinθ of the second; between two ends B goes over from one to other."""
+    for axis in design.axes:
+        wave = design.wave(axis)
+        column = -0.5 * design.travel(axis) * wave
+        shares: tuple[tuple[str, FloatArray], ...] = ((AXES[axis], np.ones(design.count)),)
+        if ends == _EACH_END:
+            shares = ((f"{AXES[axis]}+", (1.0 + wave) / 2.0), (f"{AXES[axis]}−", (1.0 - wave) / 2.0))
+        for name, share in shares:
+            yield CircleTerm(name, MICROMETRE, share * column, AXES[axis], low=low, high=high, usual=5e-6)
+
+
+def _ends(_: CircleDesign) -> list[Searched]:
+    return [(_ALIKE,), (_EACH_END,)]
+
+
+class CircleBacklash(CircleEffect):
+    """−½B·d·cosθ of the first axis, −½B·d·sinθ of the second; lost motion B > 0."""
+
+    identifier = "circle-backlash"
+    title = Words(en="Backlash", de="Umkehrspiel")
+    equation = "−½·B₁·d₁·cosθ − ½·B₂·d₂·sinθ, B > 0; both ends alike, or each its own"
+    explains = Words(en="an axis loses motion where it turns", de="eine Achse verliert beim Umkehren Weg")
+    law = Law(Parity.ODD)
+    searched = (SearchedParameter("each end", ONE),)
+    is_asked_for = True
+
+    def grid(self, design: CircleDesign) -> list[Searched]:
+        """Return both ends alike, and each its own."""
+        return _ends(design)
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return the lost motion of each axis, or of each of its ends."""
+        return list(_lost_motion(design, 0.0, _LARGEST_LOST_MOTION, searched[0]))
+
+    def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say how much lost motion there might be."""
+        for each in estimates:
+            value, u = _pair(each)
+            yield _NO_BACKLASH.given(axis=each.name, value=value, u=u)
+
+
+class OverCompensation(CircleEffect):
+    """As lost motion, with B < 0: the control takes off more than there is."""
+
+    identifier = "over-compensation"
+    title = Words(en="Over-compensated backlash", de="Überkompensiertes Umkehrspiel")
+    equation = "as backlash, B < 0"
+    explains = Words(
+        en="the control's backlash compensation takes off more than there is",
+        de="die Umkehrspielkompensation der Steuerung nimmt mehr weg, als da ist",
+    )
+    law = Law(Parity.ODD)
+    searched = (SearchedParameter("each end", ONE),)
+
+    def grid(self, design: CircleDesign) -> list[Searched]:
+        """Return both ends alike, and each its own."""
+        return _ends(design)
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return the lost motion of each axis, or of each of its ends."""
+        return list(_lost_motion(design, -_LARGEST_LOST_MOTION, 0.0, searched[0]))
+
+    def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say which axis is over-compensated."""
+        for each in estimates:
+            if each.value < -each.expanded_uncertainty:
+                value, u = _pair(each)
+                yield _OVER.given(axis=each.name, value=value, u=u)
+
+
+def _pair(estimate: Estimate) -> tuple[Words, Words]:
+    unit = estimate.unit
+    return pair_words(unit.from_si(estimate.value), unit.from_si(estimate.expanded_uncertainty))
+
+
+_NO_BACKLASH = Words(
+    en="no backlash of {axis}: {value} ± {u} µm", de="kein Umkehrspiel von {axis}: {value} ± {u} µm"
+)
+_OVER = Words(
+    en="{axis} is over-compensated: lost motion {value} ± {u} µm",
+    de="{axis} ist überkompensiert: Umkehrspiel {value} ± {u} µm",
+)
+
+
+class LateralPlay(CircleEffect):
+    """½L·d across the axis that moves: ½L_x·d_x·sinθ, ½L_y·d_y·cosθ."""
+
+    identifier = "lateral-play"
+    title = Words(en="Lateral play", de="Seitliches Spiel")
+    equation = "½·L₁·d₁·sinθ + ½·L₂·d₂·cosθ"
+    explains = Words(
+        en="a carriage shifts sideways where it turns",
+        de="ein Schlitten versetzt sich beim Umkehren quer",
+    )
+    law = Law(Parity.ODD)
+    is_asked_for = True
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return the play of each axis."""
+        return [
+            CircleTerm(
+                AXES[axis], MICROMETRE, 0.5 * design.travel(axis) * design.other_wave(axis),
+                low=-2e-4, high=2e-4, usual=3e-6,
+            )
+            for axis in design.axes
+        ]  # fmt: skip
+
+    def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say how much play there might be."""
+        for each in estimates:
+            value, u = _pair(each)
+            yield _NO_PLAY.given(axis=each.name, value=value, u=u)
+
+
+_NO_PLAY = Words(
+    en="no lateral play of {axis}: {value} ± {u} µm", de="kein seitliches Spiel von {axis}: {value} ± {u} µm"
+)
+
+
+def _let_go(since: FloatArray, width: float) -> FloatArray:
+    """Return what an axis leaves that decays back: exp(−φ/w)."""
+    return np.asarray(np.exp(-since / width))
+
+
+def _stand_still(since: FloatArray, width: float) -> FloatArray:
+    """Return what an axis leaves that stands still, φ²/w², until it lets go at w and falls back."""
+    return np.where(since < width, (since / width) ** 2, np.exp(-(since - width) / (width / 3.0)))
+
+
+def _rise_and_fall(since: FloatArray, width: float) -> FloatArray:
+    """Return what an axis leaves that is held and comes back as gently: ½(1 − cos(π·φ/w)) up to 2w."""
+    return np.where(since < 2.0 * width, 0.5 * (1.0 - np.cos(np.pi * since / width)), 0.0)
+
+
+_SHAPES: tuple[Callable[[FloatArray, float], FloatArray], ...] = (_let_go, _stand_still, _rise_and_fall)
+_WIDTHS = tuple(np.radians([2.0, 4.0, 7.0, 12.0, 20.0]).tolist())
+_CONSTANT, _WITH_ACCELERATION = 0.0, 1.0
+
+
+class ReversalSpikes(CircleEffect):
+    """A·g(φ/w) ≥ 0 after each reversal, in three shapes; the size constant, or growing with F²/R."""
+
+    identifier = "reversal-spikes"
+    title = Words(en="Reversal spikes", de="Umkehrspitzen")
+    equation = "A·g(φ/w) ≥ 0, three shapes; constant, or as F²/R"
+    explains = Words(
+        en="an axis stands still for a moment where it turns: friction",
+        de="eine Achse steht beim Umkehren einen Augenblick still: Reibung",
+    )
+    law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
+    searched = (
+        SearchedParameter("shape", ONE),
+        SearchedParameter("width", DEGREE, is_refined=True),
+        SearchedParameter("grows", ONE),
+    )
+
+    def grid(self, design: CircleDesign) -> list[Searched]:
+        """Return shapes, widths, and laws where several accelerations tell them apart."""
+        accelerations = np.unique(np.round(design.centripetal, 12))
+        laws = (_CONSTANT, _WITH_ACCELERATION) if len(accelerations) > 1 else (_CONSTANT,)
+        return list(product(map(float, range(len(_SHAPES))), _WIDTHS, laws))
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return the spike of each axis."""
+        shape, width, grows = searched
+        law = design.centripetal / design.centripetal.max() if grows else np.ones(design.count)
+        terms = []
+        for axis in design.axes:
+            since = design.since_reversal(axis)
+            peak = _SHAPES[int(shape)](np.nan_to_num(since), width)
+            column = np.where(np.isnan(since), 0.0, peak) * law
+            terms.append(CircleTerm(AXES[axis], MICROMETRE, column, low=0.0, high=5e-4, usual=5e-6))
+        return terms
+
+
+_DECAYS = tuple(np.radians([10.0, 20.0]).tolist())
+_LENGTHS = tuple(np.radians([7.0, 9.0, 11.0, 13.5, 16.5, 20.0, 24.0]).tolist())
+
+
+class StickSlip(CircleEffect):
+    """exp(−φ/w)·(p·sin + q·cos)(2πφ/λ): an oscillation that dies after each reversal."""
+
+    identifier = "stick-slip"
+    title = Words(en="Stick-slip", de="Stick-Slip")
+    equation = "exp(−φ/w)·(p·sin + q·cos)(2πφ/λ)"
+    explains = Words(en="an axis oscillates after it has turned", de="eine Achse schwingt nach dem Umkehren")
+    law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
+    searched = (
+        SearchedParameter("decay", DEGREE),
+        SearchedParameter("length", DEGREE, is_refined=True),
+    )
+
+    def grid(self, _: CircleDesign) -> list[Searched]:
+        """Return decays and lengths of a wave."""
+        return list(product(_DECAYS, _LENGTHS))
+
+    def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
+        """Return sine and cosine of each axis."""
+        decay, length = searched
+        terms = []
+        for axis in design.axes:
+            since = design.since_reversal(axis)
+            known, phase = ~np.isnan(since), 2 * np.pi * np.nan_to_num(since) / length
+            envelope = np.where(known, np.exp(-np.nan_to_num(since) / decay), 0.0)
+            terms += [
+                CircleTerm(
+                    f"{AXES[axis]} {name}", MICROMETRE, envelope * wave(phase), AXES[axis],
+                    low=-2e-4, high=2e-4, usual=2e-6,
+                )
+                for name, wave in (("sin", np.sin), ("cos", np.cos))
+            ]  # fmt: skip
+        return terms

@@ -1,0 +1,100 @@
+"""What belongs to the set-up of a ballbar: where it stands, how long it is, how both drift."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from zlmreport.plugin import MICROMETRE, Words
+from zlmreport.plugin.circle_effect import (
+    AXES,
+    MICROMETRE_PER_MINUTE,
+    CircleDesign,
+    CircleEffect,
+    CircleTerm,
+    Law,
+    Parity,
+    Searched,
+)
+
+
+class CentreOffset(CircleEffect):
+    """One centre for each turn: a shift between turns is no error of the machine."""
+
+    identifier = "centre-offset"
+    title = Words(en="Centre offset", de="Mittelpunktversatz")
+    equation = "a·cosθ + b·sinθ"
+    explains = Words(
+        en="the bar's ball does not stand in the programmed centre",
+        de="die Kugel des Stabs steht nicht im programmierten Mittelpunkt",
+    )
+    law = Law(Parity.EVEN)
+    is_base = True
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return a·cosθ + b·sinθ of each turn."""
+        return list(_centres(design))
+
+
+def _centres(design: CircleDesign) -> Iterator[CircleTerm]:
+    for turn in design.turns.tolist():
+        own = design.turn == turn
+        test = design.tests[int(design.test[own][0])]
+        for axis, wave in zip(test.axes, (np.cos, np.sin), strict=True):
+            name = f"{AXES[axis]} of {test.name}, turn {turn + 1}"
+            yield CircleTerm(name, MICROMETRE, own * wave(design.angle), "centre", usual=20e-6)
+
+
+class Radius(CircleEffect):
+    """One radius for each length of the bar: both senses and all feeds share it."""
+
+    identifier = "radius"
+    title = Words(en="Radius", de="Radius")
+    equation = "r₀"
+    explains = Words(
+        en="the bar is not as long as stated, or machine and bar differ in temperature",
+        de="der Stab ist nicht so lang wie angegeben, oder Maschine und Stab sind verschieden warm",
+    )
+    law = Law(Parity.EVEN, radius=None)
+    is_base = True
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return r₀ of each radius."""
+        return [
+            CircleTerm(
+                f"R {length * 1e3:g}", MICROMETRE, (design.radius == length).astype(float), "radius",
+                usual=5e-6,
+            )
+            for length in np.unique(design.radius).tolist()
+        ]  # fmt: skip
+
+
+class RadiusDrift(CircleEffect):
+    """Radius and centre move in time while the turns of a test are run."""
+
+    identifier = "radius-drift"
+    title = Words(en="Drift of radius or centre", de="Drift von Radius oder Mittelpunkt")
+    equation = "r₁·t; (a₁·cosθ + b₁·sinθ)·t"
+    explains = Words(
+        en="bar or machine grow or move during the test",
+        de="Stab oder Maschine wachsen oder wandern während der Prüfung",
+    )
+    law = Law(Parity.IN_TIME)
+
+    def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
+        """Return r₁·t of each test, and a₁·t, b₁·t of its centre."""
+        terms = []
+        for index, test in enumerate(design.tests):
+            own = design.test == index
+            time = np.where(own, design.time - design.time[own].mean(), 0.0)
+            waves = [("radius", "radius", np.ones(design.count))]
+            waves += [(AXES[axis], "centre", design.wave(axis)) for axis in test.axes]
+            terms += [
+                CircleTerm(
+                    f"{name} of {test.name}", MICROMETRE_PER_MINUTE, time * wave, group,
+                    low=-1e-6, high=1e-6, usual=0.5e-6 / 60,
+                )
+                for name, group, wave in waves
+            ]  # fmt: skip
+        return terms

@@ -1,0 +1,25 @@
+"""What effects of two axes share: differences, of which the mean of all axes is nobody's."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+
+from zlmreport.plugin import FloatArray
+from zlmreport.plugin.circle_effect import AXES, CircleDesign
+
+
+def differences(design: CircleDesign) -> Iterator[tuple[str, FloatArray]]:
+    """Yield differences of neighbouring axes with the share that each axis has in one unit of them.
+
+    The mean of all axes is nobody's difference: it is the radius'.
+    """
+    axes = design.axes
+    count = len(axes)
+    for place, (one, other) in enumerate(pairwise(axes)):
+        share = np.zeros(3)
+        share[list(axes[: place + 1])] = (count - place - 1) / count
+        share[list(axes[place + 1 :])] = -(place + 1) / count
+        yield f"{AXES[one]}-{AXES[other]}", share

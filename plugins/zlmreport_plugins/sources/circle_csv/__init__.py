@@ -1,0 +1,312 @@
+"""Data source ``circle-csv``: tables of circles, a reading a row, in the order of time.
+
+A circle becomes a measurement set of the usual shape: the target positions are angles, rad from the plane's
+first axis towards its second, in [0, 2π); the positive approach is counter-clockwise and the negative one
+clockwise; runs are turns, counted in each sense; the deviation is actual − nominal radius.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+
+import numpy as np
+
+from zlmreport.plugin import (
+    Approach,
+    FloatArray,
+    InputError,
+    MeasurementSet,
+    NominalCircle,
+    Options,
+    Problem,
+    Words,
+    hookimpl,
+)
+from zlmreport.plugin.source import (
+    Averaging,
+    DataSource,
+    Provenance,
+    Reading,
+    SourceContext,
+    collect_readings,
+    read_text,
+)
+from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_table
+from zlmreport_plugins.sources.circle_csv.averaging import arcs_of, averaged, looked_at
+from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, CircleCsvOptions
+from zlmreport_plugins.sources.circle_csv.rows import (
+    CircleColumns,
+    CircleRow,
+    circle_columns,
+    circle_rows,
+    misread,
+)
+from zlmreport_plugins.sources.circle_csv.turns import (
+    TURN,
+    Turn,
+    common_angles,
+    evaluated,
+    one_after_another,
+    strays,
+)
+
+#: Readings of a turn at the least: a circle through fewer says nothing of its form.
+_FEWEST = 8
+#: Readings of a turn that are kept as they are.
+_MOST_KEPT = 3600
+_FROM = Words(
+    en="Angles from {angles}, {quantity} from the column “{column}” ({unit}).",
+    de="Winkel aus {angles}, {quantity} aus der Spalte „{column}“ ({unit}).",
+)
+_ANGLE_COLUMN = Words(en="the column “{column}” ({unit})", de="der Spalte „{column}“ ({unit})")
+_RECKONED = Words(
+    en="time and feed: each turn begins at {start}° and goes on with {feed} mm/min",
+    de="Zeit und Vorschub: jeder Umlauf beginnt bei {start}° und geht mit {feed} mm/min weiter",
+)
+_QUANTITIES = {
+    "deviation": Words(en="radial deviations", de="Radialabweichungen"),
+    "radius": Words(en="radii, less the nominal one,", de="Radien, abzüglich des Sollradius,"),
+}
+_ONE_SENSE = Words(
+    en="The sense is not in the file; the job states it ({sense}).",
+    de="Der Drehsinn steht nicht in der Datei; der Auftrag gibt ihn an ({sense}).",
+)
+_ONE_RUN = Words(
+    en="The file names no runs: all readings of a sense were taken as one turn.",
+    de="Die Datei nennt keine Durchläufe: Alle Messwerte eines Drehsinns gelten als ein Umlauf.",
+)
+_ARCS = Words(
+    en="Evaluated of each turn: one round at most; {before}° before it and {behind}° behind it are set aside "
+    "as feed-in and feed-out ({why}).",
+    de="Ausgewertet ist von jedem Umlauf höchstens eine Runde; {before}° davor und {behind}° dahinter "
+    "bleiben als An- und Auslauf beiseite ({why}).",
+)
+_FOLLOW = Words(
+    en="The times begin anew with each turn: the turns are taken to follow each other without a pause.",
+    de="Die Zeiten beginnen mit jedem Umlauf neu: die Umläufe gelten als ohne Pause aufeinander folgend.",
+)
+_STATED = Words(en="as stated", de="wie angegeben")
+_HALVED = Words(
+    en="half of what goes beyond a full turn, as nothing is stated",
+    de="je die Hälfte dessen, was über einen vollen Umlauf hinausgeht, da nichts angegeben ist",
+)
+_AVERAGED = Words(
+    en="{readings} readings were averaged over arcs of {arc}°. What the averages leave out has a root mean "
+    "square of {left} µm; {vibration}.",
+    de="{readings} Messwerte wurden über Bögen von {arc}° gemittelt. Was die Mittelwerte weglassen, hat "
+    "einen quadratischen Mittelwert von {left} µm; {vibration}.",
+)
+_NO_VIBRATION = Words(en="no vibration stands out of it", de="eine Schwingung tritt daraus nicht hervor")
+_VIBRATION = Words(
+    en="the strongest vibration in it has {frequency} Hz (by the stated feed) and an amplitude of "
+    "{amplitude} µm",
+    de="die stärkste Schwingung darin hat {frequency} Hz (nach dem angegebenen Vorschub) und eine Amplitude "
+    "von {amplitude} µm",
+)
+
+
+class CircleCsv:
+    """Tables of circles: text with a header row."""
+
+    identifier = "circle-csv"
+    title = Words(en="Table of a circular test (CSV)", de="Tabelle einer Kreisformprüfung (CSV)")
+    options: type[Options] = CircleCsvOptions
+    suffixes = ()
+
+    def read(self, options: CircleCsvOptions, context: SourceContext) -> MeasurementSet:
+        """Read a table; raise `InputError` with every defect and its place."""
+        circle = context.axis.circle
+        if circle is None:
+            raise InputError.at(
+                context.place,
+                "circle-csv reads circular tests, and this job has no circle; say which was run: "
+                "circle: {plane: XY, radius: 150, feed: 1000}, instead of axis",
+            )
+        text = read_text(options.file, options.encoding, options.sheet)
+        table = read_table(text, options, lambda name: _names_column(name, options))
+        layout = circle_columns(table, options, context)
+        sign = options.stated_decimal_sign or decimal_sign(
+            table, [column.index for column in layout.number_columns()], options.thousands_signs
+        )
+        cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
+        rows = list(circle_rows(cells, layout, options))
+        problems = [*table.problems, *cells.problems]
+        if not problems:
+            problems = list(misread(rows, layout, table, circle, options))
+        if problems or not rows:
+            raise InputError(_first(problems) or [Problem(text.place(), "holds no readings")])
+        turns = _turns(rows, layout, circle, options)
+        problems = [*_wrong_turns(turns)]
+        if problems:
+            raise InputError(_first(problems))
+        turns, follows = one_after_another(turns)
+        readings, averaging, remarks = _evaluated(turns, circle, options)
+        provenance = Provenance(
+            self.identifier,
+            (text.source,),
+            (*_remarks(layout, circle, options), *([_FOLLOW] if follows else []), *remarks),
+            averaging=averaging,
+        )
+        return collect_readings(readings, context.axis, provenance, place=text.place())
+
+
+def _names_column(text: str, options: CircleCsvOptions) -> bool:
+    """Whether a header is a name that this source or the job knows."""
+    named = heading_of(text)
+    return folded(named.name) in COLUMN_NAMES or any(
+        named.is_called(name) for name in (*options.columns.values(), *options.ignore)
+    )
+
+
+def _first(problems: Sequence[Problem]) -> list[Problem]:
+    """Return the first problems; the table is long."""
+    ordered = sorted(set(problems))
+    more = ordered[20:]
+    return [*ordered[:20], *([Problem(more[0].place, f"and {len(more)} more")] if more else [])]
+
+
+def _turns(
+    rows: Sequence[CircleRow], layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions
+) -> list[Turn]:
+    """Return the turns of a table in the order in which they begin."""
+    found: dict[tuple[Approach, int], list[CircleRow]] = {}
+    for row in rows:
+        found.setdefault((row.sense, row.run), []).append(row)
+    nominal = 0.0 if layout.value.name == "deviation" else circle.radius
+    start = math.radians(options.start)
+    turns = []
+    for (way, run), own in found.items():
+        time = np.array([row.time for row in own])
+        if layout.angle:
+            angle = np.unwrap(np.array([row.angle for row in own]))
+        else:
+            angle = start + float(way) * circle.angular_speed * (time - time[0])
+        conditions = {
+            column.name: np.array([row.conditions[index] for row in own])
+            for index, column in enumerate(layout.conditions)
+        }
+        deviation = np.array([row.value for row in own]) - nominal
+        turns.append(Turn(way, run, angle, deviation, time, conditions, [row.place for row in own]))
+    return turns
+
+
+def _wrong_turns(turns: Sequence[Turn]) -> Iterator[Problem]:
+    for turn in turns:
+        place, name = turn.places[0], _NAMES[turn.sense]
+        if len(turn.angle) < _FEWEST:
+            yield Problem(
+                place,
+                f"run {turn.run} {name} has {len(turn.angle)} readings; the form of a circle needs {_FEWEST} "
+                "at least",
+            )
+            continue
+        if np.any(np.diff(turn.time) < 0):
+            later = int(np.argmax(np.diff(turn.time) < 0)) + 1
+            yield Problem(
+                turn.places[later],
+                "the time is before that of the reading above; readings stand in the order of time",
+            )
+        for message in strays(turn):
+            yield Problem(place, f"run {turn.run} {name}: {message}")
+
+
+_NAMES = {Approach.POSITIVE: "ccw", Approach.NEGATIVE: "cw"}
+
+
+def _evaluated(
+    turns: Sequence[Turn], circle: NominalCircle, options: CircleCsvOptions
+) -> tuple[list[Reading], Averaging | None, tuple[Words, ...]]:
+    """Return the readings that are evaluated, what was averaged, and what is to be said of both."""
+    stated = [math.radians(arc) if arc is not None else None for arc in (options.feed_in, options.feed_out)]
+    parts = [evaluated(turn, *stated) for turn in turns]
+    before, behind = max(part[1] for part in parts), max(part[2] for part in parts)
+    remarks = []
+    if before > 0 or behind > 0:
+        is_stated = options.feed_in is not None or options.feed_out is not None
+        remarks.append(
+            _ARCS.given(
+                before=float(f"{math.degrees(before):.4g}"),
+                behind=float(f"{math.degrees(behind):.4g}"),
+                why=_STATED if is_stated else _HALVED,
+            )
+        )
+    kept = [part[0] for part in parts]
+    shared = None if options.readings_per_turn else common_angles(kept, _MOST_KEPT)
+    if shared is not None:
+        return [reading for turn in kept for reading in _as_they_are(turn, shared)], None, tuple(remarks)
+    number = options.readings_per_turn or arcs_of(kept)
+    averages = averaged(kept, number)
+    averaging = looked_at(averages, circle.angular_speed)
+    remarks.append(_averaging_in_words(averaging, number))
+    readings = [
+        Reading(
+            each.turn.places[int(each.central[index])],
+            float(each.angle[index]),
+            each.turn.sense,
+            each.turn.run,
+            float(each.deviation[index]),
+            None if math.isnan(each.time[index]) else float(each.time[index]),
+            {name: float(values[index]) for name, values in each.conditions.items()},
+        )
+        for each in averages
+        for index in range(len(each.angle))
+    ]
+    return readings, averaging, tuple(remarks)
+
+
+def _as_they_are(turn: Turn, shared: FloatArray) -> Iterator[Reading]:
+    """Yield the readings of a turn at the angles that all turns share."""
+    own = np.mod(turn.angle, TURN)
+    distance = np.abs(own[:, np.newaxis] - np.append(shared, shared[0] + TURN)[np.newaxis, :])
+    nearest = distance.argmin(axis=1) % len(shared)
+    for index, target in enumerate(nearest.tolist()):
+        yield Reading(
+            turn.places[index],
+            float(shared[target]),
+            turn.sense,
+            turn.run,
+            float(turn.deviation[index]),
+            None if math.isnan(turn.time[index]) else float(turn.time[index]),
+            {name: float(values[index]) for name, values in turn.conditions.items()},
+        )
+
+
+def _averaging_in_words(averaging: Averaging, number: int) -> Words:
+    vibration = _NO_VIBRATION
+    if averaging.amplitude:
+        vibration = _VIBRATION.given(
+            frequency=float(f"{averaging.frequency:.3g}"), amplitude=float(f"{averaging.amplitude * 1e6:.2g}")
+        )
+    return _AVERAGED.given(
+        readings=averaging.readings,
+        arc=float(f"{360 / number:.6g}"),
+        left=float(f"{averaging.left_out * 1e6:.2g}"),
+        vibration=vibration,
+    )
+
+
+def _remarks(layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions) -> Iterator[Words]:
+    """Yield what a reader of the results must know of the table."""
+    if layout.angle:
+        angles = _ANGLE_COLUMN.given(
+            column=layout.angle.text, unit=layout.angle.unit.symbol if layout.angle.unit else ""
+        )
+    else:
+        angles = _RECKONED.given(start=options.start, feed=float(f"{circle.feed * 60e3:.6g}"))
+    yield _FROM.given(
+        angles=angles,
+        quantity=_QUANTITIES[layout.value.name],
+        column=layout.value.text,
+        unit=layout.value.unit.symbol if layout.value.unit else "",
+    )
+    if options.sense:
+        yield _ONE_SENSE.given(sense=options.sense)
+    if layout.run is None:
+        yield _ONE_RUN
+
+
+@hookimpl
+def zlmreport_sources() -> Iterable[DataSource]:
+    """Return the reader of circles."""
+    return [CircleCsv()]

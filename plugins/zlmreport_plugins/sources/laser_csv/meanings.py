@@ -1,0 +1,259 @@
+"""What the columns of a table that somebody else laid out may be, by their names and numbers."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from types import MappingProxyType
+
+from zlmreport.plugin import Approach, DecimalSign
+from zlmreport.plugin.source import parse_number
+from zlmreport.plugin.table import folded, without_thousands
+from zlmreport_plugins.sources.laser_csv.columns import reading_heading
+from zlmreport_plugins.sources.laser_csv.options import (
+    COLUMN_NAMES,
+    names_direction,
+    run_and_direction,
+)
+
+#: What a name may mean beside the columns: a target or an actual position; a deviation or a position;
+#: a reading of a run; nothing that is measured.
+PLACE, VALUE, READING, NUMBER = "a position", "a value", "a reading", "a number of rows"
+#: How columns are called in files, folded, by what they are.
+_CALLED = MappingProxyType(
+    {
+        name: column
+        for column, names in {
+            "target": "soll sollposition soll_position soll_pos sollwert sollmaß nominal nominal_position "
+            "nominal_value target_position target_pos zielposition pos_soll p_soll soll_pos. pos._soll "
+            "command commanded programmed setpoint set_position soll_x soll_y soll_z messpunkt "
+            "zielpunkt soll_winkel sollwinkel target_angle x_soll y_soll z_soll",
+            PLACE: "position pos pos. x y z a b c winkel angle weg strecke distance place location punkt "
+            "axis_position achsposition position_x position_y position_z",
+            "position": "ist istposition ist_position ist_pos istwert actual actual_position actual_value "
+            "measured measured_position pos_ist p_ist laser laserwert interferometer istmaß istwinkel "
+            "ist_winkel x_ist y_ist z_ist measured_value",
+            "deviation": "abweichung abw abw. fehler error dev dev. deviations positionsabweichung "
+            "messabweichung differenz difference delta residual positionierabweichung positioning_error "
+            "error_value δ positional_deviation position_error abweichungen lagefehler",
+            VALUE: "wert value messwert reading anzeige display ergebnis result y_wert",
+            "direction": "richtung dir dir. approach anfahrrichtung verfahrrichtung sense anfahrt "
+            "fahrtrichtung approach_direction sinn",
+            "run": "lauf messlauf zyklus durchlauf durchgang cycle run_number run_no run_no. repetition rep "
+            "wiederholung lauf_nr lauf_nr. run_# reihe messreihe",
+            "time": "zeit timestamp uhrzeit zeitstempel t messzeit clock date_time datum_zeit datum/zeit "
+            "datum_uhrzeit datetime",
+            "air_temperature": "lufttemperatur air_temp air_temp. t_luft t_air luft_temp",
+            "material_temperature": "materialtemperatur material_temp t_mat werkstofftemperatur mat_temp "
+            "t_material werkstücktemperatur",
+            "axis_temperature": "maßstabstemperatur scale_temperature t_achse scale_temp",
+            "screw_temperature": "spindeltemperatur screw_temp t_spindel",
+            "air_pressure": "luftdruck pressure druck p_luft air_press",
+            "relative_humidity": "luftfeuchte luftfeuchtigkeit humidity feuchte rel._feuchte rh "
+            "rel._humidity",
+            NUMBER: "nr nr. no no. # index lfd lfd. lfd._nr. lfd_nr id i n zeile row line pos.nr. number "
+            "point",
+        }.items()
+        for name in names.split()
+    }
+)
+#: Words that stand beside run and direction in the name of a column of readings.
+_BESIDE = frozenset(
+    (
+        *(
+            "run",
+            "runs",
+            "cycle",
+            "pass",
+            "meas",
+            "measurement",
+            "test",
+            "series",
+            "no",
+            "number",
+            "position",
+            "pos",
+        ),
+        *("lauf", "messlauf", "durchlauf", "durchgang", "zyklus", "messung", "messreihe", "reihe", "serie"),
+        *(
+            "versuch",
+            "nr",
+            "nummer",
+            "m",
+            "x",
+            "xi",
+            "dev",
+            "deviation",
+            "abw",
+            "abweichung",
+            "ist",
+            "actual",
+        ),
+        *("wert", "value", "richtung", "direction", "fahrt"),
+    )
+)
+_TOKENS = re.compile(r"[^\W\d_]+|[0-9]+|[+−↑↓→←-]")
+_MOST_RUNS = 99
+_UNIT_BEHIND = re.compile(r"(.*?[0-9.,])\s*[^0-9.,\s+−-]{1,8}")
+_ANGLE = re.compile(r"([+−-]?[0-9]+)\s*°.*")
+
+
+@lru_cache(maxsize=4096)
+def meaning(name: str) -> str | None:
+    """Return what a column is by its name: one of `COLUMN_NAMES`, `PLACE`, `VALUE`; None if open."""
+    called = folded(reading_heading(name).name)
+    if called in _CALLED:
+        return _CALLED[called]
+    if called in COLUMN_NAMES:
+        return called
+    return READING if reading_of(name) else None
+
+
+@lru_cache(maxsize=4096)
+def reading_of(name: str) -> tuple[int, Approach | None] | None:
+    """Return the run, and the direction if it is named, of a column of readings: ``M1 (auf)``, ``2. Lauf ↓``.
+
+    >>> reading_of("2. Lauf ab"), reading_of("Hin"), reading_of("Mittelwert 1")
+    ((2, <Approach.NEGATIVE: -1>), (1, <Approach.POSITIVE: 1>), None)
+    """
+    called = reading_heading(name).name
+    told = run_and_direction(called)
+    if told:
+        return told
+    tokens = _TOKENS.findall(called.casefold())
+    directions = [token for token in tokens if names_direction(token)]
+    numbers = [int(token) for token in tokens if token.isdecimal()]
+    others = {token for token in tokens if token not in directions and not token.isdecimal()}
+    if not tokens or not others <= _BESIDE or len(directions) > 1 or len(numbers) > 1:
+        return None
+    if not directions and not (numbers and others):
+        return None
+    run = numbers[0] if numbers else 1
+    told = run_and_direction(f"1{directions[0]}") if directions else (1, None)
+    return (run, told[1]) if told and 1 <= run <= _MOST_RUNS else None
+
+
+@dataclass(frozen=True, slots=True)
+class Notation:
+    """How the numbers of a table are written."""
+
+    decimal: DecimalSign
+    thousands: str = ""  #: What parts groups of three digits; empty where nothing does.
+    is_open: bool = False  #: Whether no number tells the one sign from the other.
+
+    @classmethod
+    def of(cls, cells: Iterable[str], *, is_workbook: bool = False) -> Notation:
+        """Return the notation that explains the numbers among cells; those of a workbook have a point."""
+        decimals, groups, doubt = Counter[str](), Counter[str](), set[str]()
+        for cell in cells:
+            match = _DIGITS.match(cell.lstrip("+-−"))
+            signs = [sign for sign in match[0] if not sign.isdecimal()] if match else []
+            if match is None or not signs:
+                continue
+            *apart, last = signs
+            before, _, _ = match[0].rpartition(last)
+            if len(set(apart)) == 1 and last not in apart and last in ".," and _GROUPS.fullmatch(before):
+                groups[apart[0]] += 1
+                decimals[last] += 1
+            elif _GROUPS.fullmatch(match[0]) and {*apart} <= {last}:
+                if apart or last not in ".,":
+                    groups[last] += 1
+                else:
+                    doubt.add(last)
+            elif not apart and last in ".,":
+                decimals[last] += 1
+        if is_workbook and not decimals[","]:
+            return cls(DecimalSign.POINT, groups.most_common(1)[0][0] if groups else "")
+        of_groups = groups.most_common(1)[0][0] if groups else ""
+        told = max(decimals, key=lambda sign: decimals[sign], default="")
+        if not told and of_groups in {".", ","}:
+            told = "," if of_groups == "." else "."
+        other = "," if told == "." else "."
+        if told:
+            return cls(DecimalSign(told), of_groups or (other if other in doubt else ""))
+        return cls(DecimalSign.COMMA if doubt == {","} else DecimalSign.POINT, "", is_open="," in doubt)
+
+
+#: The digits of a number at the beginning of a cell, with all that parts them.
+_DIGITS = re.compile(r"[0-9.,](?:[0-9.,'’ \u00a0\u202f]*[0-9])?")
+_GROUPS = re.compile(r"[1-9][0-9]{0,2}(?:[.,'’ \u00a0\u202f][0-9]{3})+")
+
+
+@lru_cache(maxsize=65536)
+def number(cell: str, notation: Notation) -> float | None:
+    """Return the number that a cell holds in a notation, its unit left out; None for anything else.
+
+    >>> german = Notation(DecimalSign.COMMA, ".")
+    >>> [number(cell, german) for cell in ("1.250,5", "0,002 mm", "−3", "kalt")]
+    [1250.5, 0.002, -3.0, None]
+    """
+    angle = _ANGLE.fullmatch(cell)
+    if angle:
+        cell = angle[1]
+    elif cell and not cell[-1].isdecimal() and (match := _UNIT_BEHIND.fullmatch(cell)):
+        cell = match[1]
+    plain = without_thousands(cell, notation.thousands) if notation.thousands else cell
+    for sign in (notation.decimal, *DecimalSign) if "," not in cell else (notation.decimal,):
+        try:
+            return parse_number(plain, sign)
+        except ValueError:
+            continue
+    return None
+
+
+def resolved(names: Sequence[str], columns: Sequence[Sequence[float | None]]) -> list[str | None]:
+    """Return what columns are, where one alone leaves it open: each of `COLUMN_NAMES` once, readings, None.
+
+    `columns`: Their numbers, by row.
+    """
+    found = [meaning(name) for name in names]
+    readings = found.count(READING)
+    _settle(found, PLACE, "target")
+    if "target" not in found and readings:
+        rising = (index for index, each in enumerate(columns) if found[index] is None and _is_monotonic(each))
+        index = next(rising, None)
+        if index is not None:
+            found[index] = "target"
+    has_value = "deviation" in found or "position" in found
+    if "target" in found and not has_value and not readings:
+        _settle(found, PLACE, "position")
+        if VALUE in found and "position" not in found:
+            target = columns[found.index("target")]
+            value = columns[found.index(VALUE)]
+            _settle(found, VALUE, "position" if are_positions(target, value) else "deviation")
+    taken: set[str] = set()
+    for index, each in enumerate(found):
+        if each in {PLACE, VALUE, NUMBER} or (each in taken and each != READING):
+            found[index] = None
+        elif each:
+            taken.add(each)
+    return found
+
+
+def _settle(found: list[str | None], what: str, meant: str) -> None:
+    """Say what the first column is whose name leaves it open, unless another one is that."""
+    if meant not in found and what in found:
+        found[found.index(what)] = meant
+
+
+def _is_monotonic(values: Sequence[float | None]) -> bool:
+    known = [value for value in values if value is not None]
+    steps = [second - first for first, second in itertools.pairwise(known)]
+    return len(known) > 1 and (all(step > 0 for step in steps) or all(step < 0 for step in steps))
+
+
+def are_positions(targets: Sequence[float | None], values: Sequence[float | None]) -> bool:
+    """Return whether values go with the targets: they are positions then, and no deviations."""
+    pairs = [
+        (target, value)
+        for target, value in zip(targets, values, strict=False)
+        if target is not None and value is not None
+    ]
+    travel = max((target for target, _ in pairs), default=0.0) - min(
+        (target for target, _ in pairs), default=0.0
+    )
+    return travel > 0 and all(abs(value - target) < 0.01 * travel for target, value in pairs)

@@ -1,0 +1,252 @@
+"""Keys by which a table that somebody else laid out may be read, and what only its author can say."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from zlmreport.plugin import Approach
+from zlmreport.plugin.source import SourceProposal
+from zlmreport.plugin.table import folded, moment
+from zlmreport_plugins.sources.laser_csv import questions
+from zlmreport_plugins.sources.laser_csv.columns import reading_heading
+from zlmreport_plugins.sources.laser_csv.drafts import (
+    Draft,
+    is_unit_known,
+    name_unit,
+    note_notation,
+    place_table,
+)
+from zlmreport_plugins.sources.laser_csv.meanings import (
+    READING,
+    Notation,
+    are_positions,
+    meaning,
+    number,
+    reading_of,
+)
+from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, run_and_direction
+from zlmreport_plugins.sources.laser_csv.passes import of_parts, tell_passes
+from zlmreport_plugins.sources.laser_csv.tables import FoundTable, tables, texts
+
+#: Axes that turn, by their letters, and a whole turn of them in degrees.
+_TURNING, _WHOLE_TURN = frozenset("ABC"), 360.0
+#: Lines of a table without a head that may be comments above its names.
+_COMMENTS = 3
+_AXIS = re.compile(
+    r"(?:^|[^a-z])([xyzabcuvw])[\s_-]*(?:axis|achse)|(?:axis|achse)[\s:;,=_-]*([xyzabcuvw])(?![a-z])",
+    re.IGNORECASE,
+)
+
+
+def proposals(file: Path) -> Iterator[SourceProposal]:
+    """Yield the keys by which a file may be read, the likeliest first."""
+    found = [table for text in texts(file) for table in tables(text)]
+    found.sort(key=lambda table: table.score, reverse=True)
+    axis = _axis(file, found)
+    drafts = [each for table in found for each in _drafts(table)]
+    for draft in (*of_parts(found, drafts[:1]), *drafts):
+        _ask_for_sheet(draft, found)
+        _ask_for_kind(draft, axis)
+        yield SourceProposal(_ordered(draft), tuple(draft.asks), axis)
+
+
+def _axis(file: Path, found: Sequence[FoundTable]) -> str:
+    """Return the letter of the axis that the file, its name or what stands above the table names."""
+    above = [
+        line for table in found[:1] for line in table.found.text.lines[: table.layout.skipped + _COMMENTS]
+    ]
+    for text in (file.stem, *(table.found.keys.get("sheet", "") for table in found[:1]), *above):
+        match = _AXIS.search(text)
+        if match:
+            return (match[1] or match[2]).upper()
+    return ""
+
+
+def _drafts(table: FoundTable) -> Iterator[Draft]:
+    """Yield the ways in which a table may be read."""
+    draft = Draft(table)
+    place_table(draft)
+    note_notation(draft)
+    if table.is_wide:
+        _wide(draft)
+        yield draft
+        return
+    _value(draft)
+    _other_columns(draft)
+    yield from tell_passes(draft)
+
+
+def _wide(draft: Draft) -> None:
+    """Say which columns are readings, of what, and leave out the others."""
+    table, keys = draft.table, draft.keys
+    keys["layout"] = "wide"
+    target = draft.index("target") or 0
+    readings = [index for index, each in enumerate(table.meanings) if each == READING]
+    told = [reading_of(draft.name(index)) or (1, None) for index in readings]
+    if all(approach is None for _, approach in told):
+        keys["direction"] = "+"
+        draft.asks.append(questions.DIRECTION_ASKED)
+    _name_target(draft, target)
+    if len(set(told)) < len(told) or not draft.name(target) or _has_equal_names(table):
+        _name_all(draft, target, readings, told)
+    else:
+        for index, (run, approach) in zip(readings, told, strict=True):
+            if run_and_direction(reading_heading(draft.name(index)).name) != (run, approach):
+                sign = (approach or Approach.POSITIVE).sign
+                draft.columns[f"{run}{sign}"] = reading_heading(draft.name(index)).name
+        draft.ignored += [
+            name
+            for index, name in enumerate(table.header.cells)
+            if name and index != target and index not in readings
+        ]
+    first = readings[0]
+    if are_positions(table.numbers(target), table.numbers(first)):
+        keys["values"] = "position"
+        name_unit("position", draft, target, first)
+    else:
+        draft.asks.append(questions.SIGN_ASKED)
+        name_unit("deviation", draft, target, *readings)
+
+
+def _has_equal_names(table: FoundTable) -> bool:
+    names = [folded(name) for name in table.header.cells if name]
+    return len(set(names)) < len(names)
+
+
+def _name_target(draft: Draft, target: int) -> None:
+    name = reading_heading(draft.name(target)).name
+    if name and folded(name) != "target":
+        draft.columns["target"] = name
+    is_unit_known("target", draft, target)
+
+
+def _name_all(
+    draft: Draft, target: int, readings: Sequence[int], told: Sequence[tuple[int, Approach | None]]
+) -> None:
+    """Give every column a name, where those of the file are missing or stand several times."""
+    seen: dict[Approach, int] = {}
+    names: dict[int, str] = {target: "target"}
+    are_counted = len(set(told)) < len(told)
+    for index, (run, approach) in zip(readings, told, strict=True):
+        sense = approach or Approach.POSITIVE
+        seen[sense] = seen.get(sense, 0) + 1
+        names[index] = f"{seen[sense] if are_counted else run}{sense.sign}"
+    others = {
+        index: f"column {index + 1}"
+        for index, cells in enumerate(draft.table.header.cells)
+        if index not in names and (cells or any(draft.table.column(index)))
+    }
+    last = max({**names, **others})
+    draft.keys["header"] = [names.get(index) or others.get(index, "") for index in range(last + 1)]
+    draft.keys["skip_rows"] = draft.table.header.line
+    draft.keys.pop("header_rows", None)
+    draft.keys.pop("direction", None)
+    draft.columns.clear()
+    draft.ignored += others.values()
+
+
+def _value(draft: Draft) -> None:
+    """Say what a long table holds, and where: deviations, or actual positions."""
+    target = draft.index("target") or 0
+    deviation, position = draft.index("deviation"), draft.index("position")
+    if not draft.table.layout.header_rows and deviation is None and position is None:
+        other = 1
+        is_position = are_positions(draft.table.numbers(target), draft.table.numbers(other))
+        names = list(draft.table.header.cells)
+        if not any(names):
+            names = ["target", "position" if is_position else "deviation"]
+            deviation, position = (None, other) if is_position else (other, None)
+            draft.keys["header"] = names
+    elif not draft.table.layout.header_rows:
+        draft.keys["header"] = list(draft.table.header.cells)
+    if not draft.keys.get("header") or any(draft.table.header.cells):
+        _name_target(draft, target)
+    if deviation is not None and position is not None:
+        draft.ignored.append(draft.name(position))
+        _compare(draft, target, deviation, position)
+    elif position is not None:
+        name_unit("position", draft, target, position)
+    if deviation is not None:
+        if "sign" not in draft.keys and position is None:
+            draft.asks.append(questions.SIGN_ASKED)
+        name_unit("deviation", draft, target, deviation)
+
+
+def _compare(draft: Draft, target: int, deviation: int, position: int) -> None:
+    """Say the sign of deviations beside which the actual positions stand, if these tell it."""
+    table = draft.table
+    products = [
+        (actual - at) * value
+        for at, value, actual in zip(
+            table.numbers(target), table.numbers(deviation), table.numbers(position), strict=True
+        )
+        if at is not None and value is not None and actual is not None
+    ]
+    negative, positive = sum(each < 0 for each in products), sum(each > 0 for each in products)
+    if negative > 3 * positive:
+        draft.keys["sign"] = "nominal-actual"
+    elif positive <= 3 * negative:
+        draft.asks.append(questions.SIGN_ASKED)
+
+
+def _other_columns(draft: Draft) -> None:
+    """Name the columns that go by other names, and leave out those that hold words or count the rows."""
+    table = draft.table
+    for index, (name, what) in enumerate(zip(table.header.cells, table.meanings, strict=True)):
+        if not name or name in draft.ignored:
+            continue
+        cells = [cell for cell in table.column(index) if cell]
+        if what == "time" and not _is_time(cells, table.notation):
+            draft.ignored.append(name)
+            draft.asks.append(questions.TIME_ASKED.format(name=repr(name), example=repr(cells[0])))
+        elif what is None and (
+            any(number(cell, table.notation) is None for cell in cells)
+            or meaning(name) is not None
+            or not cells
+        ):
+            draft.ignored.append(name)
+        elif what is not None and what not in {"target", READING}:
+            plain = reading_heading(name).name
+            if folded(plain) != what:
+                draft.columns[what] = plain
+            is_unit_known(what, draft, index)
+
+
+def _is_time(cells: Sequence[str], notation: Notation) -> bool:
+    return all(number(cell, notation) is not None or moment(cell) is not None for cell in cells[:1])
+
+
+def _ask_for_kind(draft: Draft, axis: str) -> None:
+    targets = [each for each in draft.table.numbers(draft.index("target") or 0) if each is not None]
+    is_turn = max(targets) - min(targets) == _WHOLE_TURN
+    if is_turn and axis not in _TURNING and not is_unit_known("target", draft, draft.index("target") or 0):
+        draft.asks.append(questions.TURN_ASKED)
+
+
+def _ask_for_sheet(draft: Draft, found: Sequence[FoundTable]) -> None:
+    sheet = draft.keys.get("sheet")
+    others = dict.fromkeys(
+        repr(each.found.keys.get("sheet")) for each in found if each.found.keys.get("sheet") != sheet
+    )
+    if sheet and others:
+        hold = "holds" if len(others) == 1 else "hold"
+        draft.asks.append(
+            questions.SHEETS_ASKED.format(sheet=repr(sheet), others=" and ".join(others), hold=hold)
+        )
+
+
+def _ordered(draft: Draft) -> dict[str, Any]:
+    """Return the keys in the order in which people read them."""
+    keys = draft.keys
+    if draft.columns:
+        keys["columns"] = {
+            name: draft.columns[name] for name in (*COLUMN_NAMES, *draft.columns) if name in draft.columns
+        }
+    if draft.units:
+        keys["units"] = draft.units
+    if draft.ignored:
+        keys["ignore"] = draft.ignored
+    return keys

@@ -1,0 +1,25 @@
+"""What only the author of a table can say, asked by ``zlmreport look``: no file tells it."""
+
+from __future__ import annotations
+
+SIGN_ASKED = (
+    "Is the deviation actual − nominal? No file tells; if it is nominal − actual, say sign: nominal-actual."
+)
+UNIT_ASKED = (
+    "Are the deviations in {unit}? The table names no unit; {reason}if they are in {other}, say "
+    "units: {{deviation: {other}}}."
+)
+DIRECTION_ASKED = "Were all readings taken upwards? The table names no direction; else say direction: '-'."
+ORDER_ASKED = (
+    "Do the rows stand in the order in which the readings were taken? The table names no direction; it is "
+    "told by whether the target rises or falls from row to row."
+)
+RUNS_ASKED = "Is the n-th reading of a target in a direction of the n-th run? The table names no runs."
+DECIMAL_ASKED = "Is the decimal sign a {sign}? Every number may as well have its thousands parted by it."
+MISSING_ASKED = "Is a reading missing where the table has {words}?"
+TIME_ASKED = (
+    "The column {name} is not read: {example} may be one day or another. Write the times as ISO 8601."
+)
+GRADE_ASKED = "Does “Grad” mean degrees? If it means gon, divide by 400 and multiply by 360 first."
+SHEETS_ASKED = "Is {sheet} the right sheet? {others} {hold} a table, too."
+TURN_ASKED = "Does the axis turn? Its targets go over a whole turn; say kind: rotary under axis then."

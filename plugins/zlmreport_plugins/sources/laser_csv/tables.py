@@ -1,0 +1,295 @@
+"""Where tables of readings stand in a file that nobody described: sheet, delimiter, header, last row."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from zlmreport.plugin import InputError
+from zlmreport.plugin.source import TextFile, likely_encodings, read_text, sheets_of
+from zlmreport.plugin.table import (
+    DELIMITERS,
+    PARTED_BY_BLANKS,
+    EnclosureError,
+    TextRow,
+    first_cell,
+    holds_units,
+    joined_header,
+    parted_line,
+    states_delimiter,
+    whole_lines,
+)
+from zlmreport_plugins.sources.laser_csv.meanings import (
+    NUMBER,
+    PLACE,
+    READING,
+    VALUE,
+    Notation,
+    meaning,
+    number,
+    resolved,
+)
+
+#: Lines that are looked through for a header; and those of a table that may lie on its side.
+_DEEPEST, _WIDEST = 60, 400
+_MOST_TABLES = 12
+#: Rows whose numbers tell how numbers are written.
+_ENOUGH = 2000
+#: Columns that every table of readings has.
+_TARGET = ("target", PLACE)
+#: How the rows of means, scatters and spans below a table begin.
+_SUMMARIES = (
+    *("mean", "average", "avg", "std", "stdev", "standard", "sigma", "range", "span", "max", "min", "median"),
+    *(
+        "sum",
+        "count",
+        "mittel",
+        "durchschnitt",
+        "spannweite",
+        "streu",
+        "summe",
+        "anzahl",
+        "umkehr",
+        "reversal",
+    ),
+    *("repeat", "wiederhol"),
+)
+_VALUES = frozenset({"deviation", "position", VALUE, READING, PLACE})
+
+
+@dataclass(frozen=True, slots=True)
+class FoundText:
+    """A file, or a sheet of it, that can be read as lines."""
+
+    text: TextFile
+    keys: Mapping[str, Any]  #: By which: an encoding, a sheet.
+    lines: Sequence[tuple[int, str]]  #: Those that are neither empty nor comments, with their numbers.
+
+
+@dataclass(frozen=True)
+class FoundLayout:
+    """Where a table stands in a text, and how it is laid out."""
+
+    found: FoundText
+    delimiter: str
+    header_rows: int  #: Of how many rows the names are made; 0 of a table without names.
+    skipped: int  #: Lines of the file above it.
+    is_transposed: bool = False
+
+
+@dataclass(frozen=True)
+class FoundTable:
+    """A table: its rows, and what its columns are."""
+
+    layout: FoundLayout
+    header: TextRow  #: The row of names; of a table without names one of empty ones.
+    units: TextRow | None  #: The row of units below it.
+    rows: Sequence[TextRow]  #: Those with a target.
+    below: Sequence[TextRow]  #: Those after them.
+    meanings: Sequence[str | None]  #: What its columns are (`meanings.resolved`).
+    notation: Notation  #: How its numbers are written.
+
+    @property
+    def found(self) -> FoundText:
+        """The text in which it stands."""
+        return self.layout.found
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether it has a column for each run and direction."""
+        readings = sum(each == READING for each in self.meanings)
+        return readings > 1 or (readings == 1 and not {"deviation", "position"} & {*self.meanings})
+
+    @property
+    def score(self) -> tuple[float, ...]:
+        """By which of several ways to read a file the likeliest is known."""
+        known = sum(each is not None for each in self.meanings)
+        is_named = any(meaning(name) in _TARGET for name in self.header.cells)
+        return (
+            is_named,
+            known / len(self.meanings) + min(known, 8),
+            len(self.rows),
+            -self.layout.header_rows,
+        )
+
+    def column(self, index: int) -> list[str]:
+        """Return the cells of a column."""
+        return [row.cells[index] if index < len(row.cells) else "" for row in self.rows]
+
+    def numbers(self, index: int) -> list[float | None]:
+        """Return the numbers of a column; None for a cell that holds none."""
+        return [number(cell, self.notation) for cell in self.column(index)]
+
+
+def texts(file: Path) -> Iterator[FoundText]:
+    """Yield what can be read as lines: every sheet of a workbook, or the text in the encoding that fits."""
+    try:
+        sheets = sheets_of(file)
+    except InputError:
+        return
+    if sheets:
+        for sheet in sheets:
+            try:
+                text = read_text(file, sheet=sheet)
+            except InputError:
+                continue
+            yield _found(text, {"sheet": sheet} if len(sheets) > 1 else {})
+        return
+    for encoding in likely_encodings(file):
+        try:
+            text = read_text(file, encoding)
+        except InputError:
+            continue
+        yield _found(text, {"encoding": encoding} if encoding else {})
+        return
+
+
+def _found(text: TextFile, keys: Mapping[str, Any]) -> FoundText:
+    lines = whole_lines(text.numbered())
+    return FoundText(text, keys, lines[1:] if lines and states_delimiter(lines[0][1]) else lines)
+
+
+def tables(found: FoundText) -> list[FoundTable]:
+    """Return the tables of readings that a text may hold, the likeliest first."""
+    candidates = [
+        *(each for delimiter in _delimiters(found) for each in _upright(found, delimiter)),
+        *(each for delimiter in _delimiters(found) for each in _lying(found, delimiter)),
+    ]
+    if not candidates:
+        candidates = [each for delimiter in _delimiters(found) for each in _nameless(found, delimiter)]
+    return sorted(candidates, key=lambda each: each.score, reverse=True)[:_MOST_TABLES]
+
+
+def _delimiters(found: FoundText) -> Sequence[str]:
+    if found.text.of_cells:
+        return ("\t",)
+    return [each for each in DELIMITERS if any(each in line for _, line in found.lines)] + [PARTED_BY_BLANKS]
+
+
+def _upright(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
+    """Yield the tables whose header is a row of the text, or two."""
+    rows = _rows(found.lines, delimiter)
+    for index in range(min(len(rows), _DEEPEST)):
+        for count in (1, 2):
+            if not rows[index] or len(rows) <= index + count or not all(rows[index : index + count]):
+                continue
+            above = [row for row in rows[index : index + count] if row]
+            header = joined_header(above)
+            if _may_be_header(header.cells) and not any(holds_units(row.cells) for row in above):
+                skipped = found.lines[index][0] - 1 if index else 0
+                layout = FoundLayout(found, delimiter, count, skipped)
+                yield from _below(layout, header, [row for row in rows[index + count :] if row])
+
+
+def is_summary(cells: Sequence[str]) -> bool:
+    """Return whether a row holds means or the like: by the word at its beginning."""
+    words = re.findall(r"[^\W\d_]+", first_cell(cells).casefold())
+    return bool(words) and words[0].startswith(_SUMMARIES)
+
+
+def _lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
+    """Yield the tables that lie on their side: a row of targets, and readings below it."""
+    if len(found.lines) > _WIDEST:
+        return
+    rows = _rows(found.lines, delimiter)
+    for index, row in enumerate(rows[:_DEEPEST]):
+        if row is None or meaning(row.cells[0]) not in _TARGET:
+            continue
+        lines = [each for each in rows[index:] if each]
+        names = [each.cells[0] for each in lines if meaning(each.cells[0])]
+        if sum(map(_is_number, row.cells[1:])) < 2 or len(set(names)) < len(names):
+            continue
+        width = max(len(each.cells) for each in lines)
+        turned = [
+            TextRow(1, "", "", tuple(each.cells[place] if place < len(each.cells) else "" for each in lines))
+            for place in range(width)
+        ]
+        skipped = found.lines[index][0] - 1 if index else 0
+        below = [each for each in turned[1:] if any(each.cells)]
+        yield from _below(FoundLayout(found, delimiter, 1, skipped, is_transposed=True), turned[0], below)
+
+
+def _nameless(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
+    """Yield a table of two columns of numbers without names, but those that a comment may give."""
+    rows = _rows(found.lines, delimiter)
+    first = next((row for row in rows if row and all(map(_is_number, row.cells))), None)
+    if first is None or len(first.cells) < 2:
+        return
+    names = _commented(found.text, first, delimiter) or ("",) * len(first.cells)
+    if not any(names) and len(first.cells) != 2:
+        return
+    header = TextRow(0, "", "", names)
+    skipped = first.line - 1 if any(line < first.line for line, _ in found.lines) else 0
+    below = [row for row in rows if row and row.line >= first.line]
+    yield from _below(FoundLayout(found, delimiter, 0, skipped), header, below)
+
+
+def _is_number(cell: str) -> bool:
+    return number(cell, Notation.of([cell])) is not None
+
+
+def _commented(text: TextFile, first: TextRow, delimiter: str) -> tuple[str, ...]:
+    """Return the names that the last comment above a table gives, if it gives one for each column."""
+    for line in reversed(text.lines[: first.line - 1]):
+        if line.lstrip().startswith("#"):
+            try:
+                cells = parted_line(1, line.lstrip().lstrip("#").strip(), delimiter).cells
+            except EnclosureError:
+                return ()
+            return cells if len(cells) == len(first.cells) and _may_be_header(cells) else ()
+    return ()
+
+
+def _rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow | None]:
+    """Return the rows of lines; None for one whose quotation marks enclose nothing."""
+    found: list[TextRow | None] = []
+    width = 0
+    for line_number, line in lines:
+        try:
+            row = parted_line(line_number, line, delimiter, width)
+        except EnclosureError:
+            found.append(None)
+            continue
+        if delimiter == PARTED_BY_BLANKS and meaning(row.cells[0]) in _TARGET:
+            width = len(row.cells)
+        found.append(row)
+    return found
+
+
+def _may_be_header(cells: Sequence[str]) -> bool:
+    """Return whether names are those of a table of readings, or its columns are readings under no name."""
+    found = [meaning(cell) for cell in cells]
+    known = sum(each is not None and each != NUMBER for each in found)
+    has_target = any(each in _TARGET for each in found)
+    readings = found.count(READING)
+    return known > 1 and any(each in _VALUES for each in found) and (has_target or readings > 1)
+
+
+def _below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Iterator[FoundTable]:
+    """Yield the table below a header: to the first row that has no target."""
+    is_workbook = layout.found.text.of_cells
+    units = rows[0] if rows and holds_units(rows[0].cells) else None
+    rows = rows[1:] if units else rows
+    width = len(header.cells)
+    notation = Notation.of((cell for row in rows[:_ENOUGH] for cell in row.cells), is_workbook=is_workbook)
+    columns = [
+        [number(row.cells[index], notation) if index < len(row.cells) else None for row in rows]
+        for index in range(width)
+    ]
+    meanings = resolved(header.cells, columns)
+    if not any(header.cells):
+        meanings = ["target", *[None] * (width - 1)]
+    if "target" not in meanings:
+        return
+    ends = (
+        index
+        for index, (row, target) in enumerate(zip(rows, columns[meanings.index("target")], strict=True))
+        if target is None or is_summary(row.cells)
+    )
+    last = next(ends, len(rows))
+    is_even = is_workbook or layout.is_transposed or len(rows[0].cells if rows else ()) >= width
+    if last and is_even:
+        yield FoundTable(layout, header, units, rows[:last], rows[last:], meanings, notation)

@@ -1,0 +1,345 @@
+"""What two measured lines give together: squareness and parallelism.
+
+The angle between two axes is that between their reference lines, so that its value depends on the line that
+was chosen. With m_1 and m_2, the slopes of the two straightness errors in the directions of each other's axes
+(EYX over X and EXY over Y), the X path turns by m_1 about +Z and the Y path by −m_2: C0Y, the turn of Y
+against X, is −(m_1 + m_2). The same algebra gives A0Z, and B0Z with the opposite sign, for a right-handed
+turn of Z about +Y leans towards +X. The artefact's own angle − 90° is added to the angle of the axes that was
+measured against it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+from pydantic import Field
+
+from zlmreport.plugin import (
+    ARCSECOND,
+    MICROMETRE_PER_METRE,
+    MILLIMETRE,
+    ErrorSymbol,
+    Evaluation,
+    Figure,
+    Finite,
+    FloatArray,
+    JobPart,
+    Measurand,
+    MeasurementSet,
+    Positive,
+    TextLine,
+    Words,
+    same_in_all_languages,
+)
+from zlmreport.plugin.extension import (
+    Acts,
+    Contribution,
+    Distribution,
+    calibration_in_words,
+    expanded_uncertainty_in_words,
+)
+from zlmreport.plugin.standard import (
+    Curve,
+    Finding,
+    Panel,
+    PositionStatistics,
+    Role,
+    deviation_in_words,
+    position_in_words,
+)
+from zlmreport_plugins.standards.iso230_1.figures import LINES
+from zlmreport_plugins.standards.iso230_1.reference_lines import (
+    LineName,
+    mean_of_all_runs,
+    residuals,
+    slope,
+)
+
+_FEWEST = 3
+_COVERAGE_FACTOR = 2.0
+#: Of the turn of one axis against the other, by the sum of both slopes.
+_SIGNS = {"C0Y": -1.0, "B0Z": 1.0, "A0Z": -1.0}
+#: A lean that is seen in a sketch, of its height.
+_LEAN = 0.06
+#: Of two places that are said to be one, m.
+_ALIKE = 1e-3
+
+
+class SquareKeys(JobPart):
+    """The square, or another artefact, against which both lines were measured."""
+
+    error: Finite = Field(
+        0.0, description="Its angle minus 90°, as its certificate states it, arc seconds.", examples=[0.4]
+    )
+    expanded_uncertainty: Positive | None = Field(
+        None, description="Of that angle, k = 2, arc seconds.", examples=[0.5]
+    )
+    name: TextLine | None = Field(None, description="Which it is.", examples=["Granite square GS 630"])
+    certificate: TextLine | None = Field(None, description="Its calibration certificate.")
+
+
+def values(
+    what: ErrorSymbol | Measurand,
+    statistics: PositionStatistics,
+    line: LineName,
+    square: SquareKeys | None,
+) -> dict[str, FloatArray]:
+    """Return the angle between two lines and their slopes, rad; NaN unless there are two."""
+    batch = statistics.mean.shape[:-2]
+    slopes = [_slope(each, line) for each in statistics.tests.values()]
+    if len(slopes) != 2:
+        slopes = [np.full(batch, np.nan)] * 2
+    first, second = slopes
+    if isinstance(what, Measurand):
+        return {what.identifier: first - second, "slope_1": first, "slope_2": second}
+    artefact = ARCSECOND.to_si(square.error) if square else 0.0
+    turned = _SIGNS[what.symbol] * (first + second - artefact)
+    return {what.symbol: turned, "slope_1": first, "slope_2": second}
+
+
+def _slope(statistics: PositionStatistics, line: LineName) -> FloatArray:
+    mean = mean_of_all_runs(statistics)
+    several = np.count_nonzero(~np.isnan(mean), axis=-1) >= _FEWEST
+    return np.where(several, slope(statistics.positions, mean, line), np.nan)
+
+
+def contributions(
+    what: ErrorSymbol | Measurand, measurements: MeasurementSet, square: SquareKeys | None
+) -> Mapping[str, Sequence[Contribution]]:
+    """Return the error of the square's angle: it tilts all readings of the second line alike."""
+    if square is None or square.expanded_uncertainty is None or isinstance(what, Measurand):
+        return {}
+    (*_, (name, line)) = measurements.tests.items()
+    length = float(np.ptp(line.target_positions))
+    expanded = ARCSECOND.to_si(square.expanded_uncertainty)
+    return {
+        name: [
+            Contribution(
+                name=_SQUARE,
+                standard_uncertainty=expanded / _COVERAGE_FACTOR * length,
+                acts=Acts.ALONG_THE_LENGTH,
+                distribution=Distribution.NORMAL,
+                stated=expanded_uncertainty_in_words(
+                    square.expanded_uncertainty, ARCSECOND.symbol, _COVERAGE_FACTOR
+                ),
+                source=calibration_in_words(square.certificate),
+                contributor="square",
+            )
+        ]
+    }
+
+
+def requirements(
+    what: ErrorSymbol | Measurand, measurements: MeasurementSet, square: SquareKeys | None
+) -> Iterator[Finding]:
+    """Hold what two lines must have in common against those of a test."""
+    lines = tuple(measurements.tests.values())
+    errors = [each.axis.error for each in lines]
+    if isinstance(what, Measurand):
+        yield Finding(_TWO, same_in_all_languages(", ".join(measurements.tests)), len(lines) == len(_PAIR))
+    else:
+        found = ", ".join(filter(None, errors)) or ", ".join(measurements.tests)
+        yield Finding(
+            _PAIR_OF.given(pair=" + ".join(what.lines)),
+            same_in_all_languages(found),
+            sorted(errors) == sorted(what.lines),
+        )
+    fewest = min((len(each.target_positions) for each in lines), default=0)
+    number = Words("{number}", "{number}").given(number=fewest)
+    yield Finding(_POSITIONS.given(number=_FEWEST), number, fewest >= _FEWEST)
+    if not isinstance(what, Measurand):
+        yield _meeting(lines)
+        stated = _SQUARE_STATED if square and square.expanded_uncertainty else _NOT_STATED
+        yield Finding(_SQUARE_IS_STATED, stated, True if stated is _SQUARE_STATED else None)
+
+
+def _meeting(lines: Sequence[MeasurementSet]) -> Finding:
+    """Return whether the lines lie in one plane, as far as the job says where they lie."""
+    places = [dict(each.axis.at) for each in lines]
+    moving = {each.axis.name for each in lines}
+    common = set.intersection(*(set(each) for each in places)) - moving if places else set()
+    if not common:
+        return Finding(_MEET, _NOT_STATED, None)
+    apart = [
+        (name, distance)
+        for name in sorted(common)
+        if (distance := max(each[name] for each in places) - min(each[name] for each in places)) > _ALIKE
+    ]
+    if not apart:
+        return Finding(_MEET, _IN_ONE_PLANE, met=True)
+    name, distance = apart[0]
+    words = _APART.given(axis=name, distance=position_in_words(lines[0].axis, distance))
+    return Finding(_MEET, words, met=False)
+
+
+def notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
+    """Yield what a reader of the angle between two lines must know."""
+    if isinstance(what, Measurand):
+        yield _OF_PARALLELISM
+    else:
+        yield _LEANS[what.symbol]
+        yield _OWN_READING
+    yield _OF_THE_LINES
+
+
+def figures(what: ErrorSymbol | Measurand, evaluation: Evaluation, line: LineName) -> Iterator[Figure]:
+    """Yield both lines with their reference lines, and a sketch of how the axes lean."""
+    tests = evaluation.measurements.tests
+    if len(tests) != len(_PAIR):
+        return
+    panels = [_panel(name, each, evaluation.statistics.tests[name], line) for name, each in tests.items()]
+    first = next(iter(tests.values())).axis
+    slopes = [evaluation.value(each) for each in _PAIR]
+    symbol = evaluation.parameters[0].quantity.symbol if evaluation.parameters else ""
+    alternative = _SEEN.given(
+        lines=", ".join(tests),
+        first=_slope_in_words(slopes[0]),
+        second=_slope_in_words(slopes[1]),
+    )
+    yield Figure(
+        key="lines",
+        title=_LINES.given(symbol=symbol, line=LINES[line]),
+        alternative=alternative,
+        x_title=_POSITION,
+        y_title=_DEVIATION,
+        x_unit=first.position_unit.symbol,
+        y_unit=first.deviation_unit.symbol,
+        panels=tuple(panels),
+        spans_are_alike=False,
+        is_wide=True,
+    )
+    if not isinstance(what, Measurand) and evaluation.parameters:
+        yield _sketch(what, evaluation)
+
+
+def _panel(name: str, measurements: MeasurementSet, statistics: PositionStatistics, line: LineName) -> Panel:
+    axis, x = measurements.axis, measurements.target_positions
+    mean = mean_of_all_runs(statistics)
+    shown = axis.position_unit.from_si(x)
+    about = residuals(x, mean, line)
+    return Panel(
+        heading=_HEADING.given(name=name, error=axis.error or axis.name),
+        curves=tuple(
+            Curve(notation, role, shown, axis.deviation_unit.from_si(each))
+            for notation, role, each in (
+                ("x̄_{i}", Role.MEAN_BIDIRECTIONAL, mean),
+                ("y_{0} + m·P_{i}", Role.BAND_LIMIT, mean - about),
+            )
+        ),
+    )
+
+
+def _sketch(what: ErrorSymbol, evaluation: Evaluation) -> Figure:
+    """Return both axes as they lean, far too much: which way the sign means."""
+    value = evaluation.parameters[0].value
+    lean = -_SIGNS[what.symbol] * np.sign(value) * _LEAN
+    # Away from the first axis is to the left; C0Y > 0 leans there, B0Z > 0 to the right.
+    ends = np.array([0.0, 1.0])
+    size = max(
+        (float(np.ptp(each.target_positions)) for each in evaluation.measurements.tests.values()), default=1.0
+    )
+    length = MILLIMETRE.from_si(size)
+    written = deviation_in_words(evaluation.measurements.axis, float(f"{value:.3g}"))
+    way = _AWAY if lean > 0 else _TOWARDS
+    return Figure(
+        key="sketch",
+        title=_SKETCH.given(symbol=what.symbol, axis=what.axis, way=way, reference=what.reference),
+        alternative=_LEANS_IN_WORDS.given(
+            symbol=what.symbol, value=written, axis=what.axis, way=way, reference=what.reference
+        ),
+        x_title=same_in_all_languages(what.reference),
+        y_title=same_in_all_languages(what.axis),
+        x_unit=MILLIMETRE.symbol,
+        y_unit=MILLIMETRE.symbol,
+        panels=(
+            Panel(
+                curves=(
+                    Curve(f"+{what.reference}", Role.MEAN_POSITIVE, ends * length, ends * 0.0),
+                    Curve("90°", Role.BAND_LIMIT, ends * 0.0, ends * length),
+                    Curve(f"+{what.axis}", Role.MEAN_NEGATIVE, -lean * ends * length, ends * length),
+                )
+            ),
+        ),
+    )
+
+
+def _slope_in_words(value: float | None) -> Words:
+    printed = MICROMETRE_PER_METRE.from_si(value or 0.0)
+    return Words("{value} µm/m", "{value} µm/m").given(value=float(f"{printed:.6g}"))
+
+
+_PAIR = ("slope_1", "slope_2")
+_SQUARE = Words("Square", "Winkelnormal")
+_TWO = Words("Two lines", "Zwei Linien")
+_PAIR_OF = Words("Straightness of both axes, {pair}", "Geradheit beider Achsen, {pair}")
+_POSITIONS = Words(
+    "At least {number} positions on each line", "Mindestens {number} Positionen auf jeder Linie"
+)
+_MEET = Words("Both lines in one plane (measurement.at)", "Beide Linien in einer Ebene (measurement.at)")
+_IN_ONE_PLANE = Words("they are", "sie sind es")
+_APART = Words("{distance} apart in {axis}", "in {axis} {distance} voneinander entfernt")
+_NOT_STATED = Words("not stated", "nicht angegeben")
+_SQUARE_IS_STATED = Words(
+    "The angle of the square with its uncertainty (square)",
+    "Der Winkel des Normals mit seiner Unsicherheit (square)",
+)
+_SQUARE_STATED = Words("stated", "angegeben")
+_LEANS = {
+    "C0Y": Words(
+        "C0Y is the turn of +Y against +X, right-handed about +Z: above zero the angle between +X and +Y is "
+        "larger than 90°.",
+        "C0Y ist die Drehung von +Y gegen +X, rechtshändig um +Z: über null ist der Winkel zwischen +X und "
+        "+Y größer als 90°.",
+    ),
+    "B0Z": Words(
+        "B0Z is the turn of +Z against +X, right-handed about +Y: above zero the angle between +X and +Z is "
+        "smaller than 90°.",
+        "B0Z ist die Drehung von +Z gegen +X, rechtshändig um +Y: über null ist der Winkel zwischen +X und "
+        "+Z kleiner als 90°.",
+    ),
+    "A0Z": Words(
+        "A0Z is the turn of +Z against +Y, right-handed about +X: above zero the angle between +Y and +Z is "
+        "larger than 90°.",
+        "A0Z ist die Drehung von +Z gegen +Y, rechtshändig um +X: über null ist der Winkel zwischen +Y und "
+        "+Z größer als 90°.",
+    ),
+}
+_OWN_READING = Words(
+    "The sign of squareness errors is this program's reading of ISO 230-1.",
+    "Das Vorzeichen von Rechtwinkligkeitsabweichungen entspricht dem Verständnis dieses Programms von "
+    "ISO 230-1.",
+)
+_OF_PARALLELISM = Words(
+    "The value is the slope of the first line minus that of the second: readings of both must be positive in "
+    "the same direction.",
+    "Der Wert ist die Steigung der ersten Linie minus die der zweiten: die Messwerte beider müssen in "
+    "derselben Richtung positiv sein.",
+)
+_OF_THE_LINES = Words(
+    "The angle is that between the reference lines of the means of all runs: another kind of line gives "
+    "another value.",
+    "Der Winkel ist der zwischen den Bezugsgeraden der Mittel aller Durchläufe: eine andere Art der "
+    "Geraden ergibt einen anderen Wert.",
+)
+_POSITION = Words("Target position", "Sollposition")
+_DEVIATION = Words("Deviation", "Abweichung")
+_HEADING = Words("{name}: {error}", "{name}: {error}")
+_LINES = Words(
+    "{symbol}: mean deviations of both lines with the {line}",
+    "{symbol}: mittlere Abweichungen beider Linien mit der {line}",
+)
+_SEEN = Words(
+    "Two graphs of deviation over position: {lines}. Slopes of the reference lines: {first} and {second}.",
+    "Zwei Diagramme der Abweichung über der Position: {lines}. Steigungen der Bezugsgeraden: {first} und "
+    "{second}.",
+)
+_SKETCH = Words(
+    "What the sign of {symbol} says: +{axis} leans {way} +{reference}, drawn far too large",
+    "Was das Vorzeichen von {symbol} sagt: +{axis} ist {way} +{reference} geneigt, weit übertrieben",
+)
+_LEANS_IN_WORDS = Words(
+    "Sketch: {symbol} = {value}; +{axis} leans {way} +{reference}.",
+    "Skizze: {symbol} = {value}; +{axis} ist {way} +{reference} geneigt.",
+)
+_AWAY, _TOWARDS = Words("away from", "weg von"), Words("towards", "zu")

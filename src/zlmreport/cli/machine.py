@@ -1,0 +1,192 @@
+"""``zlmreport machine``: the model of a whole machine, from what its axes predict to the effect it lacks."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from zlmreport.cli.layout import section_lines
+from zlmreport.cli.terminal import Colour, print_json, shown_path
+from zlmreport.document.blocks import Block, Section
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.errors import InputError, Place, did_you_mean, quoted
+from zlmreport.files import Document, write
+from zlmreport.language import Language
+from zlmreport.machines.comparison import Compared, compare_circles, compare_line
+from zlmreport.machines.diagnosis import diagnose
+from zlmreport.machines.diagnosis_report import build_values, change_values, diagnosis_values
+from zlmreport.machines.document import machine_document
+from zlmreport.machines.editing import edit_effects
+from zlmreport.machines.planning import next_run, plan_values
+from zlmreport.machines.prediction import prediction_values
+from zlmreport.machines.reading import MachineFile, read_machine
+from zlmreport.machines.report import error_values
+from zlmreport.machines.subjects import findings, tests
+from zlmreport.machines.subjects.axes import error_section, space_section
+from zlmreport.machines.subjects.plan import plan_section
+from zlmreport.machines.subjects.saying import Sayer
+from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.pipeline import file_names
+from zlmreport.plugin.protocols import Renderer
+from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.verification.carrier import results_in
+
+_SAY = Sayer(Language.ENGLISH)
+
+
+def run(options: Namespace) -> int:
+    """Do what the action says with a machine."""
+    registry = find_plugins(files=options.plugin)
+    machine = read_machine(options.job, registry, results_in)
+    lines, values = _ACTIONS[options.action](machine, registry, options)
+    if options.json:
+        print_json(values)
+    else:
+        print(*lines, sep="\n")
+    return 0
+
+
+def _laid_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:
+    yield f"{Colour.BOLD.of(machine.number)}  chain {machine.machine.chain.letters} (workpiece to tool)"
+    yield from section_lines(each for each in sections if each)
+    yield from more
+
+
+def _predict(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
+    compared = (
+        *compare_circles(machine.machine, machine.measured, registry),
+        *(compare_line(machine.machine, each) for each in machine.lines),
+    )
+    sections = [
+        error_section(machine.machine, _SAY, is_full=False),
+        space_section(machine.machine, _SAY),
+        *(tests.test_section(each, _SAY) for each in compared),
+    ]
+    return _laid_out(machine, sections), prediction_values(machine.machine, compared)
+
+
+def _check(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
+    named = list(machine.test_names)
+    values = {
+        "schema": "zlmreport/machine-check/1",
+        "machine": machine.number,
+        "chain": machine.machine.chain.letters,
+        "errors": error_values(machine.machine),
+        "tests": named,
+        "effects": list(machine.effect_names),
+        "problems": [],
+    }
+    sections = [error_section(machine.machine, _SAY, is_full=False)]
+    return _laid_out(machine, sections, "", f"tests: {', '.join(named) or 'none'}"), values
+
+
+def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
+    found = diagnose(machine.study(), machine.catalogue)
+    before, after = (
+        compare_circles(machine.machine, machine.measured, registry, study)
+        for study in (found.study, found.complete)
+    )
+    blocks: list[Block] = [tests.sizes_table(before, _SAY, found.complete.noise.rms)]
+    failures = tests.failure_notice(before, _SAY)
+    if failures:
+        blocks.append(failures)
+    verdict, *others = findings.said_of(found, _SAY)
+    sections = [verdict, Section("tests", "Tests", tuple(blocks)), *others]
+    path = shown_path(machine.path)
+    further = ["", f"next: zlmreport machine add {path} {found.found[0]}"] if found.found else []
+    if found.is_tied:
+        further = ["", f"next: zlmreport machine plan {path}"]
+    return _laid_out(machine, sections, *further), diagnosis_values(found, before, after)
+
+
+def _plan(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
+    found = next_run(diagnose(machine.study(), machine.catalogue), machine.catalogue)
+    return _laid_out(machine, [plan_section(found, _SAY)]), plan_values(found)
+
+
+def _certificate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    """Write the document on a machine, and its results for programs."""
+    document = machine_document(machine, registry)
+    output, certificate = machine.file.keys.output, document.certificate
+    folder = options.output or output.directory or machine.path.parent
+    stated = options.format.split(",") if options.format else output.formats
+    renderers = [registry.renderer(each.strip(), Place("--format")) for each in stated if each.strip()]
+    documents = [
+        Document(folder / name, document.results if each.identifier == "json" else each.render(certificate))
+        for name, each in zip(file_names(certificate.number, renderers), renderers, strict=True)
+    ]
+    write(documents)
+    shown = [shown_path(each.path) for each in documents]
+    return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": shown}
+
+
+def _rendered(renderer: Renderer, certificate: Certificate, folder: Path) -> Document:
+    return Document(folder / file_name(certificate, renderer), renderer.render(certificate))
+
+
+def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    """Add effect after effect, and write them into the machine file."""
+    found = diagnose(machine.study(), machine.catalogue)
+    if found.found and not options.dry_run:
+        edit_effects(machine, (*machine.effect_names, *found.found))
+    sections = [
+        findings.verdict_section(found, _SAY),
+        findings.step_section(found, _SAY),
+        findings.model_section(found.complete, _SAY),
+    ]
+    return _laid_out(machine, sections), build_values(found)
+
+
+def _add(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    """Write an effect into the machine file, and say how the error changed."""
+    place = Place("zlmreport machine add")
+    effect = registry.circle_effect(options.effect, place)
+    if options.effect in machine.effect_names:
+        raise InputError.at(place, f"{options.effect} stands in the model already")
+    return _changed(machine, registry, (*machine.effects, effect))
+
+
+def _remove(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    """Take an effect out of the machine file, and say how the error changed."""
+    if options.effect not in machine.effect_names:
+        raise InputError.at(
+            machine.file.place_of("model", "effects"),
+            f"{quoted(options.effect)} does not stand in the model; "
+            + did_you_mean(options.effect, machine.effect_names),
+        )
+    kept = [each for each in machine.effects if each.identifier != options.effect]
+    return _changed(machine, registry, kept)
+
+
+def _changed(
+    machine: MachineFile, registry: Registry, effects: Sequence[CircleEffect]
+) -> tuple[Iterable[str], Any]:
+    before, after = machine.study(), machine.study(effects)
+    compared = [
+        compare_circles(machine.machine, machine.measured, registry, study) for study in (before, after)
+    ]
+    edit_effects(machine, tuple(each.identifier for each in effects))
+    sections = [
+        findings.change_section(before, after, _SAY),
+        *map(_sizes, ("Tests before", "Tests after"), compared, (after.noise.rms, after.noise.rms)),
+        findings.model_section(after, _SAY),
+    ]
+    return _laid_out(machine, sections), change_values(before, after, (compared[0], compared[1]))
+
+
+def _sizes(title: str, compared: Sequence[Compared], noise: float) -> Section:
+    return Section("sizes", title, (tests.sizes_table(compared, _SAY, noise),))
+
+
+_ACTIONS = {
+    "predict": _predict,
+    "check": _check,
+    "diagnose": _diagnose,
+    "build": _build,
+    "plan": _plan,
+    "certificate": _certificate,
+    "add": _add,
+    "remove": _remove,
+}

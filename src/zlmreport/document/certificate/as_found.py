@@ -1,0 +1,311 @@
+"""The axis before and after it was adjusted or repaired (ISO/IEC 17025:2017, 7.8.4.1 d)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.document.certificate import conformity, readings, results, uncertainty
+from zlmreport.document.certificate.circumstances import (
+    Fact,
+    environment_facts,
+    measurement_facts,
+    stated_facts,
+)
+from zlmreport.document.certificate.conditions import correction_blocks
+from zlmreport.document.certificate.values import limit, told_apart
+from zlmreport.document.figures.prescribed import comparison_graph
+from zlmreport.document.writer import NOTHING, Writer, with_uncertainty, written
+from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, changes
+from zlmreport.language import Words
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.results import Evaluated
+    from zlmreport.document.figures.figure import Figure
+    from zlmreport.job.measurement_keys import AsFound
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+#: What the two measurements are called, by the work between them.
+NAMES = {
+    "adjustment": (
+        Words(en="as found, before the adjustment", de="vor der Justierung"),
+        Words(en="as left, after the adjustment", de="nach der Justierung"),
+    ),
+    "repair": (
+        Words(en="as found, before the repair", de="vor der Reparatur"),
+        Words(en="as left, after the repair", de="nach der Reparatur"),
+    ),
+}
+_TITLE = Words(en="As found and as left", de="Vorgefundener und hinterlassener Zustand")
+_ON_COVER = Words(
+    en="The axis was {done} between two measurements. The results above are those after the {work}; the "
+    "section “{title}” compares them with those before.",
+    de="Die Achse wurde zwischen zwei Messungen {done}. Die Ergebnisse oben gelten nach der {work}; der "
+    "Abschnitt „{title}“ vergleicht sie mit denen davor.",
+)
+#: The work between the measurements, that it was done, and the same as the name of a fact.
+_WORK = {
+    "adjustment": (
+        Words(en="adjustment", de="Justierung"),
+        Words(en="adjusted", de="justiert"),
+        Words(en="Adjusted", de="Justiert"),
+    ),
+    "repair": (
+        Words(en="repair", de="Reparatur"),
+        Words(en="repaired", de="repariert"),
+        Words(en="Repaired", de="Repariert"),
+    ),
+}
+_NOT_ALIKE = Words(
+    en="The two measurements are not alike; differences between them may come from that",
+    de="Die beiden Messungen sind nicht gleichartig; Unterschiede können daher rühren",
+)
+_OTHER_TARGETS = Words(en="Other target positions", de="Andere Sollpositionen")
+_OTHER_APPROACHES = Words(en="Other directions of approach", de="Andere Anfahrrichtungen")
+_OTHER_RUNS = Words(
+    en="Other number of runs: {before} before, {after} after",
+    de="Andere Zahl der Durchläufe: {before} vorher, {after} nachher",
+)
+_LABELLED = Words(en="{title} ({state})", de="{title} ({state})")
+#: Evaluations of both measurements by one standard: as found, as left.
+Pair: TypeAlias = tuple[Evaluation, Evaluation]
+
+_BEFORE = Words(en="As found", de="Vorher")
+_AFTER = Words(en="As left", de="Nachher")
+_CHANGES = Words(
+    en="Parameters as found and as left; change = as left − as found, of unrounded values",
+    de="Kenngrößen vorher und nachher; Änderung = nachher − vorher, aus ungerundeten Werten",
+)
+_CHANGES_WITH_U = Words(
+    en="{changes}. Its U is the sum of both U: it holds whatever errors the two measurements share",
+    de="{changes}. Ihr U ist die Summe beider U: es gilt, welche Fehler den beiden Messungen auch gemeinsam "
+    "sind",
+)
+_LIMITS = Words(en="Limits as found and as left", de="Grenzwerte vorher und nachher")
+
+
+def on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
+    """Yield which of the two measurements the first page shows."""
+    if keys:
+        work, done, _ = _WORK[keys.work]
+        yield Paragraph(writer.say(_ON_COVER.given(work=work, done=done, title=_TITLE)))
+
+
+def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
+    keys: AsFound,
+    as_left: Iterable[Section],
+    before: Sequence[Evaluated],
+    after: Sequence[Evaluated],
+    writer: Writer,
+    section: Callable[[Evaluated, Writer], Section] = results.section,
+) -> Iterator[Section]:
+    """Yield the comparison, the results as left, and those as found; each says which it is.
+
+    `before`, `after`: Evaluations of the two measurements, by the same standards in the same order.
+    """
+    state_before, state_after = NAMES[keys.work]
+    yield _comparison(keys, before, after, writer)
+    yield from (_labelled(each, state_after, writer) for each in as_left)
+    own = _scribe_of(before, writer)
+    yield from (_results(section, each, state_before, own) for each in before)
+
+
+def readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer: Writer) -> Section:
+    """Return the section of the readings as found."""
+    measurements = before[0].evaluation.measurements
+    section = readings.section(measurements, _scribe_of(before, writer), "as_found.measurement.source")
+    return _labelled(replace(section, key="as-found-readings"), NAMES[keys.work][0], writer)
+
+
+def uncertainty_beside_as_found(
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
+) -> Iterator[Section]:
+    """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
+    axis = after[0].evaluation.measurements.axis
+    as_left = uncertainty.section(after[0].budget, axis, writer)
+    if before[0].budget == after[0].budget:
+        yield as_left
+        return
+    as_found = uncertainty.section(before[0].budget, axis, writer)
+    state_before, state_after = NAMES[keys.work]
+    yield _labelled(as_left, state_after, writer)
+    yield _labelled(replace(as_found, key="as-found-uncertainty"), state_before, writer)
+
+
+def _scribe_of(before: Sequence[Evaluated], writer: Writer) -> Writer:
+    """Return a writer for readings that may have other decimals than those as left."""
+    return Writer.of(before[0].evaluation.measurements, writer.language, writer.marks)
+
+
+def _comparison(
+    keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
+) -> Section:
+    first, last = before[0].evaluation, after[0].evaluation
+    pairs = [(one.evaluation, other.evaluation) for one, other in zip(before, after, strict=True)]
+    blocks: list[Block] = [
+        *_circumstances(keys, first.measurements, writer),
+        *correction_blocks(first.measurements, writer),
+        *_differences(first.measurements, last.measurements, writer),
+        Graph(comparison_graph(first, last, NAMES[keys.work])),
+        changes_table(pairs, writer),
+        *limits(pairs, writer),
+    ]
+    return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks))
+
+
+def _results(
+    section_of: Callable[[Evaluated, Writer], Section], evaluated: Evaluated, state: Words, writer: Writer
+) -> Section:
+    """Return the results as found by a standard, whose definitions stand with the results as left."""
+    section = section_of(evaluated, writer)
+    blocks = tuple(
+        Graph(_named(block.figure, state)) if isinstance(block, Graph) else block
+        for block in section.blocks
+        if not isinstance(block, Formulas)
+    )
+    return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, writer)
+
+
+def _labelled(section: Section, state: Words, writer: Writer) -> Section:
+    """Return a section whose title says to which of the two measurements it belongs."""
+    return replace(section, title=writer.say(_LABELLED.given(title=section.title, state=state)))
+
+
+def _named(figure: Figure, state: Words) -> Figure:
+    title = _LABELLED.given(title=figure.title, state=state)
+    return replace(figure, key=f"as-found-{figure.key}", title=title)
+
+
+def _circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) -> Iterator[Facts]:
+    within = "as_found.measurement"
+    environment = environment_facts(keys.environment, measurements, writer, "as_found.environment")
+    groups = (
+        (
+            Words(en="Measurement as found", de="Messung im vorgefundenen Zustand"),
+            measurement_facts(keys.measurement, measurements, writer, within),
+        ),
+        (Words(en="Environment as found", de="Umgebung dabei"), environment),
+        (
+            Words(en="Between the measurements", de="Zwischen den Messungen"),
+            (Fact(_WORK[keys.work][2], keys.adjustment, ("as_found.work", "as_found.adjustment")),),
+        ),
+    )
+    for heading, facts in groups:
+        pairs = stated_facts(facts, writer)
+        if pairs:
+            yield Facts(pairs, writer.say(heading))
+
+
+def _differences(before: MeasurementSet, after: MeasurementSet, writer: Writer) -> Iterator[Notice]:
+    """Yield what hinders a comparison of like with like."""
+    found = []
+    if not np.array_equal(before.target_positions, after.target_positions):
+        found.append(_OTHER_TARGETS)
+    if before.approaches != after.approaches:
+        found.append(_OTHER_APPROACHES)
+    if len(before.runs) != len(after.runs):
+        found.append(_OTHER_RUNS.given(before=len(before.runs), after=len(after.runs)))
+    if found:
+        yield Notice(writer.say(_NOT_ALIKE), tuple(map(writer.say, found)))
+
+
+def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
+    """Return the table of parameters before and after, with their uncertainties where these are known."""
+    unit = writer.deviation_unit.symbol
+    changed = [changes(*pair) for pair in pairs]
+    every = [each for of_pair in changed for each in of_pair]
+    known = any(one.expanded_uncertainty is not None for each in every for one in _both(each))
+    uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
+    columns = (
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
+        Column(writer.say(_BEFORE), unit, Align.RIGHT),
+        *uncertainty,
+        Column(writer.say(_AFTER), unit, Align.RIGHT),
+        *uncertainty,
+        Column(writer.say(Words(en="Change", de="Änderung")), unit, Align.RIGHT),
+        *uncertainty,
+    )
+    groups = tuple(
+        RowGroup(tuple(_change(each, writer, known=known) for each in of_pair), pair[1].designation)
+        for pair, of_pair in zip(pairs, changed, strict=True)
+    )
+    caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
+    quantities = (each.either.quantity for each in every)
+    return Table(told_apart(caption, quantities, has_uncertainty=known, writer=writer), columns, groups)
+
+
+def _both(change: Change) -> Iterator[Parameter]:
+    yield from filter(None, (change.before, change.after))
+
+
+def _change(change: Change, writer: Writer, *, known: bool) -> tuple[Cell, ...]:
+    quantity, parts = change.either.quantity, 2 if known else 1
+    return (
+        Symbol(quantity.notation),
+        writer.say(quantity.name),
+        *(written(change.before, writer) if change.before else (NOTHING, NOTHING))[:parts],
+        *(written(change.after, writer) if change.after else (NOTHING, NOTHING))[:parts],
+        *_value_of(change, writer)[:parts],
+    )
+
+
+def _value_of(change: Change, writer: Writer) -> tuple[str, str]:
+    """Write a change, with the sign that the standard's edition prints, and its U."""
+    if change.value is None:
+        return NOTHING, NOTHING
+    writer = writer.of_quantity(change.either.quantity)
+    value = change.either.quantity.printed_sign * change.value
+    if change.expanded_uncertainty is None:
+        return writer.deviation(value), NOTHING
+    return with_uncertainty(value, change.expanded_uncertainty, writer)
+
+
+def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
+    """Yield the table of what is stated of the limits before and after, where the job states any."""
+    columns = (
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(
+            writer.say(Words(en="Limit", de="Grenzwert")) + writer.marks.after("evaluate.tolerances"),
+            writer.deviation_unit.symbol,
+            Align.RIGHT,
+        ),
+        Column(writer.say(_BEFORE)),
+        Column(writer.say(_AFTER)),
+    )
+    groups = tuple(
+        RowGroup(
+            tuple(_verdicts(each, writer) for each in changes(*pair) if each.either.limit is not None),
+            pair[1].designation,
+        )
+        for pair in pairs
+    )
+    limited = tuple(group for group in groups if group.rows)
+    if limited:
+        yield Table(writer.say(_LIMITS), columns, limited)
+
+
+def _verdicts(change: Change, writer: Writer) -> tuple[Cell, ...]:
+    return (
+        Symbol(change.either.quantity.notation),
+        limit(change.either, writer),
+        *(conformity.verdict(each, writer) if each else NOTHING for each in (change.before, change.after)),
+    )

@@ -1,0 +1,230 @@
+"""The files that travel inside a certificate: what it was made from, and its results for programs.
+
+With them anyone can evaluate it again; `zlmreport verify` does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum, StrEnum
+from pathlib import PurePosixPath
+from typing import TYPE_CHECKING
+
+from zlmreport.errors import InputError, Place
+from zlmreport.job.tree import scalars
+from zlmreport.job.types import path_from_job
+from zlmreport.language import Language, Words
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.provenance import SourceFile
+
+#: Of the files in one certificate, and in bytes of all of them together.
+MOST_ATTACHMENTS = 64
+LARGEST_TOTAL = 64 * 1024 * 1024
+
+#: By suffix, and the same on every machine: a system's own list of media types is not.
+_MEDIA_TYPES = {
+    ".csv": "text/csv",
+    ".dat": "text/plain",
+    ".jpeg": "image/jpeg",
+    ".jpg": "image/jpeg",
+    ".json": "application/json",
+    ".png": "image/png",
+    ".rta": "text/plain",
+    ".rtl": "text/plain",
+    ".txt": "text/plain",
+    ".xml": "application/xml",
+    ".yaml": "application/yaml",
+    ".yml": "application/yaml",
+}
+_UNKNOWN = "application/octet-stream"
+#: What some systems do not take in the name of a file.
+_NOT_IN_NAMES = frozenset('\\/:*?"<>|')
+_LONGEST_NAME = 100
+
+
+class Relationship(StrEnum):
+    """What an attached file is to the document, in the words of the PDF standard (AFRelationship)."""
+
+    SOURCE = "Source"
+    DATA = "Data"
+    ALTERNATIVE = "Alternative"
+    SUPPLEMENT = "Supplement"
+
+
+@dataclass(frozen=True, slots=True)
+class Attachment:
+    """A file inside a document.
+
+    Attributes
+    ----------
+    name
+        Unique among the attachments of a document, and no path.
+    content
+        Its bytes.
+    media_type
+        ``text/csv``.
+    relationship
+        To the document.
+    description
+        What it is, in the document's language.
+    """
+
+    name: str
+    content: bytes
+    media_type: str
+    relationship: Relationship
+    description: str
+
+
+class Role(Enum):
+    """What a source is to the job: its key in the results file, and its name."""
+
+    JOB = ("job", Words(en="Job", de="Auftrag"))
+    EXTENDED = ("extended", Words(en="Extended by the job", de="Vom Auftrag erweitert"))
+    TABLE = ("table", Words(en="Table of the axis", de="Tabelle der Achse"))
+    READINGS = ("readings", Words(en="Readings", de="Messwerte"))
+    SESSION = ("session", Words(en="Further test of the axis", de="Weitere Messung der Achse"))
+    PRIORS = ("priors", Words(en="What earlier tests taught", de="Was frühere Messungen lehrten"))
+    TEST = ("test", Words(en="Part of what was measured", de="Teil des Gemessenen"))
+    LOGO = ("logo", Words(en="Logo of the laboratory", de="Logo des Labors"))
+
+    def __init__(self, key: str, title: Words) -> None:
+        self.key = key
+        self.title = title
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """A file that a certificate was made from.
+
+    Attributes
+    ----------
+    role
+        What it is to the job.
+    name
+        Its name as an attachment.
+    path
+        From the job's folder, as the job comes to it: ``../laboratory.yaml``; or from the root, where the
+        job itself says so. It tells nothing of the folders of a laboratory that the job does not.
+    file
+        Its digest and bytes.
+    """
+
+    role: Role
+    name: str
+    path: str
+    file: SourceFile
+
+
+def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -> tuple[Source, ...]:
+    """Return every file that a certificate is made from, the job file first."""
+    trees = (job.tree, *(part.tree for part in job.parts))
+    stated = frozenset(each.text for tree in trees for each in scalars(tree))
+    found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
+
+    def add(role: Role, file: SourceFile) -> None:
+        found.setdefault((_path(file, job, stated), file.sha256), (role, file))
+
+    known: dict[SourceFile, Role] = {}
+    for part in job.parts:
+        known |= dict.fromkeys((file for each in part.sessions for file in each.files), Role.SESSION)
+        known |= dict.fromkeys(part.files[-1:] if part.priors else (), Role.PRIORS)
+        known |= dict.fromkeys(part.axis.files, Role.TABLE)
+    known |= {each.files[0]: Role.TEST for each in job.measurements.values()}
+    for number, file in enumerate(job.files):
+        add(known.get(file, Role.EXTENDED) if number else Role.JOB, file)
+    for file in readings:
+        add(Role.READINGS, file)
+    if logo:
+        add(Role.LOGO, logo)
+    return _named(found, job.keys.certificate.number)
+
+
+def sources_of(files: Sequence[SourceFile], number: str) -> tuple[Source, ...]:
+    """Return every file that a document of several jobs is made from; the first names the others.
+
+    `number`: Of the document.
+    """
+    found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
+    first = files[0].path
+    for file in files:
+        path = path_from_job(file.path, first) if first and file.path else None
+        found.setdefault((path or file.name, file.sha256), (Role.TEST if found else Role.JOB, file))
+    return _named(found, number)
+
+
+def _named(found: Mapping[tuple[str, str], tuple[Role, SourceFile]], number: str) -> tuple[Source, ...]:
+    """Return files, by path and digest, each with a name of its own."""
+    taken: set[str] = set()
+    return tuple(
+        Source(role, _unique(_clean(file.name), taken, number), path, file)
+        for (path, _), (role, file) in found.items()
+    )
+
+
+def source_attachments(sources: Iterable[Source], language: Language) -> Iterator[Attachment]:
+    """Yield the sources as attachments; one whose reader did not keep its bytes cannot be attached."""
+    for source in sources:
+        if source.file.content is not None:
+            description = f"{source.role.title.in_language(language)}: {_clean(source.path, kept='/')}"
+            yield Attachment(
+                source.name,
+                source.file.content,
+                media_type(source.name),
+                Relationship.SOURCE,
+                description,
+            )
+
+
+def arranged(attachments: Iterable[Attachment], number: str) -> tuple[Attachment, ...]:
+    """Return the attachments of the certificate of this number in the order in which a PDF lists them.
+
+    Raises `InputError` if they are more, or larger, than a certificate carries.
+    """
+    found = sorted(attachments, key=lambda each: each.name.encode())
+    size = sum(len(each.content) for each in found)
+    if len(found) > MOST_ATTACHMENTS or size > LARGEST_TOTAL:
+        raise InputError.at(
+            Place(number),
+            f"its {len(found)} files have {size} bytes in all; a PDF certificate carries its files, and "
+            f"these are {MOST_ATTACHMENTS} with {LARGEST_TOTAL} bytes (64 MiB) at most",
+        )
+    return tuple(found)
+
+
+def media_type(name: str) -> str:
+    """Return the media type of a file by the suffix of its name."""
+    return _MEDIA_TYPES.get(PurePosixPath(name).suffix.lower(), _UNKNOWN)
+
+
+def _path(file: SourceFile, job: Job, stated: Container[str]) -> str:
+    """Return the path by which the job comes to a file; only its name where the job does not state one.
+
+    A path from the root is told if it is among the values that the job states.
+    """
+    job_path = job.files[0].path
+    if file.path is None or job_path is None:
+        return file.name
+    from_root = str(file.path) if file.path.is_absolute() and str(file.path) in stated else None
+    return path_from_job(file.path, job_path, from_root) or file.name
+
+
+def _unique(name: str, taken: set[str], number: str) -> str:
+    """Return a name that no file before has; names that begin like the certificate's own files are kept."""
+    stem, dot, suffix = name.partition(".")
+    count, candidate = 1, name
+    while candidate.casefold() in taken or candidate.startswith(f"{number}."):
+        count += 1
+        candidate = f"{stem}-{count}{dot}{suffix}"
+    taken.add(candidate.casefold())
+    return candidate
+
+
+def _clean(text: str, kept: str = "") -> str:
+    """Return a text without what is not seen, or not taken by every system."""
+    allowed = _NOT_IN_NAMES - set(kept)
+    shown = "".join("_" if each in allowed or not each.isprintable() else each for each in text)
+    return shown[-_LONGEST_NAME:]

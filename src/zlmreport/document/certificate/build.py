@@ -1,0 +1,196 @@
+"""A checked job and its evaluations become a document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from zlmreport.document.certificate.attachments import sources
+from zlmreport.document.certificate.conditions import Described
+from zlmreport.document.certificate.cover import lines
+from zlmreport.document.certificate.digest import digest_of
+from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
+from zlmreport.document.certificate.material import Interpretation, LaidOut, Material, in_full
+from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.own_look import Logo, read_logo, read_look
+from zlmreport.document.certificate.own_words import arranged, filled
+from zlmreport.document.certificate.statements import document_title, running_title, subject_of
+from zlmreport.document.writer import Marks, Writer
+from zlmreport.evaluation import traceability
+from zlmreport.evaluation.evidence import evidence
+from zlmreport.language import Words
+from zlmreport.version import __version__
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.document import Linked
+    from zlmreport.document.certificate.results import Evaluated, Tested
+    from zlmreport.document.figures.figure import Figure
+    from zlmreport.job.document_keys import Laboratory
+    from zlmreport.job.job import Job
+
+GENERATOR = f"zlmreport {__version__}"
+
+_DESCRIPTION = Words(
+    en="{subject}, evaluated by {standards}",
+    de="{subject}, ausgewertet nach {standards}",
+)
+
+
+def build(  # noqa: PLR0913, PLR0917 - what a document is made of
+    job: Job,
+    evaluated: tuple[Evaluated, ...],
+    plugins: Mapping[str, str],
+    doubtful: tuple[Words, ...] = (),
+    interpretation: Interpretation | None = None,
+    as_found: tuple[Evaluated, ...] = (),
+    describe: Callable[[Writer], Sequence[Described]] = lambda _: (),
+    generator: str = GENERATOR,
+    tests: tuple[Tested, ...] = (),
+    *,
+    is_part: bool = False,
+) -> Certificate:
+    """Build the document.
+
+    `evaluated`: At least one evaluation; all are of the same measurements.
+    `doubtful`: Sentences on values that seem to be in another unit.
+    `interpretation`: By an error model; None where the job names none.
+    `as_found`: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
+    `tests`: Of several measured lines that are evaluated together, each by itself; empty of most documents.
+    `is_part`: Whether it is one of several that make one document: what all share stands there.
+    """
+    certificate = job.keys.certificate
+    measurements = evaluated[0].evaluation.measurements
+    writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
+    if not certificate.readings_on_graphs:
+        evaluated, as_found = map(_without_readings, (evaluated, as_found))
+        tests = tuple(replace(each, evaluated=_without_readings(each.evaluated)) for each in tests)
+    designations = tuple(each.evaluation.designation for each in evaluated)
+    logo = _logo(job)
+    sessions = interpretation.sessions if interpretation else ()
+    read = (measurements, *(each.evaluation.measurements for each in as_found[:1]), *sessions)
+    files = [file for each in read for file in each.provenance.files]
+    made_from = sources(job, files, logo.file if logo else None)
+    lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
+    shown = tuple(
+        said_of_each(
+            (name, (*evidence(line, of_line), *traceability.doubts(line, of_line)))
+            for name, line, of_line in lines
+        )
+    )
+    letterhead, title = letterhead_of(job.keys.laboratory, logo), writer.say(document_title(certificate))
+    results = tuple(each.evaluation for each in evaluated)
+    results_as_found = tuple(each.evaluation for each in as_found)
+    digest = digest_of(certificate.number, (*results, *results_as_found))
+    material = Material(
+        job,
+        evaluated,
+        as_found,
+        doubtful,
+        shown,
+        interpretation,
+        describe(writer),
+        made_from,
+        generator,
+        plugins,
+        letterhead,
+        title,
+        digest,
+        writer,
+        tests,
+        is_part,
+    )
+    laid_out, style = _laid_out(material), certificate.style
+    sections = arranged(laid_out.sections, job)
+    linked = _linked(job, interpretation, writer)
+    return Certificate(
+        number=certificate.number,
+        title=title,
+        subtitle=writer.say(subject_of(job)),
+        language=certificate.language,
+        issued=certificate.issued,
+        paper=certificate.paper,
+        letterhead=letterhead,
+        cover=laid_out.cover,
+        sections=sections,
+        page_words=PageWords(
+            number=writer.say(running_title(certificate)),
+            page=writer.say(Words(en="page", de="Seite")),
+            of=writer.say(Words(en="of", de="von")),
+            end=writer.say(Words(en="End of document", de="Ende des Dokuments")),
+            figure=writer.say(Words(en="Figure", de="Bild")),
+            table=writer.say(Words(en="Table", de="Tabelle")),
+            head=filled(style.header or "", job, "certificate.style.header"),
+            foot=filled(style.footer or "", job, "certificate.style.footer"),
+        ),
+        description=writer.say(
+            _DESCRIPTION.given(subject=subject_of(job), standards=", ".join(designations))
+        ),
+        measurements=measurements,
+        evaluations=results,
+        evaluations_as_found=results_as_found,
+        digest=digest,
+        budget_as_found=as_found[0].budget if as_found else None,
+        generator=generator,
+        keywords=designations,
+        plugins=plugins,
+        diagnosis=interpretation.diagnosis if interpretation else None,
+        linked=linked if linked and linked.section in {each.key for each in sections} else None,
+        budget=evaluated[0].budget,
+        job=job,
+        sources=made_from,
+        is_compact=laid_out.is_compact,
+        look=read_look(job),
+        doubts=doubtful,
+        evidence=shown,
+        tests=tests,
+    )
+
+
+def _laid_out(material: Material) -> LaidOut:
+    """Return the parts of the document in the layout that the job asks for."""
+    match material.job.keys.certificate.layout:
+        case "sheet":
+            from zlmreport.document.certificate.sheet_layout import lay_out  # noqa: PLC0415 - of those that ask for it
+        case "standard":
+            from zlmreport.document.certificate.standard_layout import lay_out  # noqa: PLC0415
+        case _:
+            lay_out = in_full
+    return lay_out(material)
+
+
+def _linked(job: Job, interpretation: Interpretation | None, writer: Writer) -> Linked | None:
+    """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
+    keys = job.keys
+    is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"
+    if interpretation is None or keys.agreement.simplified or not is_shown:
+        return None
+    return interpretation.linked(writer)
+
+
+def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
+    """Return evaluations whose figures lack the single readings behind their curves."""
+
+    def bare(figure: Figure) -> Figure:
+        return replace(figure, panels=tuple(replace(panel, readings=()) for panel in figure.panels))
+
+    return tuple(replace(each, figures=tuple(map(bare, each.figures))) for each in evaluated)
+
+
+def _logo(job: Job) -> Logo | None:
+    laboratory = job.keys.laboratory
+    if laboratory is None or laboratory.logo is None:
+        return None
+    return read_logo(laboratory.logo, job.place_of("laboratory.logo"))
+
+
+def letterhead_of(laboratory: Laboratory | None, logo: Logo | None) -> Letterhead | None:
+    """Return the letterhead of a laboratory, with its logo if it has one."""
+    if laboratory is None:
+        return None
+    return Letterhead(
+        Party(laboratory.name, lines(laboratory.address)),
+        laboratory.accreditation or "",
+        logo.file.content if logo else None,
+        logo.media_type if logo else "",
+    )

@@ -1,0 +1,103 @@
+"""Facts of a circular test: which circle was run, in which senses, where each began, how it was read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from zlmreport.document.certificate.circumstances import Fact, with_unit
+from zlmreport.evaluation.checks import runs_in_words
+from zlmreport.language import Words
+from zlmreport.measurement import units
+
+if TYPE_CHECKING:
+    from zlmreport.document.writer import Writer
+    from zlmreport.job.circle_keys import CircleKeys
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+#: What a document says of the circle in a line.
+_IN_WORDS = Words(
+    en="plane {plane}, radius {radius} mm, feed {feed} mm/min",
+    de="Ebene {plane}, Radius {radius} mm, Vorschub {feed} mm/min",
+)
+_CALIBRATED = Words(en="calibrated", de="kalibriert")
+_NOT_CALIBRATED = Words(
+    en="not calibrated: nothing is said of radii", de="nicht kalibriert: über Radien ist nichts gesagt"
+)
+_SENSES = Words(en="{first} and {second}, {runs} each", de="{first} und {second}, je {runs}")
+_UNLIKE = Words(en="{first}, {runs}; {second}, {others}", de="{first}, {runs}; {second}, {others}")
+_ONE_SENSE = Words(en="{first} only, {runs}", de="nur {first}, {runs}")
+_BEGINS = Words(en="{sense} at {angle}", de="{sense} bei {angle}")
+_ANGLES = Words(
+    en="{count}, from {first} to {last} from +{from_axis} towards +{to_axis}",
+    de="{count}, von {first} bis {last}, von +{from_axis} nach +{to_axis}",
+)
+_AVERAGED = Words(
+    en="{count}, averages of {readings} readings", de="{count}, Mittel aus {readings} Messwerten"
+)
+
+
+def circle_in_words(keys: CircleKeys, writer: Writer) -> str:
+    """Write which circle was run, in a line."""
+    return writer.say(_IN_WORDS.given(plane=keys.plane, radius=keys.radius, feed=keys.feed))
+
+
+def circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
+    """Yield which circle was run, and where in the machine."""
+    stated = "centre" in keys.model_fields_set
+    place = " / ".join(map(writer.number, keys.centre)) if stated else None
+    length = writer.say(_CALIBRATED if keys.calibrated_length else _NOT_CALIBRATED)
+    yield Fact(Words(en="Plane", de="Ebene"), keys.plane, ("circle.plane",))
+    yield Fact(
+        Words(en="Nominal radius", de="Sollradius"), with_unit(keys.radius, "mm", writer), ("circle.radius",)
+    )
+    yield Fact(
+        Words(en="Feed along the path", de="Bahnvorschub"),
+        with_unit(keys.feed, "mm/min", writer),
+        ("circle.feed",),
+    )
+    yield Fact(
+        Words(en="Centre at X / Y / Z", de="Mittelpunkt bei X / Y / Z"),
+        with_unit(place, "mm", writer) and f"{place} mm",
+        ("circle.centre",),
+    )
+    yield Fact(
+        Words(en="Length of the instrument", de="Länge des Messgeräts"), length, ("circle.calibrated_length",)
+    )
+
+
+def path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Iterator[Fact]:
+    """Yield in which senses a circle was run, where each began, and at how many angles it was read."""
+    source = (f"{within}.source",)
+    senses = [measurements.axis.measurand.senses[each.index] for each in measurements.approaches]
+    turns = [
+        len(np.unique(measurements.run[measurements.approach == each])) for each in measurements.approaches
+    ]
+    words = _ONE_SENSE if len(senses) == 1 else _SENSES if len(set(turns)) == 1 else _UNLIKE
+    runs, *others = map(runs_in_words, turns)
+    said = words.given(first=senses[0], second=senses[-1], runs=runs, others=others[0] if others else "")
+    yield Fact(Words(en="Senses and turns", de="Drehsinne und Umläufe"), writer.say(said), source)
+    begins = []
+    for approach, sense in zip(measurements.approaches, senses, strict=True):
+        first = int(measurements.target[np.flatnonzero(measurements.approach == approach)[0]])
+        angle = units.with_unit(writer.position(float(measurements.target_positions[first])), "°")
+        begins.append(writer.say(_BEGINS.given(sense=sense, angle=angle)))
+    yield Fact(Words(en="Evaluated from", de="Ausgewertet ab"), "; ".join(begins), source)
+    yield Fact(Words(en="Angles", de="Winkel"), writer.say(_angles(measurements, writer)), source)
+
+
+def _angles(measurements: MeasurementSet, writer: Writer) -> Words:
+    targets, averaging = measurements.target_positions, measurements.provenance.averaging
+    first, second = measurements.axis.circle.axes if measurements.axis.circle else ("1", "2")
+    count: str | Words = str(len(targets))
+    if averaging:
+        count = _AVERAGED.given(count=len(targets), readings=averaging.readings)
+    return _ANGLES.given(
+        count=count,
+        first=writer.position(float(targets[0])),
+        last=units.with_unit(writer.position(float(targets[-1])), "°"),
+        from_axis=first,
+        to_axis=second,
+    )

@@ -1,0 +1,238 @@
+"""Facts of the measurement and its surroundings: a name, a value that may not be stated, whose it is."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from zlmreport.evaluation.checks import runs_in_words
+from zlmreport.language import Words
+from zlmreport.measurement import units
+from zlmreport.measurement.error_symbol import ROTARY_AXES, error_named
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+
+if TYPE_CHECKING:
+    from zlmreport.document.writer import Writer
+    from zlmreport.job.measurement_keys import Environment, Measurement, SensorKeys
+    from zlmreport.measurement.arrays import FloatArray
+
+_METHODS = {
+    "linear": Words(en="linear method", de="Linearverfahren"),
+    "unidirectional": Words(en="unidirectional linear method", de="einseitiges Linearverfahren"),
+    "pendulum": Words(en="oscillation (pendulum-step) method", de="Pendelschrittverfahren"),
+    "quasi-pilgrim": Words(en="quasi-pilgrim step method", de="Quasi-Pilgerschrittverfahren"),
+}
+_DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
+
+
+def days(measurement: Measurement, writer: Writer) -> str | None:
+    """Write the day of a measurement, or its first and last day."""
+    first, last = measurement.date, measurement.end
+    if first is None:
+        return None
+    if last is None or last == first:
+        return writer.date(first)
+    return writer.say(_DAYS.given(first=writer.date(first), last=writer.date(last)))
+
+
+def date(day: dt.date | None, writer: Writer) -> str | None:
+    """Write a day that may not be stated."""
+    return None if day is None else writer.date(day)
+
+
+def measurement_facts(
+    measurement: Measurement, measurements: MeasurementSet, writer: Writer, within: str
+) -> Iterator[Fact]:
+    """Yield how readings were taken; `within` is the dotted key of the job's group."""
+
+    def fact(en: str, de: str, value: str | None, *names: str) -> Fact:
+        return Fact(Words(en, de), value, tuple(f"{within}.{name}" for name in names))
+
+    unit = writer.position_unit.symbol
+    method, plane = measurement.method, measurement.plane
+    yield fact("Date", "Datum", days(measurement, writer), "date", "end")
+    yield fact(
+        "Positioning method",
+        "Positionierverfahren",
+        writer.say(_METHODS[method]) if method else None,
+        "method",
+    )
+    if measurements.axis.circle is not None:
+        from zlmreport.document.certificate.circle_facts import path_facts  # noqa: PLC0415 - of the few that need it
+
+        yield from path_facts(measurements, writer, within)
+    elif not measurements.tests:
+        yield fact("Target positions", "Sollpositionen", writer.say(_targets(measurements, writer)), "source")
+        yield fact(
+            "Approaches and runs",
+            "Anfahrrichtungen und Durchläufe",
+            writer.say(_runs(measurements)),
+            "source",
+        )
+    yield fact("Measured", "Gemessen", _measured(measurement, measurements, writer), "error", "symbols")
+    yield fact("Other axes at", "Übrige Achsen bei", _elsewhere(measurement, writer), "at")
+    feed = None if measurements.axis.circle else measurement.feed  # that of a circle stands with the circle
+    yield fact("Feed", "Vorschub", with_unit(feed, f"{unit}/min", writer), "feed")
+    yield fact(
+        "Rest at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", writer), "dwell"
+    )
+    yield fact("Warm-up", "Warmlauf", measurement.warm_up, "warm_up")
+    yield fact("Compensation", "Kompensation", measurement.compensation, "compensation")
+    yield fact("Measuring line", "Messlinie", measurement.line, "line")
+    yield fact(
+        "Position of the second axis",
+        "Stellung der zweiten Achse",
+        f"{plane.axis} = {writer.number(plane.at)} {unit}" if plane else None,
+        "plane",
+    )
+    yield fact(
+        "Deviations from the method",
+        "Abweichungen vom Verfahren",
+        measurement.deviations_from_method,
+        "deviations_from_method",
+    )
+    yield fact("Measured by", "Gemessen von", measurement.operator, "operator")
+    yield fact("Remarks", "Bemerkungen", measurement.remarks, "remarks")
+
+
+_MEASURED = Words("{subject}: {sign}", "{subject}: {sign}")
+
+
+def _measured(measurement: Measurement, measurements: MeasurementSet, writer: Writer) -> str | None:
+    """Write what was measured and its sign; nothing of positioning that no symbol names."""
+    axis = measurements.axis
+    if axis.measurand.is_position and not measurement.error:
+        return None
+    subject = axis.subject
+    if axis.error and measurement.symbols == "vdi-vde-2617-3":
+        subject = axis.measurand.named(
+            axis.name, f"{axis.error} (VDI/VDE 2617-3: {error_named(axis.error).vdi})"
+        )
+    return writer.say(_MEASURED.given(subject=subject, sign=axis.measurand.sign_of(axis.letter)))
+
+
+def _elsewhere(measurement: Measurement, writer: Writer) -> str | None:
+    """Write where the other axes stood, and the tool's offset."""
+    said = []
+    for name, value in measurement.at.items():
+        if isinstance(value, tuple):
+            said.append(f"{_TOOL.in_language(writer.language)} ({' / '.join(map(writer.number, value))}) mm")
+        else:
+            unit = "°" if name[:1].upper() in ROTARY_AXES else "mm"
+            said.append(f"{name} = {units.with_unit(writer.number(value), unit)}")
+    return "; ".join(said) or None
+
+
+_TOOL = Words(en="tool", de="Werkzeug")
+
+
+def environment_facts(
+    environment: Environment | None, measurements: MeasurementSet, writer: Writer, within: str
+) -> Iterator[Fact]:
+    """Yield the conditions that the job states, and those that were logged beside the readings."""
+    for name, key, unit, logged in _CONDITIONS:
+        from_job = getattr(environment, key, None)
+        if from_job is not None:
+            yield Fact(name, with_unit(from_job, unit, writer), (f"{within}.{key}",))
+        elif logged:
+            yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
+    if environment is not None:
+        sensors = Words(en="Places of the sensors", de="Messstellen")
+        yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
+        calibrated = "; ".join(_sensor(each, writer) for each in environment.thermometers)
+        name = Words(en="Thermometers and sensors", de="Thermometer und Sensoren")
+        yield Fact(name, calibrated, (f"{within}.thermometers",))
+        yield Fact(Words(en="Remarks", de="Bemerkungen"), environment.remarks, (f"{within}.remarks",))
+
+
+_CALIBRATED = Words(en="calibrated {date}", de="kalibriert {date}")
+
+
+def _sensor(sensor: SensorKeys, writer: Writer) -> str:
+    """Write a sensor with its calibration certificate and date."""
+    day = writer.say(_CALIBRATED.given(date=writer.date(sensor.calibrated))) if sensor.calibrated else None
+    return ", ".join(filter(None, (sensor.name, sensor.certificate, day)))
+
+
+#: Name, key (in the job and among the logged conditions), unit, and whether a log may state it.
+_CONDITIONS = (
+    *(
+        (CONDITION_NAMES[key], key, CONDITIONS[key].unit.symbol, True)
+        for key in (
+            "air_temperature",
+            "axis_temperature",
+            "screw_temperature",
+            "material_temperature",
+            "air_pressure",
+            "relative_humidity",
+        )
+    ),
+    (
+        Words(en="Expansion coefficient of the machine", de="Koeffizient der Längenausdehnung der Maschine"),
+        "expansion_coefficient",
+        "µm/(m·K)",
+        False,
+    ),
+)
+
+
+def with_unit(value: str | float | None, unit: str, writer: Writer) -> str | None:
+    """Write a number with its unit; what the job states in words stays as it is."""
+    if value is None or isinstance(value, str):
+        return value
+    return units.with_unit(writer.number(value), unit)
+
+
+def _targets(measurements: MeasurementSet, writer: Writer) -> Words:
+    first, last = measurements.target_positions[0], measurements.target_positions[-1]
+    return Words(en="{count}, from {first} to {last}", de="{count}, von {first} bis {last}").given(
+        count=len(measurements.target_positions),
+        first=writer.position(float(first)),
+        last=units.with_unit(writer.position(float(last)), writer.position_unit.symbol),
+    )
+
+
+def _runs(measurements: MeasurementSet) -> Words:
+    count = len(measurements.runs)
+    if measurements.is_bidirectional:
+        return Words(
+            en="both directions (↑ and ↓), {runs} each", de="beide Richtungen (↑ und ↓), je {runs}"
+        ).given(runs=runs_in_words(count))
+    return Words(en="one direction ({arrow}), {runs}", de="eine Richtung ({arrow}), {runs}").given(
+        arrow=measurements.approaches[0].arrow, runs=runs_in_words(count)
+    )
+
+
+def _logged(values: FloatArray | None, key: str, writer: Writer) -> str | None:
+    """Write the range of a logged condition in the unit that is printed."""
+    if values is None or not np.any(np.isfinite(values)):
+        return None
+    return writer.condition_span(values, CONDITIONS[key].unit)
+
+
+class Fact(NamedTuple):
+    """A fact.
+
+    Attributes
+    ----------
+    name
+        What is stated_facts.
+    value
+        In the document's language; None or empty where the job does not state it.
+    keys
+        Dotted job keys that the value comes from: a mark stands behind the name if others supplied one.
+    """
+
+    name: Words
+    value: str | None
+    keys: tuple[str, ...] = ()
+
+
+def stated_facts(facts: Iterable[Fact], writer: Writer) -> tuple[tuple[str, str], ...]:
+    """Return the facts that have a value, named and marked in the document's language."""
+    return tuple(
+        (writer.say(fact.name) + writer.marks.after(*fact.keys), fact.value) for fact in facts if fact.value
+    )

@@ -1,0 +1,239 @@
+"""One document of several measurements: a summary on the first page, and what was made of each behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Block, Facts, Graph, Notice, RowGroup, Section, Symbol, Table
+from zlmreport.document.certificate import columns, conformity, cover, origin, statements, uncertainty
+from zlmreport.document.certificate.attachments import Role, sources
+from zlmreport.document.certificate.circumstances import Fact, date, stated_facts
+from zlmreport.document.certificate.conditions import MACHINE_KINDS
+from zlmreport.document.certificate.digest import DIGEST, digest_of
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.own_look import read_look
+from zlmreport.document.certificate.own_words import arranged, filled
+from zlmreport.document.certificate.standard_layout import on_a_page
+from zlmreport.document.certificate.statements import document_title, in_a_line, running_title
+from zlmreport.document.certificate.values import Values
+from zlmreport.document.writer import Marks, Writer
+from zlmreport.evaluation.uncertainty.joined_budget import joined_budget
+from zlmreport.language import Words
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurand import Measurand
+
+_SUBJECT = Words(en="{count} measurements of {machine}", de="{count} Messungen an {machine}")
+_THE_MACHINE = Words(en="a machine", de="einer Maschine")
+_DESCRIPTION = Words(en="{subject}, evaluated by {standards}", de="{subject}, ausgewertet nach {standards}")
+_SUMMARY = Words(
+    en="Summary: what has a limit, or else the first parameter of each measurement by each standard",
+    de="Überblick: was einen Grenzwert hat, sonst die erste Kenngröße jeder Messung nach jeder Norm",
+)
+_GROUP = Words(en="{subject}, {designation}", de="{subject}, {designation}")
+_TITLE = Words("{name}: {title}", "{name}: {title}")
+_CALIBRATION = Words(en="Calibration", de="Kalibrierung")
+_DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
+_NAMED = Words("{names}: {heading}", "{names}: {heading}")
+
+
+def collected(
+    job: Job, parts: Mapping[str, Certificate], plugins: Mapping[str, str], generator: str
+) -> Certificate:
+    """Return one document of the certificates of several measurements, by what they are called."""
+    keys, certificate = job.keys, job.keys.certificate
+    first = next(iter(parts.values()))
+    writer = Writer.of(first.measurements, certificate.language, Marks.of(keys))
+    evaluations = tuple(each for part in parts.values() for each in part.evaluations)
+    as_found = tuple(each for part in parts.values() for each in part.evaluations_as_found)
+    digest = digest_of(certificate.number, (*evaluations, *as_found))
+    files = [each for part in parts.values() for each in part.sources]
+    logo = next((each.file for each in files if each.role is Role.LOGO), None)
+    made_from = sources(job, [each.file for each in files if each.role is Role.READINGS], logo)
+    budget = joined_budget({name: part.budget for name, part in parts.items() if part.budget})
+    machine = keys.machine.type or writer.say(_THE_MACHINE)
+    subject = writer.say(_SUBJECT.given(count=len(parts), machine=machine))
+    sections = [each for name, part in parts.items() for each in _sections_of(name, part, writer)]
+    sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
+    designations = tuple(dict.fromkeys(each.designation for each in evaluations))
+    style = certificate.style
+    return replace(
+        first,
+        title=writer.say(document_title(certificate)),
+        subtitle=subject,
+        cover=tuple(_cover(job, parts, budget, digest, writer)),
+        sections=arranged([*sections, *statements.opinion_sections(keys, writer)], job),
+        page_words=replace(
+            first.page_words,
+            number=writer.say(running_title(certificate)),
+            head=filled(style.header or "", job, "certificate.style.header"),
+            foot=filled(style.footer or "", job, "certificate.style.footer"),
+        ),
+        description=writer.say(_DESCRIPTION.given(subject=subject, standards=", ".join(designations))),
+        evaluations=evaluations,
+        evaluations_as_found=as_found,
+        digest=digest,
+        budget=budget,
+        budget_as_found=None,
+        keywords=designations,
+        plugins=plugins,
+        diagnosis=None,
+        linked=None,
+        job=job,
+        sources=made_from,
+        look=read_look(job),
+        doubts=tuple(said_of_each((name, part.doubts) for name, part in parts.items())),
+        evidence=tuple(said_of_each((name, part.evidence) for name, part in parts.items())),
+        tests=(),
+        parts=dict(parts),
+    )
+
+
+def _cover(
+    job: Job,
+    parts: Mapping[str, Certificate],
+    budget: Budget | NoBudget,
+    digest: str,
+    writer: Writer,
+) -> Iterator[Block]:
+    """Yield the first page: who, what, when, and each measurement in a line."""
+    keys = job.keys
+    evaluations = [each for part in parts.values() for each in part.evaluations]
+    yield from statements.amendment_notice(keys.certificate, writer)
+    facts = stated_facts(_identity(job, evaluations, digest, writer), writer)
+    yield Facts(facts, writer.say(_CALIBRATION))
+    yield summary(parts, writer)
+    if budget.is_complete:
+        yield from uncertainty.statement(budget, map(_measurand, evaluations), writer)
+    yield from conformity.rule_paragraph(keys.decision_rule, evaluations, writer)
+    yield from _said_by_parts(parts, writer)
+    yield from cover.shortfalls_of_parts({name: part.evaluations for name, part in parts.items()}, writer)
+    yield from statements.paragraphs(keys, writer)
+
+
+def _measurand(evaluation: Evaluation) -> Measurand:
+    return evaluation.measurements.axis.measurand
+
+
+def summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
+    """Return each measurement with what has a limit, or else its first parameter by each standard."""
+    evaluations = [each for part in parts.values() for each in part.evaluations]
+    values = replace(Values.of(evaluations, writer), is_mixed=True)
+    groups = []
+    for name, part in parts.items():
+        for evaluation in part.evaluations:
+            own = replace(values, writer=Writer.of(evaluation.measurements, writer.language, writer.marks))
+            rows = tuple(
+                (Symbol(each.quantity.notation), writer.say(each.quantity.name), *own.cells(each))
+                for each in _in_brief(evaluation)
+            )
+            heading = _GROUP.given(subject=part.subtitle, designation=evaluation.designation)
+            groups.append(RowGroup(rows, writer.say(heading), section=_key_of_first(name, part)))
+    return Table(
+        writer.say(_SUMMARY), values.columns(), tuple(each for each in groups if each.rows), dense=True
+    )
+
+
+def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+    return (
+        tuple(each for each in evaluation.parameters if each.limit is not None) or evaluation.parameters[:1]
+    )
+
+
+def _key_of_first(name: str, part: Certificate) -> str:
+    return f"{name}-{part.sections[0].key}" if part.sections else ""
+
+
+def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: Writer) -> Iterator[Fact]:
+    """Yield who the document is for, on what, and when each part was measured."""
+    keys = job.keys
+    machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
+    if customer:
+        address = ", ".join(cover.lines(customer.address))
+        said = ", ".join(filter(None, (customer.name, address)))
+        yield Fact(Words(en="Customer", de="Auftraggeber"), said, ("customer.name", "customer.address"))
+    kind = writer.say(MACHINE_KINDS[machine.kind])
+    item = f"{machine.type} ({kind})" if machine.type else kind
+    yield Fact(Words(en="Item calibrated", de="Gegenstand"), item, ("machine.manufacturer", "machine.model"))
+    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    names = ", ".join(dict.fromkeys(each.designation for each in evaluations))
+    yield Fact(Words(en="Evaluated by", de="Ausgewertet nach"), names)
+    place = cover.place_of_work(keys)
+    if place:
+        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
+    yield Fact(Words(en="Received", de="Eingang"), date(keys.dates.received, writer), ("dates.received",))
+    yield Fact(Words(en="Dates of measurement", de="Daten der Messungen"), _days(job, writer))
+    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
+    if keys.next_due:
+        due = Words(en="Next calibration due, as agreed", de="Nächste Kalibrierung, wie vereinbart")
+        yield Fact(due, writer.date(keys.next_due.date))
+    if person:
+        yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
+    yield Fact(DIGEST, digest)
+
+
+def _days(job: Job, writer: Writer) -> str | None:
+    """Write the first and the last day on which anything was measured."""
+    stated = [
+        day
+        for part in job.parts
+        for line in part.lines.values()
+        for day in (line.keys.measurement.date, line.keys.measurement.end)
+        if day
+    ]
+    if not stated:
+        return None
+    first, last = writer.date(min(stated)), writer.date(max(stated))
+    return first if first == last else writer.say(_DAYS.given(first=first, last=last))
+
+
+def _said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator[Block]:
+    """Yield what nobody may overlook of any part, once, with the names of the parts that say it."""
+    found: dict[Notice, list[str]] = {}
+    for name, part in parts.items():
+        measurands = tuple(map(_measurand, part.evaluations))
+        of_budget = uncertainty.statement(part.budget, measurands, writer) if part.budget else ()
+        for block in part.cover or of_budget:
+            if isinstance(block, Notice):
+                found.setdefault(block, []).append(name)
+    for block, names in found.items():
+        heading = _NAMED.given(names=", ".join(names), heading=block.heading)
+        yield Notice(writer.say(heading), block.items)
+
+
+def _sections_of(name: str, part: Certificate, writer: Writer) -> Iterator[Section]:
+    """Yield the sections of a part, each with its name; the first begins a page."""
+    first, *others = (each for each in part.sections if each.key != "origin")
+    first = replace(first, blocks=(*part.cover, *first.blocks))
+    if part.is_compact:
+        first = on_a_page(first, columns.PAGES[part.paper])
+    for number, section in enumerate((first, *others)):
+        title = part.subtitle if not number else _TITLE.given(name=name, title=section.title)
+        yield replace(
+            section,
+            key=f"{name}-{section.key}",
+            title=title if isinstance(title, str) else writer.say(title),
+            blocks=tuple(_named(block, name) for block in section.blocks),
+            new_page=section.new_page or not number,
+        )
+
+
+def _named(block: Block, name: str) -> Block:
+    """Return a block whose graph, and whose links to sections, are told from those of other parts."""
+    match block:
+        case Graph(figure):
+            return Graph(replace(figure, key=f"{name}-{figure.key}"))
+        case Table():
+            groups = tuple(
+                replace(each, section=f"{name}-{each.section}") if each.section else each
+                for each in block.groups
+            )
+            return replace(block, groups=groups)
+        case _:
+            return block

@@ -1,0 +1,449 @@
+"""How a table's columns and groups of facts share the page, and how much of it blocks take.
+
+The tables have a fixed layout, which a page takes in a fraction of the time of one that measures every
+cell; so the widths are reckoned here, from the letters in the cells.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations, count
+from math import ceil
+from typing import TypeAlias
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Explained,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Symbol,
+    Table,
+    Verdict,
+    text_of,
+)
+from zlmreport.document.certificate.document import Certificate, Letterhead
+from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.metrics import advance
+
+#: Number, with its decimals apart; a dash stands for a value that does not exist.
+_NUMBER = re.compile(r"(?:[−+-]?\d+(?:[.,](?P<decimals>\d+))?|–)")
+
+#: A character that no bundled face has, as those of East Asia, is as wide as it is high.
+_FULL = 1.0
+_FIRST_FULL_WIDTH_CHARACTER = "\u2e80"
+#: Headings are set in semi-bold, which is wider.
+_SEMIBOLD = 1.04
+#: Size of the small type below a name, as the style sheet has it.
+_SMALL = 0.9
+
+#: Space at both sides of a cell, and the mark before a verdict's word, in em of the cell.
+_PADDING_EM = 0.9
+_VERDICT_EM = 1.9
+#: Further space before words that follow a number.
+_APART_EM = 1.15
+#: A column as wide as its widest cell holds it in one line, whatever rounding leaves.
+_ROUNDED = 1e-6
+#: A longer word is broken rather than given the page.
+_LONGEST_WORD_EM = 16.0
+#: The same of a formula: what is left of the page is enough for its symbol and its name.
+_LONGEST_FORMULA_EM = 32.0
+
+
+@dataclass(frozen=True, slots=True)
+class Size:
+    """A type size: its class name, and how many em of it a page is wide (A4 and Letter alike)."""
+
+    name: str
+    page_em: float
+
+
+#: From large to small, as the style sheet has them.
+SIZES = (Size("regular", 56.0), Size("dense", 66.0), Size("finest", 78.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Measure:
+    """What a column needs, in em: to stay on one line, and at least, when its words part."""
+
+    natural: float
+    least: float
+
+
+#: A table of no more lines is not parted by the end of a page.
+_WHOLE_LINES = 16
+
+
+@dataclass(frozen=True, slots=True)
+class TableLayout:
+    """How a table stands on a page, for every renderer."""
+
+    size: str  #: Its type size: ``regular``, ``dense`` or ``finest``.
+    widths: tuple[float, ...]  #: Of the columns, in per cent of the page's.
+    rooms: tuple[float, ...]  #: The same in em of the type.
+    lines: int  #: That its body takes, estimated.
+    #: Which columns are words that follow a column of numbers: the two need a gap between them.
+    apart: tuple[bool, ...]
+    is_whole: bool  #: Whether it is short enough to stay on one page.
+    #: Whether its rows are read in fives, as in a book of tables, and pages break between the fives.
+    in_fives: bool
+
+
+def table_layout(block: Table | Formulas) -> TableLayout:
+    """Return how a table stands on a page, or definitions, which are a table without headings."""
+    table = block if isinstance(block, Table) else Table("", (Column(""),) * 3, (RowGroup(block.rows),))
+    needs = measures(table)
+    chosen = size(table, needs)
+    shares = widths(needs, chosen.page_em)
+    rooms = tuple(chosen.page_em * share / 100 for share in shares)
+    body = lines(table, rooms)
+    return TableLayout(
+        size=chosen.name,
+        widths=shares,
+        rooms=rooms,
+        lines=body,
+        apart=stands_apart(table.columns),
+        is_whole=(body if isinstance(block, Table) else len(block.rows)) <= _WHOLE_LINES,
+        in_fives=chosen.name != SIZES[0].name and table.columns[0].align is Align.RIGHT,
+    )
+
+
+def measures(table: Table) -> tuple[Measure, ...]:
+    """Return what each column of a table needs."""
+    rows = [row for group in table.groups for row in group.rows]
+    gaps = [_APART_EM if apart else 0.0 for apart in stands_apart(table.columns)]
+    return tuple(
+        _measure(column, [row[index] for row in rows], gaps[index])
+        for index, column in enumerate(table.columns)
+    )
+
+
+def stands_apart(columns: Sequence[Column]) -> tuple[bool, ...]:
+    """Return which columns are words that follow a column of numbers: the two need a gap between them."""
+    alignments = [column.align for column in columns]
+    return tuple(
+        align is Align.LEFT and before is Align.RIGHT
+        for before, align in zip([Align.LEFT, *alignments], alignments, strict=False)
+    )
+
+
+def size(table: Table, needs: Sequence[Measure]) -> Size:
+    """Return the largest size in which the table's words need not be broken; the smallest if none is."""
+    sizes = SIZES[1:] if table.dense else SIZES
+    needed = sum(need.least for need in needs)
+    return next((each for each in sizes if needed <= each.page_em), sizes[-1])
+
+
+def widths(needs: Sequence[Measure], available: float) -> tuple[float, ...]:
+    """Share the available width (em) among columns; the result is in per cent and adds up to 100.
+
+    Columns with room for their lines share what is left over in proportion; columns without it get what
+    they need at least, and share the rest in proportion to what they lack.
+    """
+    natural = sum(need.natural for need in needs)
+    least = sum(need.least for need in needs)
+    if natural <= available:
+        shares = [need.natural for need in needs]
+    elif least < available:
+        part = (available - least) / (natural - least)
+        shares = [need.least + part * (need.natural - need.least) for need in needs]
+    else:
+        shares = [need.least for need in needs]
+    return tuple(100 * share / sum(shares) for share in shares)
+
+
+def lines(table: Table, available: Sequence[float]) -> int:
+    """Estimate how many lines a table's body takes, its columns being so wide (em)."""
+    headings = sum(bool(group.heading) for group in table.groups)
+    rows = (row for group in table.groups for row in group.rows)
+    return headings + sum(max(map(_lines, row, available)) for row in rows)
+
+
+def decimal_padding(table: Table) -> tuple[tuple[str, ...], ...]:
+    """Return for each row the class names that bring the decimal signs of a column under each other.
+
+    Figures are all of one width, so a number that lacks ``n`` decimals is moved left by as many figures
+    (``short-n``), and by a decimal sign too if it has none (``whole-n``).
+    """
+    rows = [row for group in table.groups for row in group.rows]
+    by_column = [
+        _padding([row[index] for row in rows]) if column.align is Align.RIGHT else ("",) * len(rows)
+        for index, column in enumerate(table.columns)
+    ]
+    return tuple(zip(*by_column, strict=True))
+
+
+def _padding(cells: Sequence[Cell]) -> tuple[str, ...]:
+    numbers = [_NUMBER.fullmatch(text_of(cell)) for cell in cells]
+    decimals = [len(number["decimals"] or "") if number else None for number in numbers]
+    most = max((count for count in decimals if count is not None), default=0)
+    return tuple(
+        "" if count is None or count == most else f"{'short' if count else 'whole'}-{most - count}"
+        for count in decimals
+    )
+
+
+def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
+    is_words = column.align is Align.LEFT
+    heading = _SEMIBOLD * width_of(text_of(column.heading))
+    least = max(_SEMIBOLD * _longest_word(text_of(column.heading)), width_of(column.unit))
+    natural = heading if is_words else least
+    for cell in cells:
+        text = text_of(cell)
+        width = width_of(text)
+        match cell:
+            case Explained(meaning=meaning):
+                width = max(width, _SMALL * width_of(meaning))
+                unbroken = max(_longest_word(text), _SMALL * _longest_word(meaning))
+            case Verdict():
+                width = unbroken = _SEMIBOLD * width + _VERDICT_EM
+            case Symbol():
+                unbroken = min(width, _LONGEST_FORMULA_EM)
+            case _:
+                unbroken = _longest_word(text) if is_words else width
+        natural = max(natural, width)
+        least = max(least, unbroken)
+    return Measure(natural + _PADDING_EM + gap, least + _PADDING_EM + gap)
+
+
+def _lines(cell: Cell, available: float) -> int:
+    room = max(available - _PADDING_EM, _FULL)
+    note = ceil(_SMALL * width_of(cell.meaning) / room - _ROUNDED) if isinstance(cell, Explained) else 0
+    return max(1, ceil(width_of(text_of(cell)) / room - _ROUNDED)) + note
+
+
+def _longest_word(text: str) -> float:
+    return min(max(map(width_of, text.split()), default=0.0), _LONGEST_WORD_EM)
+
+
+@lru_cache(maxsize=4096)
+def width_of(text: str) -> float:
+    """Return how wide a text is in the regular face, in em."""
+    ours = "".join(each for each in text if each < _FIRST_FULL_WIDTH_CHARACTER)
+    return advance(ours, Face.REGULAR) + _FULL * (len(text) - len(ours))
+
+
+#: A block, or facts that follow each other.
+GatheredBlock: TypeAlias = Table | Formulas | Graph | Paragraph | Notice | tuple[Facts, ...]
+
+#: Characters of a value that stand on one line of a column, and of its name; counted low.
+_VALUE_LINE = 26
+_NAME_LINE = 20
+#: Lines that it must save for a group to stand out of its order, and groups of which every way is tried.
+_OUT_OF_ORDER, _MOST_PARTED = 3, 9
+#: Lines of a heading with the space around it.
+_HEADING_LINES = 2
+
+
+def gather_facts(blocks: Iterable[Block]) -> Iterator[GatheredBlock]:
+    """Yield the blocks in order, groups of facts that follow each other as one."""
+    facts: tuple[Facts, ...] = ()
+    for block in blocks:
+        if isinstance(block, Facts):
+            facts = (*facts, block)
+            continue
+        if facts:
+            yield facts
+            facts = ()
+        yield block
+    if facts:
+        yield facts
+
+
+@dataclass(frozen=True, slots=True)
+class NumberedBlock:
+    """A block; of a table or a graph its number, from 1, and its label, such as ``Table 2``."""
+
+    block: GatheredBlock
+    number: int = 0
+    label: str = ""
+
+
+def numbered(certificate: Certificate) -> Iterator[tuple[NumberedBlock, ...]]:
+    """Yield the blocks of the first page, then those of each section; tables and graphs are counted."""
+    words = certificate.page_words
+    of_tables, of_graphs = (words.table, count(1)), (words.figure, count(1))
+    counted = {Table: of_tables, Formulas: of_tables, Graph: of_graphs}
+
+    def number(block: GatheredBlock) -> NumberedBlock:
+        if isinstance(block, Table | Formulas | Graph):
+            word, numbers = counted[type(block)]
+            number = next(numbers)
+            return NumberedBlock(block, number, f"{word} {number}".strip())
+        return NumberedBlock(block)
+
+    for blocks in (certificate.cover, *(each.blocks for each in certificate.sections)):
+        yield tuple(map(number, gather_facts(blocks)))
+
+
+def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
+    """Part groups of facts into two columns of nearly one height; a single group keeps the page's width.
+
+    The first group stands first. Groups go over to the other column out of their order where that saves
+    lines.
+    """
+    if len(groups) == 1:
+        return (groups,)
+    lines = dict(enumerate(map(_fact_lines, groups)))
+
+    def height(left: tuple[int, ...]) -> int:
+        beside = sum(lines.values()) - sum(lines[each] for each in left)
+        is_in_order = left == tuple(range(len(left)))
+        return max(sum(lines[each] for each in left), beside) + (0 if is_in_order else _OUT_OF_ORDER)
+
+    numbers = range(1, len(groups) if len(groups) <= _MOST_PARTED else 1)
+    ways = [tuple(range(end)) for end in range(1, len(groups))]
+    ways += [(0, *others) for size in numbers for others in combinations(numbers, size - 1)]
+    left = min(ways, key=height)
+    right = (each for each in lines if each not in left)
+    return tuple(groups[each] for each in left), tuple(groups[each] for each in right)
+
+
+def _fact_lines(group: Facts) -> int:
+    """Estimate the lines that a group takes in a column."""
+    return _HEADING_LINES + sum(
+        max(
+            ceil(len(name) / _NAME_LINE),
+            sum(ceil(len(line) / _VALUE_LINE) or 1 for line in value.split("\n")),
+        )
+        for name, value in group.pairs
+    )
+
+
+# How much of a page blocks take in a compact document, so that it is decided before it is set. The estimate
+# follows the style sheets (``.compact``) and the widths of the typeface, and is on the high side.
+
+#: In points, as all heights here.
+MILLIMETRE = 72 / 25.4
+#: The mark at the end of a document.
+END_MARK = 22.0
+#: What stands between the margins of a page of each paper, but for that mark.
+PAGES = {
+    paper: (height - 21 - 19) * MILLIMETRE - END_MARK for paper, height in (("A4", 297.0), ("Letter", 279.4))
+}
+#: What the first page has besides, for it has no running head.
+_OF_FIRST = 6 * MILLIMETRE
+#: Of the type and its lines, and of smaller types in parts of it.
+_TYPE = 8.1
+#: How many more em of it a page is wide than of the type of a document that is not compact.
+_IN_COMPACT = 9.0 / _TYPE
+_LINE = 1.3 * _TYPE
+_SMALL_TYPE = 0.944
+_DENSE = 0.811
+#: Of what the law wants, in small type, and of a verdict that stands alone.
+_FINE, _OUTCOME = 0.765, 1.235
+_FINE_LINE, _OUTCOME_LINE = 1.25 * _FINE * _TYPE, 1.35 * _OUTCOME * _TYPE
+#: Em of a page, with some words too long to end a line.
+_PAGE_EM = 57.0
+_NOTICE_EM = 52.0
+#: What the mark of a verdict adds to its row.
+_MARK = 1.3
+#: What parts five rows from the next, in dense tables and in the finest.
+_FIVE, _FIVE_FINEST = 1.0, 4.6
+_SECTION_HEADING = 14.0 + 2.5 + 5.0
+_LOGO = 31.0
+#: Em of the names and values of facts in one of two columns.
+_NAME_EM, _VALUE_EM = 10.4, 16.3
+_FACTS_MARGIN = 4.0
+_USUAL_GRAPH = 60 * MILLIMETRE
+
+
+def height(blocks: Iterable[Block]) -> float:
+    """Return how high blocks stand, one below the other, facts that follow each other in two columns."""
+    return sum(map(_height, gather_facts(blocks)))
+
+
+def head_height(letterhead: Letterhead | None, title: str) -> float:
+    """Return how high the letterhead and the title stand, with what the first page has besides."""
+    room = _lines_of(title, 26.0) * 17.5 + _LINE * 1.1 + 7.0
+    if letterhead:
+        beside = ", ".join((*letterhead.laboratory.lines, letterhead.accreditation))
+        text = 13.8 + 9.8 * _lines_of(beside, 40.0)
+        room += max(text, _LOGO if letterhead.logo else 0.0) + 10.2
+    return room - _OF_FIRST
+
+
+def heading_height(title: str) -> float:
+    """Return how high the heading of a section stands that begins a page."""
+    return _SECTION_HEADING + (_lines_of(title, 38.0) - 1) * 14.0
+
+
+def _height(block: GatheredBlock) -> float:
+    match block:
+        case Table():
+            return _table_height(block)
+        case Formulas(rows=rows):
+            return 25.0 + len(rows) * (_DENSE * _LINE + 3.4)
+        case Graph(figure):
+            drawing = figure.height * MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
+            return drawing + 10.0 + _SMALL_TYPE * _LINE
+        case Paragraph():
+            return _paragraph_height(block)
+        case Notice(title, items):
+            lines = sum(_lines_of(item, _NOTICE_EM) for item in items) + _lines_of(title, _NOTICE_EM)
+            return lines * _LINE + 1.5 * len(items) + 19.0
+        case facts:
+            return _FACTS_MARGIN + max(map(_facts_height, side_by_side(facts)))
+
+
+def _paragraph_height(paragraph: Paragraph) -> float:
+    if paragraph.verdict:
+        said = f"{paragraph.verdict.word} {paragraph.text}"
+        return _lines_of_words(said, _PAGE_EM / _OUTCOME - _VERDICT_EM) * _OUTCOME_LINE + 4.0
+    if paragraph.fine:
+        return _lines_of_words(paragraph.text, _PAGE_EM / _FINE) * _FINE_LINE + 2.0
+    return _lines_of_words(paragraph.text, _PAGE_EM) * _LINE + 3.0
+
+
+def _table_height(table: Table) -> float:
+    layout = table_layout(table)
+    rows = [row for group in table.groups for row in group.rows]
+    em = (_SMALL_TYPE if layout.size == "regular" else _DENSE) * _TYPE
+    head_lines = 2 if any(column.unit for column in table.columns) else 1
+    head = _lines_of(table.caption, _PAGE_EM) * _SMALL_TYPE * _LINE + 3.0 + head_lines * 1.25 * em + 5.0
+    body = lines(table, [_IN_COMPACT * room for room in layout.rooms])
+    between = len(rows) * (3.0 if layout.size == "regular" else 1.4)
+    between += len(rows) // 5 * (_FIVE_FINEST if layout.size == "finest" else _FIVE) * layout.in_fives
+    between += _MARK * sum(any(isinstance(cell, Verdict) for cell in row) for row in rows)
+    return head + body * 1.3 * em + between + 8.0
+
+
+def _facts_height(groups: tuple[Facts, ...]) -> float:
+    room = 0.0
+    for group in groups:
+        room += _LINE + 2.0 if group.heading else 0.0
+        room += sum(fact_lines(*pair) * _LINE + 1.6 for pair in group.pairs)
+    return room
+
+
+def fact_lines(name: str, value: str) -> int:
+    """Return how many lines a fact takes in one of two columns."""
+    return max(_lines_of(name, _NAME_EM), sum(_lines_of(line, _VALUE_EM) for line in value.split("\n")))
+
+
+#: Running text is narrower than its letters are estimated.
+_RUNNING = 1.04
+
+
+def _lines_of_words(text: str, room: float) -> int:
+    """Return how many lines a paragraph takes, whose words go over to the next line where they do not fit."""
+    lines, taken = 1, 0.0
+    for word in text.split(" "):
+        width = width_of(word)
+        if taken and taken + width > _RUNNING * room:
+            lines, taken = lines + 1, 0.0
+        taken += width + width_of(" ")
+    return lines
+
+
+def _lines_of(text: str, room: float) -> int:
+    return max(1, ceil(width_of(text) / room))

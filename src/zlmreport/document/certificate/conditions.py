@@ -1,0 +1,315 @@
+"""What was measured, how, with what, and under which conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Align, Block, Cell, Column, Facts, Paragraph, RowGroup, Section, Table
+from zlmreport.document.certificate.circle_facts import circle_facts, circle_in_words
+from zlmreport.document.certificate.circumstances import (
+    Fact,
+    date,
+    environment_facts,
+    measurement_facts,
+    stated_facts,
+    with_unit,
+)
+from zlmreport.language import Words
+from zlmreport.measurement import units
+from zlmreport.measurement.axis import AxisKind
+
+if TYPE_CHECKING:
+    from zlmreport.document.writer import Writer
+    from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
+    from zlmreport.job.measurement_keys import CompensatesKeys, Instrument
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+_TITLE = Words(en="Item, method and conditions", de="Gegenstand, Verfahren und Bedingungen")
+
+MACHINE_KINDS = {
+    "machine tool": Words(en="machine tool", de="Werkzeugmaschine"),
+    "coordinate measuring machine": Words(en="coordinate measuring machine", de="Koordinatenmessgerät"),
+}
+
+AXIS_KINDS = {
+    AxisKind.LINEAR: Words(en="linear axis", de="Linearachse"),
+    AxisKind.ROTARY: Words(en="rotary axis", de="Drehachse"),
+}
+
+_NO_TABLE = Words(en="none", de="keine")
+_NO_INFLUENCE = Words(
+    en="The laboratory names no environmental condition that influenced the results.",
+    de="Das Laboratorium nennt keine Umgebungsbedingung, die die Ergebnisse beeinflusst hat.",
+)
+_CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
+_ALL_CORRECTED = Words(
+    en="Every deviation in this document is a corrected one. The readings as they were displayed are in the"
+    " files that the section on their origin names.",
+    de="Jede Abweichung in diesem Dokument ist korrigiert. Die angezeigten Messwerte stehen in den Dateien,"
+    " die der Abschnitt über ihre Herkunft nennt.",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Described:
+    """What an extension says of its group of job keys: facts below a heading, and blocks at the end."""
+
+    heading: Words
+    facts: tuple[Fact, ...]
+    blocks: tuple[Block, ...] = ()
+
+
+def section(
+    job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
+) -> Section:
+    """Return the section on the item, the method, the instrument and the environment."""
+    blocks = (*facts(job, measurements, described, writer), *besides(measurements, described, writer))
+    return Section("conditions", writer.say(_TITLE), blocks)
+
+
+def facts(
+    job: Job,
+    measurements: MeasurementSet,
+    described: Sequence[Described],
+    writer: Writer,
+    beside: Container[str] = (),
+) -> Iterator[Block]:
+    """Yield what is stated of the item, the method, the instrument and the environment.
+
+    A group of which everything stands `beside` them already is left out.
+    """
+    for _, group in groups(job, measurements, described, writer):
+        if any(value not in beside for _, value in group.pairs):
+            yield group
+    yield from no_influence(job, measurements, writer)
+
+
+def groups(
+    job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
+) -> Iterator[tuple[str, Facts]]:
+    """Yield the groups of what is stated, each with its job key; an extension's with an empty one."""
+    keys = job.keys
+    environment = environment_facts(keys.environment, measurements, writer, "environment")
+    all_of_them = (
+        ("machine", Words(en="Machine", de="Maschine"), _machine(keys, writer)),
+        _moved(job, writer),
+        ("measurement", Words(en="Measurement", de="Messung"), _measurement(keys, measurements, writer)),
+        (
+            "instrument",
+            Words(en="Measuring instrument", de="Messgerät"),
+            _instrument(keys.instrument, measurements, writer),
+        ),
+        *(("", each.heading, each.facts) for each in described),
+        ("environment", Words(en="Environment", de="Umgebung"), environment),
+    )
+    for key, heading, group in all_of_them:
+        if pairs := stated_facts(group, writer):
+            yield key, Facts(pairs, writer.say(heading))
+
+
+def no_influence(job: Job, measurements: MeasurementSet, writer: Writer) -> Iterator[Paragraph]:
+    """Yield that a certificate names no condition of the environment, where it states none."""
+    environment = environment_facts(job.keys.environment, measurements, writer, "environment")
+    if job.keys.certificate.kind == "certificate" and not stated_facts(environment, writer):
+        yield Paragraph(writer.say(_NO_INFLUENCE))
+
+
+def identified(job: Job, writer: Writer) -> frozenset[str]:
+    """Return what an identification of the machine says in one line."""
+    machine = job.keys.machine
+    kind = writer.say(MACHINE_KINDS[machine.kind])
+    return frozenset({machine.manufacturer or "", machine.model or "", machine.serial or "", kind})
+
+
+def besides(measurements: MeasurementSet, described: Sequence[Described], writer: Writer) -> Iterator[Block]:
+    """Yield what does not fit into facts: corrections, and what extensions show."""
+    yield from correction_blocks(measurements, writer)
+    yield from (block for each in described for block in each.blocks)
+
+
+def axis_in_words(job: Job, writer: Writer) -> str:
+    """Write the axis's name and kind; of two that ran a circle, which circle."""
+    if job.keys.circle is not None:
+        return circle_in_words(job.keys.circle, writer)
+    words = Words("{name} ({kind})", "{name} ({kind})")
+    return writer.say(words.given(name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]))
+
+
+def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
+    machine = keys.machine
+    kind = writer.say(MACHINE_KINDS[machine.kind])
+    yield Fact(Words(en="Manufacturer", de="Hersteller"), machine.manufacturer, ("machine.manufacturer",))
+    yield Fact(Words(en="Model", de="Typ"), machine.model, ("machine.model",))
+    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    yield Fact(Words(en="Kind", de="Art"), kind, ("machine.kind",))
+    yield Fact(Words(en="Location", de="Aufstellort"), machine.location, ("machine.location",))
+    yield Fact(Words(en="Condition", de="Zustand"), machine.condition, ("machine.condition",))
+
+
+#: What moved: an axis, or two on a circle.
+AXIS_OR_CIRCLE = (Words(en="Axis", de="Achse"), Words(en="Circle", de="Kreis"))
+
+
+def _moved(job: Job, writer: Writer) -> tuple[str, Words, Iterator[Fact]]:
+    """Return the group on what moved: its job key, its heading and its facts."""
+    if job.keys.circle is not None:
+        return "circle", AXIS_OR_CIRCLE[1], circle_facts(job.keys.circle, writer)
+    return "axis", AXIS_OR_CIRCLE[0], _axis(job, writer)
+
+
+def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
+    axis, keys = job.axis, job.keys.axis
+    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, writer), ("axis.name", "axis.kind"))
+    if axis.travel is not None:
+        first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
+        travel = f"{first} … {units.with_unit(last, writer.position_unit.symbol)}"
+        yield Fact(Words(en="Travel", de="Verfahrweg"), travel, ("axis.travel",))
+    for name, length, key in (
+        (
+            Words(en="Screw or gear pitch", de="Spindel- oder Getriebesteigung"),
+            axis.screw_pitch,
+            "screw_pitch",
+        ),
+        (
+            Words(en="Signal period of the scale", de="Signalperiode des Maßstabs"),
+            axis.signal_period,
+            "signal_period",
+        ),
+        (
+            Words(en="Length of a scale element", de="Länge eines Maßstabselements"),
+            axis.scale_element,
+            "scale_element",
+        ),
+        (Words(en="Distance of like poles", de="Abstand gleicher Pole"), axis.pole_pitch, "pole_pitch"),
+    ):
+        yield Fact(name, None if length is None else writer.length(length), (f"axis.{key}",))
+    yield Fact(
+        Words(en="Compensation table", de="Kompensationstabelle"),
+        _table(keys.compensation_table, writer),
+        ("axis.compensation_table",),
+    )
+    yield Fact(
+        Words(en="Angular errors", de="Winkelabweichungen"),
+        _file_name(keys.angular_errors),
+        ("axis.angular_errors",),
+    )
+    yield Fact(
+        Words(en="Distance of the measuring line from the scale", de="Abstand der Messlinie vom Maßstab"),
+        with_unit(keys.abbe_offset, "mm", writer),
+        ("axis.abbe_offset",),
+    )
+
+
+def _table(stated: str | Path | None, writer: Writer) -> str | None:
+    """Write the table that was active during the test; the word for none."""
+    return _file_name(stated) if isinstance(stated, Path | None) else writer.say(_NO_TABLE)
+
+
+def _file_name(path: Path | None) -> str | None:
+    return path.name if path else None
+
+
+def _measurement(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:
+    yield from measurement_facts(keys.measurement, measurements, writer, "measurement")
+    yield Fact(Words(en="Procedure", de="Arbeitsanweisung"), keys.procedure)
+    yield Fact(Words(en="Sampling", de="Probenahme"), keys.sampling, ("sampling",))
+    yield Fact(
+        Words(en="Date of sampling", de="Datum der Probenahme"),
+        date(keys.dates.sampled, writer),
+        ("dates.sampled",),
+    )
+
+
+def _instrument(
+    instrument: Instrument | None, measurements: MeasurementSet, writer: Writer
+) -> Iterator[Fact]:
+    """Yield what is stated of the instrument; its U of several lines with each of them, in their units."""
+    if instrument is None:
+        return
+    for name, value, key in (
+        (Words(en="Instrument", de="Gerät"), instrument.name, "name"),
+        (Words(en="Manufacturer", de="Hersteller"), instrument.manufacturer, "manufacturer"),
+        (Words(en="Serial number", de="Seriennummer"), instrument.serial, "serial"),
+        (Words(en="Calibration certificate", de="Kalibrierschein"), instrument.certificate, "certificate"),
+        (Words(en="Calibrated", de="Kalibriert am"), date(instrument.calibrated, writer), "calibrated"),
+        (Words(en="Calibration due", de="Kalibrierung fällig"), date(instrument.due, writer), "due"),
+    ):
+        yield Fact(name, value, (f"instrument.{key}",))
+    yield Fact(
+        Words(en="Expanded uncertainty", de="Erweiterte Messunsicherheit"),
+        None if measurements.tests else _uncertainty(instrument, writer),
+        ("instrument.expanded_uncertainty", "instrument.expanded_uncertainty_per_metre"),
+    )
+    yield Fact(
+        Words(en="Expansion coefficient of the instrument", de="Längenausdehnung des Messgeräts"),
+        with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
+        ("instrument.expansion_coefficient",),
+    )
+    yield Fact(
+        Words(en="Compensation by the instrument", de="Kompensation durch das Messgerät"),
+        instrument.compensation,
+        ("instrument.compensation",),
+    )
+    yield Fact(
+        Words(en="Corrected by the instrument", de="Vom Messgerät korrigiert"),
+        _compensates(instrument.compensates, writer),
+        ("instrument.compensates",),
+    )
+
+
+_MATERIAL = Words(
+    en="material to 20 °C by α = {alpha} µm/(m·K)", de="Werkstoff auf 20 °C mit α = {alpha} µm/(m·K)"
+)
+_AIR = Words(en="refractive index of the air", de="Brechzahl der Luft")
+_NOTHING = Words(en="nothing", de="nichts")
+
+
+def _compensates(keys: CompensatesKeys | None, writer: Writer) -> str | None:
+    """Write what the instrument has corrected already; None where the job does not tell."""
+    if keys is None:
+        return None
+    parts = [_MATERIAL.given(alpha=keys.material)] if keys.material else []
+    if keys.air:
+        parts.append(_AIR)
+    return "; ".join(map(writer.say, parts)) or writer.say(_NOTHING)
+
+
+def _uncertainty(instrument: Instrument, writer: Writer) -> str | None:
+    """Write the instrument's expanded uncertainty, with its part that grows with the length."""
+    stated, unit = instrument.stated_uncertainty, writer.deviation_unit.symbol
+    if stated is None:
+        fixed = instrument.expanded_uncertainty
+        return fixed if isinstance(fixed, str) else None
+    constant, per_metre = stated
+    parts = [with_unit(constant, unit, writer)] if constant or not per_metre else []
+    if per_metre:
+        parts.append(f"{writer.number(per_metre)} µm/m · L")
+    return f"U = {' + '.join(filter(None, parts))} (k = 2)"
+
+
+def correction_blocks(measurements: MeasurementSet, writer: Writer) -> Iterator[Block]:
+    """Yield what was corrected, in its order; nothing where the readings are as they were read."""
+    corrections = measurements.provenance.corrections
+    if not corrections:
+        return
+    columns = (
+        Column(writer.say(Words(en="Correction", de="Korrektion"))),
+        Column(writer.say(Words(en="By", de="Nach"))),
+        Column(writer.say(Words(en="From", de="Aus")) + writer.marks.after("environment", "corrections")),
+        Column(writer.say(Words(en="Largest", de="Größte")), writer.deviation_unit.symbol, Align.RIGHT),
+    )
+    rows: tuple[tuple[Cell, ...], ...] = tuple(
+        (
+            writer.say(each.name),
+            writer.say(each.method),
+            writer.say(each.inputs),
+            writer.deviation(each.largest),
+        )
+        for each in corrections
+    )
+    yield Table(writer.say(_CAPTION), columns, (RowGroup(rows),))
+    yield Paragraph(writer.say(_ALL_CORRECTED))

@@ -1,0 +1,273 @@
+"""Statements of conformity: the decision rule with its risk, and what it says of each limit."""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Graph,
+    Mark,
+    Paragraph,
+    RowGroup,
+    Symbol,
+    Table,
+    Verdict,
+)
+from zlmreport.document.writer import NOTHING, Writer, with_uncertainty
+from zlmreport.evaluation.evaluation import Conformity
+from zlmreport.language import Words, same
+from zlmreport.language.formatting import fixed_number, percentage, plain
+from zlmreport.measurement.units import with_unit
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.job.evaluation_keys import DecisionRuleKeys
+
+#: Of a risk that no double holds: it is small, and not none.
+_UNDERFLOW = 1e-300
+#: The risk of a statement on a value that lies on its limit.
+_EVEN = 0.5
+#: What each statement looks like, and its words.
+STATEMENTS = {
+    Conformity.MET: (Mark.MET, Words(en="conforms", de="eingehalten")),
+    Conformity.CONDITIONALLY_MET: (
+        Mark.MET,
+        Words(en="conforms, conditionally", de="bedingt eingehalten"),
+    ),
+    Conformity.CONDITIONALLY_FAILED: (
+        Mark.NOT_MET,
+        Words(en="does not conform, conditionally", de="bedingt nicht eingehalten"),
+    ),
+    Conformity.FAILED: (Mark.NOT_MET, Words(en="does not conform", de="nicht eingehalten")),
+    Conformity.UNDECIDED: (Mark.OPEN, Words(en="not decided", de="nicht entschieden")),
+}
+
+_SIMPLE = Words(
+    en="Decision rule: simple acceptance. A parameter conforms when its unrounded amount does not exceed "
+    "the limit TL. The measurement uncertainty is not taken into account: for a value at the limit, the "
+    "risk of a wrong acceptance or rejection reaches 50 %{largest}.",
+    de="Entscheidungsregel: einfache Annahme. Eine Kenngröße hält den Grenzwert TL ein, wenn ihr "
+    "ungerundeter Betrag ihn nicht überschreitet. Die Messunsicherheit bleibt unberücksichtigt: für "
+    "einen Wert am Grenzwert erreicht das Risiko einer falschen Annahme oder Ablehnung 50 %{largest}.",
+)
+_LARGEST = Words(
+    en="; the largest here is {risk} %, of {symbol}",
+    de="; das größte hier ist {risk} %, von {symbol}",
+)
+_LARGER_IF_WIDE = Words(
+    en="{largest}: its uncertainty is as large as its limit, or known errors are not corrected",
+    de="{largest}: seine Unsicherheit ist so groß wie sein Grenzwert, oder bekannte Fehler sind nicht "
+    "korrigiert",
+)
+_KNOWN_ERRORS = Words(
+    en="{rule} Where a known error that is not corrected would turn the statement, nothing is decided.",
+    de="{rule} Wo ein bekannter, nicht korrigierter Fehler die Aussage umkehren würde, ist nichts "
+    "entschieden.",
+)
+_GUARD_BAND = Words(
+    en="Decision rule: guarded acceptance with the guard band w = {width}. A parameter conforms when its "
+    "unrounded amount does not exceed TL − w; above, it does not conform. The risk of a wrong acceptance is "
+    "at most {risk} %.",
+    de="Entscheidungsregel: Annahme mit dem Schutzabstand w = {width}. Eine Kenngröße hält den Grenzwert "
+    "ein, wenn ihr ungerundeter Betrag TL − w nicht überschreitet; darüber gilt er als nicht "
+    "eingehalten. Das Risiko einer falschen Annahme beträgt höchstens {risk} %.",
+)
+_ISO_14253 = Words(
+    en="Decision rule: ISO 14253-1:2017 with a conformance probability of 95 %, applied as guard bands of "
+    "1.65·u on both sides of the limit. Conformity is stated up to TL − 1.65·u, nonconformity beyond "
+    "TL + 1.65·u; in between nothing is decided. The risk of a wrong statement is at most 5 %.",
+    de="Entscheidungsregel: ISO 14253-1:2017 mit einer Konformitätswahrscheinlichkeit von 95 %, angewandt "
+    "als Schutzabstände von 1,65·u beiderseits des Grenzwerts. Konformität wird bis TL − 1,65·u "
+    "festgestellt, Nichtkonformität jenseits von TL + 1,65·u; dazwischen wird nichts entschieden. Das "
+    "Risiko einer falschen Aussage beträgt höchstens 5 %.",
+)
+_NON_BINARY = Words(
+    en="Decision rule: non-binary statement with the guard band w = U (ILAC-G8:09/2019). Up to TL − U a "
+    "parameter conforms, up to TL conditionally; up to TL + U it conditionally does not conform, beyond "
+    "it does not. The risk of a wrong statement is at most {risk} %, of a conditional one at most 50 %.",
+    de="Entscheidungsregel: nicht binäre Aussage mit dem Schutzabstand w = U (ILAC-G8:09/2019). Bis TL − U "
+    "ist der Grenzwert eingehalten, bis TL bedingt eingehalten; bis TL + U ist er bedingt nicht "
+    "eingehalten, darüber nicht eingehalten. Das Risiko einer falschen Aussage beträgt höchstens {risk} "
+    "%, einer bedingten höchstens 50 %.",
+)
+_WITHOUT_UNCERTAINTY = Words(
+    en="{rule} It needs the expanded uncertainty of each parameter, which this document does not state; "
+    "conformity is therefore not decided.",
+    de="{rule} Sie braucht die erweiterte Messunsicherheit jeder Kenngröße, die dieses Dokument nicht "
+    "angibt; über die Konformität ist daher nicht entschieden.",
+)
+_SPECIFICATION = Words(en="{rule} Limits: {names}.", de="{rule} Grenzwerte: {names}.")
+_OF_STANDARD = Words(en="{specification} ({standard})", de="{specification} ({standard})")
+_NO_SPECIFICATION = Words(
+    en="{rule} Limits as ordered; their source is not stated.",
+    de="{rule} Grenzwerte wie beauftragt; ihre Quelle ist nicht angegeben.",
+)
+_CAPTION = Words(
+    en="Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
+    "normally distributed value with this uncertainty (JCGM 106:2012).",
+    de="Grenzwerte und was zu ihnen festgestellt wird. Das Risiko ist die Wahrscheinlichkeit, dass die "
+    "Aussage falsch ist, für einen normalverteilten Wert mit dieser Unsicherheit (JCGM 106:2012).",
+)
+
+
+def verdict(parameter: Parameter, writer: Writer) -> Cell:
+    """Return what is stated of a parameter's limit; nothing where it has none."""
+    if parameter.limit is None or parameter.decision is None:
+        return NOTHING
+    mark, words = STATEMENTS[parameter.decision.conformity]
+    return Verdict(mark, writer.say(words))
+
+
+def rule_paragraph(
+    keys: DecisionRuleKeys, evaluations: Sequence[Evaluation], writer: Writer
+) -> Iterator[Paragraph]:
+    """Yield the decision rule with its risk, where any limit is stated."""
+    limited = [each for evaluation in evaluations for each in evaluation.parameters if each.limit is not None]
+    if not limited:
+        return
+    words = _rule(keys, limited, writer)
+    if keys.rule != "simple" and any(each.expanded_uncertainty is None for each in limited):
+        words = _WITHOUT_UNCERTAINTY.given(rule=words)
+    yield Paragraph(writer.say(_source_of_limits(evaluations, writer).given(rule=words)))
+
+
+def _source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> Words:
+    """Return the sentence on the document that limits come from (ISO/IEC 17025:2017, 7.8.6.2 b)."""
+    limited = [each for each in evaluations if any(one.limit is not None for one in each.parameters)]
+    named = dict.fromkeys(each.specification for each in limited if each.specification)
+    if not named:
+        return _NO_SPECIFICATION
+    some = len({each.specification for each in limited}) > 1
+    names = "; ".join(
+        writer.say(_OF_STANDARD.given(specification=each.specification, standard=each.designation))
+        if some
+        else each.specification
+        for each in limited
+        if each.specification
+    )
+    return _SPECIFICATION.given(names=names if some else next(iter(named)))
+
+
+def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
+    """Yield the graph of a standard's limits, and the table of what is stated of them.
+
+    Nothing where the job states no limit; no table where no uncertainty is known: it would say no more than
+    that of the results.
+    """
+    if all(each.limit is None for each in evaluation.parameters):
+        return
+    from zlmreport.document.figures.bars import conformity_graph  # noqa: PLC0415 - only with limits
+
+    graph = conformity_graph(evaluation)
+    if graph is None:
+        return
+    yield Graph(graph)
+    yield from statements([evaluation], writer)
+
+
+def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Table]:
+    """Yield the table of what is stated of limits, by standard where there are several."""
+    limited = {
+        each.designation: [one for one in each.parameters if one.limit is not None] for each in evaluations
+    }
+    if all(each.expanded_uncertainty is None for some in limited.values() for each in some):
+        return
+    every = [one for some in limited.values() for one in some]
+    units = {one.quantity.unit_or(writer.deviation_unit) for one in every}
+    is_mixed = units != {writer.deviation_unit}
+    unit = "" if is_mixed else writer.deviation_unit.symbol
+    columns = (
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
+        Column(
+            writer.say(Words(en="Limit TL", de="Grenzwert TL")) + writer.marks.after("evaluate.tolerances"),
+            unit,
+            Align.RIGHT,
+        ),
+        Column(writer.say(Words(en="Accepted up to", de="Angenommen bis")), unit, Align.RIGHT),
+        Column(writer.say(Words(en="Statement", de="Aussage"))),
+        Column(writer.say(Words(en="Risk", de="Risiko")), "%", Align.RIGHT),
+    )
+    groups = tuple(
+        RowGroup(
+            tuple(_row(each, writer, is_mixed=is_mixed) for each in some), name if len(limited) > 1 else ""
+        )
+        for name, some in limited.items()
+        if some
+    )
+    yield Table(writer.say(_CAPTION), columns, groups)
+
+
+def _row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell, ...]:
+    writer = writer.of_quantity(parameter.quantity)
+
+    def shown(number: str) -> str:
+        return with_unit(number, writer.deviation_unit.symbol) if is_mixed else number
+
+    decision = parameter.decision
+    accepted = None if decision is None else decision.acceptance_limit
+    risk = None if decision is None else decision.risk
+    return (
+        Symbol(parameter.quantity.notation),
+        shown(_rounded(abs(parameter.value), parameter, writer)),
+        shown(writer.number(writer.deviation_unit.from_si(parameter.limit or 0.0))),
+        NOTHING if accepted is None else shown(_accepted(accepted, parameter, writer)),
+        verdict(parameter, writer),
+        NOTHING if risk is None else percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
+    )
+
+
+def _accepted(limit: float, parameter: Parameter, writer: Writer) -> str:
+    if limit == parameter.limit:
+        return writer.number(writer.deviation_unit.from_si(limit))
+    return _rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words(en="none", de="keine"))
+
+
+def _rounded(value: float, parameter: Parameter, writer: Writer) -> str:
+    """Write a value (m or rad) with the decimals that the parameter has in every other table."""
+    expanded = parameter.expanded_uncertainty
+    return with_uncertainty(value, expanded, writer)[0] if expanded else writer.deviation(value)
+
+
+def _rule(keys: DecisionRuleKeys, limited: Sequence[Parameter], writer: Writer) -> Words:
+    coverage_factor = max(2.0, min((each.coverage_factor or 2.0) for each in limited))
+    match keys.rule:
+        case "guard-band":
+            factor = keys.guard_band_factor
+            width = "U" if factor == 1 else f"{writer.number(factor)}·U"
+            return _GUARD_BAND.given(width=width, risk=_tail(factor * coverage_factor, writer))
+        case "iso14253-1":
+            return _ISO_14253
+        case "non-binary":
+            return _NON_BINARY.given(risk=_tail(coverage_factor, writer))
+        case _:
+            rule = _SIMPLE.given(largest=_largest_risk(limited, writer))
+            return _KNOWN_ERRORS.given(rule=rule) if any(each.known_error for each in limited) else rule
+
+
+def _largest_risk(limited: Sequence[Parameter], writer: Writer) -> Words:
+    """Return what is said of the largest risk of a document: nothing where none is known."""
+    risks = [
+        (each.decision.risk, each) for each in limited if each.decision and each.decision.risk is not None
+    ]
+    if not risks:
+        return same("")
+    risk, of = max(risks, key=operator.itemgetter(0))
+    words = _LARGEST.given(
+        risk=percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
+        symbol=plain(of.quantity.notation),
+    )
+    return _LARGER_IF_WIDE.given(largest=words) if risk > _EVEN else words
+
+
+def _tail(distance: float, writer: Writer) -> str:
+    """Return the percentage of a normal distribution beyond so many standard deviations, rounded up."""
+    percent = 50.0 * math.erfc(distance / math.sqrt(2.0))
+    return fixed_number(math.ceil(10.0 * percent) / 10.0, 1, writer.language.decimal_sign)

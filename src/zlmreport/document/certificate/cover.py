@@ -1,0 +1,310 @@
+"""The first page: who, for whom, what, when, and the results in brief."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Block, Facts, Notice, RowGroup, Symbol, Table
+from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
+from zlmreport.document.certificate.circumstances import Fact, date, days, stated_facts
+from zlmreport.document.certificate.conditions import (
+    AXIS_OR_CIRCLE,
+    MACHINE_KINDS,
+    axis_in_words,
+    facts as facts_of_conditions,
+    groups as conditions_in_groups,
+    identified,
+)
+from zlmreport.document.certificate.digest import DIGEST
+from zlmreport.document.certificate.readings import missing_readings
+from zlmreport.document.certificate.results import Evaluated, section_key
+from zlmreport.document.certificate.statements import amendment_notice, in_a_line
+from zlmreport.document.certificate.values import Values, told_apart
+from zlmreport.evaluation.evaluation import Group
+from zlmreport.job.document_keys import Location
+from zlmreport.language import Words, same
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.material import Material
+    from zlmreport.document.writer import Writer
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
+
+
+_CALIBRATION = Words(en="Calibration", de="Kalibrierung")
+
+
+def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -> tuple[Block, ...]:
+    """Return the blocks under the title.
+
+    Where standards share `pages`, they share their results in brief, and the conditions stand here too; the
+    statements that every certificate makes find their place there.
+    """
+    if of.is_part:
+        return tuple(_of_part(of))
+    job, measurements, evaluated, writer = of.job, of.measurements, of.evaluated, of.writer
+    evaluations = tuple(each.evaluation for each in evaluated)
+    facts = stated_facts(identity(of, evaluations), writer)
+    if pages is None:
+        first: tuple[Block, ...] = (Facts(facts),)
+    else:
+        beside = identified(job, writer)
+        of_conditions = facts_of_conditions(job, measurements, of.described, writer, beside)
+        first = (Facts(facts, writer.say(_CALIBRATION)), *of_conditions)
+    return (
+        *amendment_notice(job.keys.certificate, writer),
+        *first,
+        _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None),
+        *uncertainty.statement(evaluated[0].budget, (measurements.axis.measurand,), writer),
+        *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
+        *unlikely(of, writer),
+        *missing_readings(measurements, writer),
+        *measured_lines.notices(of.tests, writer),
+        *_shortfalls(evaluations, writer, in_a_line=pages is not None),
+        *_as_found(job, writer),
+        *statements.notices(job.keys, writer),
+        *(statements.paragraphs(job.keys, writer) if pages is None else ()),
+    )
+
+
+#: Keys of the facts that one of several measurements has of its own.
+_OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
+
+
+def _of_part(of: Material) -> Iterator[Block]:
+    """Yield what one of several measurements has of its own on the first page of their document."""
+    job, measurements, writer = of.job, of.measurements, of.writer
+    evaluations = tuple(each.evaluation for each in of.evaluated)
+    own = [each for each in identity(of, evaluations) if set(each.keys) & _OF_MEASUREMENT]
+    yield Facts(stated_facts(own, writer), writer.say(_CALIBRATION))
+    for key, group in conditions_in_groups(job, measurements, of.described, writer):
+        if key != "machine":
+            yield group
+    yield from uncertainty.statement(of.evaluated[0].budget, (measurements.axis.measurand,), writer)
+    yield from unlikely(of, writer)
+    yield from missing_readings(measurements, writer)
+    yield from measured_lines.notices(of.tests, writer)
+    yield from _as_found(job, writer)
+    yield from statements.notices(job.keys, writer)
+
+
+_UNUSUAL = Words(
+    en="Values that are unusual in the unit in which they are stated",
+    de="Werte, die in der angegebenen Einheit ungewöhnlich sind",
+)
+_EVIDENCE = Words(
+    en="What readings and calibrations show",
+    de="Was Messwerte und Kalibrierungen zeigen",
+)
+
+
+def unlikely(of: Material, writer: Writer) -> Iterator[Notice]:
+    """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
+    for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
+        if sentences:
+            yield Notice(writer.say(heading), tuple(map(writer.say, sentences)))
+
+
+def _as_found(job: Job, writer: Writer) -> Iterator[Block]:
+    """Yield which of two measurements the first page shows, if there are two."""
+    if job.keys.as_found:
+        from zlmreport.document.certificate.as_found import on_cover  # noqa: PLC0415 - of the few that need it
+
+        yield from on_cover(job.keys.as_found, writer)
+
+
+def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
+    values = Values.of((page[0].evaluation for page in pages), writer)
+    columns = values.columns()
+    groups = tuple(
+        RowGroup(
+            tuple(
+                (
+                    Symbol(parameter.quantity.notation),
+                    writer.say(parameter.quantity.name),
+                    *values.cells(parameter),
+                )
+                for parameter in _in_brief(page[0].evaluation)
+            ),
+            ", ".join(each.evaluation.designation for each in page),
+            section=section_key(page[0].evaluation),
+        )
+        for page in pages
+    )
+    caption = Words(en="Results in brief", de="Ergebnisse im Überblick")
+    shown = (each.quantity for page in pages for each in _in_brief(page[0].evaluation))
+    told = told_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
+    return Table(told, columns, groups, dense)
+
+
+def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+    """Return what a customer looks for: what has a limit, else the composite parameters, else all."""
+    limited = tuple(parameter for parameter in evaluation.parameters if parameter.limit is not None)
+    composite = tuple(
+        parameter for parameter in evaluation.parameters if parameter.quantity.group is Group.COMPOSITE
+    )
+    return limited or composite or evaluation.parameters
+
+
+def shortfalls_of_parts(parts: Mapping[str, Sequence[Evaluation]], writer: Writer) -> Iterator[Notice]:
+    """Yield which requirements the measurements of one document do not meet, by what these are called."""
+    items = [
+        writer.say(_IN_A_PART.given(name=name, designation=each.designation, count=unmet))
+        for name, evaluations in parts.items()
+        for each in evaluations
+        if (unmet := sum(finding.met is False for finding in each.findings))
+    ]
+    if items:
+        yield Notice(writer.say(_NOT_MET), tuple(items))
+
+
+_IN_A_PART = Words(
+    en="{name}, {designation}: {count} not met; see its section",
+    de="{name}, {designation}: {count} nicht erfüllt; siehe den Abschnitt dazu",
+)
+_NOT_MET = Words(
+    en="Requirements that the test does not meet", de="Anforderungen, die die Messung nicht erfüllt"
+)
+
+
+def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_line: bool) -> Iterator[Notice]:
+    one = Words(
+        en="{designation}: {count} not met; see its section",
+        de="{designation}: {count} nicht erfüllt; siehe den Abschnitt dazu",
+    )
+    items = tuple(
+        writer.say(one.given(designation=evaluation.designation, count=unmet))
+        for evaluation in evaluations
+        if (unmet := sum(finding.met is False for finding in evaluation.findings))
+    )
+    if in_a_line and len(items) > 1:
+        named = (each.designation for each in evaluations if any(one.met is False for one in each.findings))
+        words = Words(en="{designations}; see their sections", de="{designations}; siehe die Abschnitte dazu")
+        items = (writer.say(words.given(designations=", ".join(named))),)
+    if items:
+        yield Notice(writer.say(_NOT_MET), items)
+
+
+def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
+    """Yield the facts, in the order of the page; `evaluations` are those of the page."""
+    job, writer = of.job, of.writer
+    keys = job.keys
+    machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
+    if customer:
+        address = ", ".join(lines(customer.address))
+        yield Fact(
+            Words(en="Customer", de="Auftraggeber"),
+            ", ".join(filter(None, (customer.name, address))),
+            ("customer.name", "customer.address"),
+        )
+    kind = writer.say(MACHINE_KINDS[machine.kind])
+    yield Fact(
+        Words(en="Item calibrated", de="Gegenstand"),
+        f"{machine.type} ({kind})" if machine.type else kind,
+        ("machine.manufacturer", "machine.model", "machine.kind"),
+    )
+    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    yield Fact(
+        AXIS_OR_CIRCLE[keys.circle is not None], axis_in_words(job, writer), ("axis.name", "axis.kind")
+    )
+    yield Fact(
+        Words(en="Evaluated by", de="Ausgewertet nach"),
+        ", ".join(evaluation.designation for evaluation in evaluations),
+        ("evaluate.standard",),
+    )
+    place = place_of_work(keys)
+    if place:
+        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
+    received = date(keys.dates.received, writer)
+    yield Fact(Words(en="Received", de="Eingang"), received, ("dates.received",))
+    if keys.as_found:
+        yield Fact(
+            Words(en="Date of measurement as found", de="Datum der Messung vorher"),
+            days(keys.as_found.measurement, writer),
+            ("as_found.measurement.date", "as_found.measurement.end"),
+        )
+    yield Fact(
+        Words(en="Date of measurement", de="Datum der Messung"),
+        days(keys.measurement, writer),
+        ("measurement.date", "measurement.end"),
+    )
+    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
+    if keys.next_due:
+        yield Fact(
+            Words(
+                en="Next calibration due, as agreed with the customer",
+                de="Nächste Kalibrierung, wie mit dem Auftraggeber vereinbart",
+            ),
+            writer.date(keys.next_due.date),
+        )
+    if person:
+        yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
+    if not of.is_part:
+        yield Fact(DIGEST, of.digest)
+
+
+def lines(address: str | None) -> tuple[str, ...]:
+    """Part an address into lines, at its commas or line breaks."""
+    if not address:
+        return ()
+    return tuple(
+        part for piece in address.split("\n") for part in (part.strip() for part in piece.split(",")) if part
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceOfWork:
+    """A place of work."""
+
+    kind: str  #: ``laboratory``, ``customer``, ``laboratory branch``, ``customer branch`` or ``other``.
+    address: str  #: In one line or several; empty where the job states none.
+    words: Words  #: What the page says: whose place it is, and its address.
+    keys: tuple[str, ...]  #: The job keys that state it.
+
+
+_KINDS = {
+    "laboratory": Words(en="in the laboratory", de="im Laboratorium"),
+    "customer": Words(en="at the customer's", de="beim Auftraggeber"),
+    "laboratory branch": Words(
+        en="at a branch of the laboratory", de="in einer Zweigstelle des Laboratoriums"
+    ),
+    "customer branch": Words(en="at a branch of the customer", de="in einer Zweigstelle des Auftraggebers"),
+}
+_AT = Words(en="{kind}: {address}", de="{kind}: {address}")
+_WHERE_IT_STANDS = Words(
+    en="where the machine stands: {location}", de="am Aufstellort der Maschine: {location}"
+)
+
+
+def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
+    """Return where the work was done: the place that is stated, or where the machine is said to stand."""
+    match keys.location:
+        case Location(kind=kind, address=address):
+            return _of_kind(kind, address or _own_address(kind, keys))
+        case str(location):
+            return PlaceOfWork("other", location, same(_in_a_line(location)), ("location",))
+    if keys.machine.location:
+        words = _WHERE_IT_STANDS.given(location=keys.machine.location)
+        return PlaceOfWork("other", keys.machine.location, words, ("machine.location",))
+    return None
+
+
+def _of_kind(kind: str, address: str) -> PlaceOfWork:
+    words = _KINDS.get(kind)
+    if words is None:
+        words = same(_in_a_line(address))
+    elif address:
+        words = _AT.given(kind=words, address=_in_a_line(address))
+    return PlaceOfWork(kind, address, words, ("location",))
+
+
+def _own_address(kind: str, keys: JobKeys) -> str:
+    party = keys.laboratory if kind == "laboratory" else keys.customer
+    return party.address or "" if party else ""
+
+
+def _in_a_line(address: str) -> str:
+    return ", ".join(line.strip().removesuffix(",") for line in address.splitlines() if line.strip())

@@ -1,0 +1,201 @@
+"""The certificate in one language: its sections, its look, and what it was made of."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import date
+from typing import TYPE_CHECKING, Any, Literal
+
+from zlmreport.document.blocks import Block, Graph, Section
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.attachments import Attachment, Source
+    from zlmreport.document.certificate.results import Tested
+    from zlmreport.document.figures.figure import Figure
+    from zlmreport.evaluation.evaluation import Evaluation
+    from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+    from zlmreport.job.job import Job
+    from zlmreport.language import Language, Words
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+
+
+@dataclass(frozen=True, slots=True)
+class Party:
+    """A name and an address, line by line."""
+
+    name: str
+    lines: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Letterhead:
+    """Who issues the document: the laboratory, its accreditation, its logo as bytes."""
+
+    laboratory: Party
+    accreditation: str = ""
+    logo: bytes | None = None
+    logo_type: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class PageWords:
+    """The words of page margins and captions: ``page {page} of {pages}`` is split around its numbers.
+
+    `figure` and `table` stand before the numbers that captions are given: ``Figure 1``, ``Table 2``. `head`
+    stands above every page but the first in place of laboratory and subject, `foot` below the number; empty
+    for none.
+    """
+
+    number: str
+    page: str
+    of: str
+    end: str
+    figure: str = ""
+    table: str = ""
+    head: str = ""
+    foot: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Typeface:
+    """The fonts of a typeface, TrueType or OpenType; widths of a figure and of a decimal sign, in em."""
+
+    regular: bytes = field(repr=False)
+    semibold: bytes = field(repr=False)
+    figure: float
+    sign: float
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """Colour of headings and lines, as ``#0d4a63``; on which side of the letterhead the logo stands.
+
+    `typeface` is the laboratory's own, None for the bundled one; `templates` are its own ones, by name, with
+    its style sheet ``style.css`` among them.
+    """
+
+    accent: str = "#0d4a63"
+    logo: Literal["left", "right"] = "right"
+    typeface: Typeface | None = None
+    templates: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Linked:
+    """Two graphs of the same readings, and the model's failures that point at them; plain values only."""
+
+    section: str  #: Key of the section that they belong to.
+    texts: Mapping[str, str]  #: What they say, by name, in the document's language.
+    graphs: Mapping[str, Any]  #: What both draw, in the units of the page.
+    #: Where the model fails: statement, axis that shows it, readings.
+    failures: tuple[Mapping[str, Any], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Certificate:
+    """A certificate or a measuring report, complete.
+
+    Attributes
+    ----------
+    number
+        Unique identification; on every page and the stem of every file.
+    title, subtitle
+        As printed on the cover.
+    language
+        Of all its text.
+    issued
+        Date of issue; None where the job states none.
+    paper
+        ``A4`` or ``Letter``.
+    is_compact
+        Whether it is set in smaller type, with less room between its parts.
+    letterhead
+        The issuing laboratory.
+    cover
+        The blocks of the first page under the title.
+    sections
+        The rest, in order.
+    page_words
+        Words of the page margins.
+    keywords, description
+        For the metadata of the file.
+    measurements, evaluations, diagnosis
+        What the sections were made of, for renderers of data; the diagnosis is None where the job names no
+        error model.
+    linked
+        The readings beside the error model, one by one, for documents in which they can be pointed at; None
+        without a model, or where single readings are not to be shown.
+    budget
+        Of the uncertainties of the evaluations, or why there is none; None where nobody asked for it.
+    job
+        What was asked for, for renderers of data; None where the document was made of no job.
+    evaluations_as_found, budget_as_found
+        Of the axis before it was adjusted, by the same standards; empty and None where it was not.
+    generator
+        Name and version of this program.
+    plugins
+        Identifier and version of every plugin that took part.
+    sources
+        The files that it was made from, the job first.
+    attachments
+        What a document that can carry files carries.
+    look
+        Colour, and the place of the logo.
+    doubts
+        Values that seem to be in another unit, in sentences; the first page has them, too.
+    digest
+        Of readings and results, to be held against other copies; the first page has it, too.
+    evidence
+        What the readings show that the job does not say, and what of calibrations is open: likewise.
+    tests
+        Of several measured lines that are evaluated together, each by itself; empty of most documents.
+    parts
+        Of one document of several measurements: what was made of each, by what it is called; empty of most.
+        Readings and model are then those of the parts, and the evaluations all of theirs.
+    """
+
+    number: str
+    title: str
+    subtitle: str
+    language: Language
+    issued: date | None
+    paper: str
+    letterhead: Letterhead | None
+    cover: tuple[Block, ...]
+    sections: tuple[Section, ...]
+    page_words: PageWords
+    description: str
+    measurements: MeasurementSet
+    evaluations: tuple[Evaluation, ...]
+    generator: str
+    keywords: tuple[str, ...] = ()
+    plugins: Mapping[str, str] = field(default_factory=dict)
+    diagnosis: Diagnosis | None = None
+    linked: Linked | None = None
+    evaluations_as_found: tuple[Evaluation, ...] = ()
+    budget: Budget | NoBudget | None = None
+    budget_as_found: Budget | NoBudget | None = None
+    job: Job | None = None
+    sources: tuple[Source, ...] = ()
+    attachments: tuple[Attachment, ...] = ()
+    is_compact: bool = False
+    look: Look = Look()
+    doubts: tuple[Words, ...] = ()
+    digest: str = ""
+    evidence: tuple[Words, ...] = ()
+    tests: tuple[Tested, ...] = ()
+    parts: Mapping[str, Certificate] = field(default_factory=dict)
+
+    @property
+    def running_head(self) -> str:
+        """What stands above every page but the first: words of its own, or laboratory and subject."""
+        laboratory = self.letterhead.laboratory.name if self.letterhead else ""
+        return self.page_words.head or " · ".join(filter(None, (laboratory, self.subtitle)))
+
+    @property
+    def figures(self) -> tuple[Figure, ...]:
+        """All figures in reading order."""
+        blocks = (*self.cover, *(block for section in self.sections for block in section.blocks))
+        return tuple(block.figure for block in blocks if isinstance(block, Graph))

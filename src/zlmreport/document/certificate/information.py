@@ -1,0 +1,198 @@
+"""What a standard wants reported of a test beside its results, held against what the job states.
+
+Nothing is refused for it: what the job does not tell is an open finding of the standard.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from enum import Enum
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+from zlmreport.evaluation.correction.compensated import compensated_by_instrument
+from zlmreport.evaluation.evaluation import Finding
+from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+from zlmreport.language import Words
+from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+
+class Information(Enum):
+    """Information on a test that a standard may want reported."""
+
+    MOTION = "motion"
+    PATH = "path"
+    MEASURING_LINE = "measuring line"
+    COMPENSATION = "compensation"
+    TEMPERATURES = "temperatures"
+    REFERENCE_TEMPERATURE = "reference temperature"
+    INSTRUMENT = "instrument"
+
+
+_REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
+    {
+        Information.MOTION: Words(
+            en="Feed, rest at each target and warm-up reported",
+            de="Vorschub, Verweilzeit je Position und Warmlauf angegeben",
+        ),
+        Information.PATH: Words(
+            en="Feed, place of the circle in the machine and warm-up reported",
+            de="Vorschub, Lage des Kreises in der Maschine und Warmlauf angegeben",
+        ),
+        Information.MEASURING_LINE: Words(
+            en="Measuring line, its offsets and the positions of the other axes reported",
+            de="Messlinie, ihre Abstände und die Stellungen der übrigen Achsen angegeben",
+        ),
+        Information.COMPENSATION: Words(
+            en="Compensations of the machine that were active reported",
+            de="Wirksame Kompensationen der Maschine angegeben",
+        ),
+        Information.TEMPERATURES: Words(
+            en="Temperatures reported, and where they were measured",
+            de="Temperaturen und ihre Messstellen angegeben",
+        ),
+        Information.REFERENCE_TEMPERATURE: Words(
+            en="Results for 20 °C: measured there, corrected to it, or the expansion counted in U",
+            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder die Ausdehnung in U enthalten",
+        ),
+        Information.INSTRUMENT: Words(
+            en="Measuring instrument, its calibration and its compensation reported",
+            de="Messgerät, seine Kalibrierung und seine Kompensation angegeben",
+        ),
+    }
+)
+_STATED = Words(en="stated", de="angegeben")
+_LACKING = Words(en="not stated: {lacking}", de="nicht angegeben: {lacking}")
+_UNKNOWN_TEMPERATURE = Words(
+    en="the temperature or the coefficient is not known",
+    de="Temperatur oder Koeffizient sind nicht bekannt",
+)
+_NOT_CORRECTED = Words(en="not at 20 °C, and not corrected", de="nicht bei 20 °C und nicht korrigiert")
+_IN_U = Words(en="not corrected; U holds the expansion whole", de="nicht korrigiert; U enthält sie ganz")
+_FAR_IN_U = Words(
+    en="{difference} K from 20 °C, and not corrected; U holds the expansion whole",
+    de="{difference} K von 20 °C entfernt und nicht korrigiert; U enthält sie ganz",
+)
+_BY_INSTRUMENT = Words(
+    en="corrected by the instrument, by α = {coefficient} µm/(m·K)",
+    de="vom Messgerät korrigiert, mit α = {coefficient} µm/(m·K)",
+)
+#: Distance from 20 °C up to which an expansion that is counted in U may stand for a correction, K.
+_NEAR = 1.0
+_AT_REFERENCE = Words(en="measured at 20 °C", de="bei 20 °C gemessen")
+_CORRECTED = Words(
+    en="corrected by α = {coefficient} µm/(m·K)", de="korrigiert mit α = {coefficient} µm/(m·K)"
+)
+
+
+def findings(
+    asked: Iterable[Information], job: Job, measurements: MeasurementSet, budget: Budget | NoBudget
+) -> Iterator[Finding]:
+    """Yield what a standard asks to be reported, held against the job.
+
+    `measurements`: Its readings, with the temperatures that were logged beside them.
+    `budget`: Of their uncertainty: it knows the thermal expansion that is not corrected.
+    """
+    for each in asked:
+        if each is Information.PATH and job.axis.circle is None:
+            continue
+        if each is not Information.REFERENCE_TEMPERATURE:
+            lacking = tuple(_lacking(each, job, measurements))
+            found = _LACKING.given(lacking=_in_a_line(lacking)) if lacking else _STATED
+            yield Finding(_REQUIREMENTS[each], found, met=None if lacking else True)
+        elif job.axis.has_length:
+            yield _at_reference(job, measurements, budget)
+
+
+def _at_reference(job: Job, measurements: MeasurementSet, budget: Budget | NoBudget) -> Finding:
+    requirement = _REQUIREMENTS[Information.REFERENCE_TEMPERATURE]
+    coefficient = _used_coefficient(job)
+    if coefficient is not None:
+        return Finding(requirement, _CORRECTED.given(coefficient=coefficient), met=True)
+    if budget.uncorrected_expansion is None:
+        return Finding(requirement, _UNKNOWN_TEMPERATURE, met=None)
+    by_instrument = compensated_by_instrument(job, measurements).material
+    if by_instrument is not None:
+        coefficient = float(f"{by_instrument / MICROMETRE_PER_METRE_KELVIN:.6g}")
+        return Finding(requirement, _BY_INSTRUMENT.given(coefficient=coefficient), met=True)
+    if not budget.uncorrected_expansion:
+        return Finding(requirement, _AT_REFERENCE, met=True)
+    if not isinstance(budget, Budget):
+        return Finding(requirement, _NOT_CORRECTED, met=False)
+    is_near = abs(budget.difference) <= _NEAR
+    difference = float(f"{budget.difference:.3g}")
+    return Finding(requirement, _IN_U if is_near else _FAR_IN_U.given(difference=difference), met=is_near)
+
+
+def _used_coefficient(job: Job) -> float | None:
+    """Return the coefficient by which readings are corrected to 20 °C, µm/(m·K); None where they are not."""
+    material = job.keys.corrections.material if job.keys.corrections else None
+    if material is None:
+        return None
+    stated = job.keys.environment.expansion_coefficient if job.keys.environment else None
+    return material.expansion_coefficient or (stated if isinstance(stated, float) else None)
+
+
+def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield what of the information the job does not state."""
+    keys = job.keys
+    measurement, instrument, environment = keys.measurement, keys.instrument, keys.environment
+    logged, circle = measurements.conditions, keys.circle
+    length = environment and (environment.axis_temperature or environment.material_temperature)
+    stated: Mapping[Information, tuple[tuple[Words, object], ...]] = {
+        Information.MOTION: (
+            (Words("feed", "Vorschub"), measurement.feed),
+            (Words("rest at each target", "Verweilzeit je Position"), measurement.dwell),
+            (Words("warm-up", "Warmlauf"), measurement.warm_up),
+        ),
+        Information.PATH: (
+            (Words("feed", "Vorschub"), circle and circle.feed),
+            (Words("centre of the circle", "Mittelpunkt"), circle and "centre" in circle.model_fields_set),
+            (Words("warm-up", "Warmlauf"), measurement.warm_up),
+        ),
+        Information.MEASURING_LINE: (
+            (Words("measuring line", "Messlinie"), measurement.line or measurement.at or measurement.tests),
+        ),
+        Information.COMPENSATION: (
+            (
+                Words("state of the compensation", "Zustand der Kompensation"),
+                measurement.compensation or keys.axis.compensation_table,
+            ),
+        ),
+        Information.TEMPERATURES: (
+            (
+                Words("temperature of the air", "Temperatur der Luft"),
+                (environment and environment.air_temperature) or "air_temperature" in logged,
+            ),
+            (
+                Words("temperature of the machine", "Temperatur der Maschine"),
+                length or logged.keys() & {"axis_temperature", "material_temperature"},
+            ),
+            (
+                Words("places of the sensors", "Messstellen"),
+                environment and environment.sensors,
+            ),
+        ),
+        Information.INSTRUMENT: (
+            (Words("instrument", "Messgerät"), instrument),
+            (Words("its calibration", "seine Kalibrierung"), instrument and instrument.certificate),
+            (
+                Words("its compensation", "seine Kompensation"),
+                instrument
+                and (
+                    instrument.compensation
+                    or instrument.compensates
+                    or (keys.corrections and keys.corrections.air)
+                ),
+            ),
+        ),
+    }
+    return (name for name, value in stated[asked] if not value)
+
+
+def _in_a_line(names: tuple[Words, ...]) -> Words:
+    return Words(", ".join(each.en for each in names), ", ".join(each.de for each in names))

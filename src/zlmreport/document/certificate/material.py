@@ -1,0 +1,169 @@
+"""What a document is made of, the sections that no layout makes its own way, and the layout ``full``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from zlmreport.document.certificate import (
+    conditions,
+    cover,
+    measured_lines,
+    origin,
+    readings,
+    results,
+    uncertainty,
+)
+from zlmreport.document.certificate.statements import opinion_sections
+
+if TYPE_CHECKING:
+    from zlmreport.document.blocks import Block, Section
+    from zlmreport.document.certificate.attachments import Source
+    from zlmreport.document.certificate.conditions import Described
+    from zlmreport.document.certificate.document import Letterhead, Linked
+    from zlmreport.document.certificate.results import Evaluated, Tested
+    from zlmreport.document.writer import Writer
+    from zlmreport.job.job import Job
+    from zlmreport.language import Words
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+
+
+class Interpretation(Protocol):
+    """What the laboratory thinks that the deviations come from: handed in, and no more known of it here."""
+
+    @property
+    def diagnosis(self) -> Diagnosis:
+        """For renderers of data."""
+        ...
+
+    @property
+    def sessions(self) -> tuple[MeasurementSet, ...]:
+        """Other tests that it rests on."""
+        ...
+
+    def section(self, writer: Writer) -> Section:
+        """Return the annex."""
+        ...
+
+    def linked(self, writer: Writer) -> Linked:
+        """Return the annex's graphs as values, for documents in which readings can be pointed at."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """What a document is made of."""
+
+    job: Job  #: The checked job.
+    evaluated: tuple[Evaluated, ...]  #: At least one evaluation; all are of the same measurements.
+    #: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
+    as_found: tuple[Evaluated, ...]
+    doubts: tuple[Words, ...]  #: Sentences on values that seem to be in another unit.
+    #: Sentences on what readings show that the job does not say, and on calibrations that do not hold.
+    evidence: tuple[Words, ...]
+    interpretation: Interpretation | None  #: By an error model; None where the job names none.
+    described: Sequence[Described]  #: What extensions say of their groups of job keys.
+    sources: tuple[Source, ...]  #: The files that it is made from.
+    #: generator and plugins: Name and version of this program; identifier and version of every plugin that
+    #: took part.
+    generator: str
+    plugins: Mapping[str, str]
+    #: letterhead and title: What stands above everything.
+    letterhead: Letterhead | None
+    title: str
+    digest: str  #: Of readings and results.
+    writer: Writer  #: Of the document.
+    #: Of several measured lines that are evaluated together, each by itself; empty of most documents.
+    tests: tuple[Tested, ...] = ()
+    #: Whether it is one of several that make one document, which says what all of them share.
+    is_part: bool = False
+
+    @property
+    def measurements(self) -> MeasurementSet:
+        """What the results are of: the axis as left."""
+        return self.evaluated[0].evaluation.measurements
+
+    @property
+    def read(self) -> tuple[MeasurementSet, ...]:
+        """All that was measured: the axis as left, and as found if it was adjusted."""
+        return (self.measurements, *(each.evaluation.measurements for each in self.as_found[:1]))
+
+
+@dataclass(frozen=True, slots=True)
+class LaidOut:
+    """A document in a layout: the first page under its title, and the rest."""
+
+    cover: tuple[Block, ...]
+    sections: tuple[Section, ...]
+    is_compact: bool = False
+
+
+def uncertainty_sections(of: Material) -> Iterator[Section]:
+    """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
+    keys = of.job.keys.as_found
+    if keys:
+        from zlmreport.document.certificate.as_found import uncertainty_beside_as_found  # noqa: PLC0415 - of few
+
+        yield from uncertainty_beside_as_found(keys, of.as_found, of.evaluated, of.writer)
+    elif of.tests:
+        yield measured_lines.uncertainty_of_lines(of.evaluated[0], of.tests, of.writer)
+    else:
+        yield uncertainty.section(of.evaluated[0].budget, of.job.axis, of.writer)
+
+
+def readings_sections(of: Material) -> Iterator[Section]:
+    """Yield the readings, unless the customer agreed to a document without them."""
+    keys = of.job.keys
+    if keys.agreement.simplified:
+        return
+    if of.tests:
+        yield from measured_lines.readings_of_lines(of.tests, of.writer)
+        return
+    yield readings.section(of.measurements, of.writer)
+    if keys.as_found:
+        from zlmreport.document.certificate.as_found import readings_as_found  # noqa: PLC0415 - of few
+
+        yield readings_as_found(keys.as_found, of.as_found, of.writer)
+
+
+def origin_section(of: Material) -> Section:
+    """Return where the numbers come from."""
+    return origin.section(of.sources, of.read, of.generator, of.plugins, of.writer)
+
+
+def opinions_and_model(of: Material) -> Iterator[Section]:
+    """Yield what is an opinion and no result: the job's, and what the error model says."""
+    yield from opinion_sections(of.job.keys, of.writer)
+    if of.interpretation:
+        yield of.interpretation.section(of.writer)
+
+
+def in_full(of: Material) -> LaidOut:
+    """Return the layout ``full``: a chapter for each standard, with all that is to be said of it."""
+    return LaidOut(
+        cover.blocks(of),
+        (
+            conditions.section(of.job, of.measurements, of.described, of.writer),
+            *_results(of),
+            *measured_lines.results_of_lines(
+                of.tests, conditions.groups(of.job, of.measurements, of.described, of.writer), of.writer
+            ),
+            *uncertainty_sections(of),
+            *readings_sections(of),
+            origin_section(of),
+            *opinions_and_model(of),
+        ),
+    )
+
+
+def _results(of: Material) -> Iterator[Section]:
+    """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
+    sections = (results.section(each, of.writer) for each in of.evaluated)
+    keys = of.job.keys.as_found
+    if keys is None:
+        return sections
+    from zlmreport.document.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+
+    return beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer)

@@ -1,0 +1,114 @@
+"""What is said of each of several measured lines whose evaluations a document joins: a section for each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Section, Table
+from zlmreport.document.certificate import conditions, readings, results, uncertainty
+from zlmreport.document.writer import Writer
+from zlmreport.language import Words
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.results import Evaluated, Tested
+
+_NAMED = Words("{name}: {said}", "{name}: {said}")
+#: Groups of facts that a line may have of its own: the machine is that of the document.
+_OWN = ("axis", "measurement", "instrument", "environment")
+_TABLE = Words(en="{name}: {caption}", de="{name}: {caption}")
+
+
+def said_of_each(lines: Iterable[tuple[str, Iterable[Words]]]) -> Iterator[Words]:
+    """Yield sentences, each with the name of the line that it is on; without one where there is only one."""
+    for name, sentences in lines:
+        for said in sentences:
+            yield _NAMED.given(name=name, said=said) if name else said
+
+
+def writer_of(test: Tested, writer: Writer) -> Writer:
+    """Return a writer for the readings of a line, which have units and decimals of their own."""
+    return Writer.of(test.measurements, writer.language, writer.marks)
+
+
+def notices(tests: Sequence[Tested], writer: Writer) -> Iterator[Notice]:
+    """Yield which readings of which line are missing."""
+    for test in tests:
+        for each in readings.missing_readings(test.measurements, writer_of(test, writer)):
+            yield replace(each, heading=_titled(test, each.heading, writer))
+
+
+def results_of_lines(
+    tests: Sequence[Tested],
+    known: Iterable[tuple[str, Facts]],
+    writer: Writer,
+    section_of: Callable[[Evaluated, Writer], Section] = results.section,
+) -> Iterator[Section]:
+    """Yield a section for each line: its circumstances, and what standards give for it alone.
+
+    `known`: The facts that the document states of all of them.
+    """
+    said = {pair for _, facts in known for pair in facts.pairs}
+    for test in tests:
+        own = writer_of(test, writer)
+        yield Section(
+            f"{test.name}-line",
+            _titled(test, own.say(test.measurements.axis.subject), own),
+            (
+                *_circumstances(test, said, own),
+                *conditions.correction_blocks(test.measurements, own),
+                *(
+                    _renamed(block, test)
+                    for each in test.evaluated
+                    for block in section_of(each, own).blocks
+                    if not isinstance(block, Formulas)
+                ),
+            ),
+        )
+
+
+def readings_of_lines(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
+    """Yield the readings of each line."""
+    for test in tests:
+        own = writer_of(test, writer)
+        section = readings.section(test.measurements, own, f"measurement.tests.{test.name}.source")
+        yield replace(section, key=f"{test.name}-readings", title=_titled(test, section.title, own))
+
+
+def uncertainty_of_lines(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
+    """Return the uncertainty of what follows from the lines, and the budget of each."""
+    section = uncertainty.section(evaluated.budget, evaluated.evaluation.measurements.axis, writer)
+    blocks = list(section.blocks)
+    for test in tests:
+        own = writer_of(test, writer)
+        of_line = uncertainty.own_blocks(test.budget, test.measurements.axis, own)
+        blocks += (_captioned(_renamed(block, test), test, own) for block in of_line)
+    return replace(section, blocks=tuple(blocks))
+
+
+def _circumstances(test: Tested, said: set[tuple[str, str]], writer: Writer) -> Iterator[Facts]:
+    """Yield what is stated of a line and not of all of them."""
+    for key, facts in conditions.groups(test.job, test.measurements, (), writer):
+        pairs = tuple(pair for pair in facts.pairs if pair not in said)
+        if key in _OWN and pairs:
+            yield replace(facts, pairs=pairs)
+
+
+def _titled(test: Tested, title: str, writer: Writer) -> str:
+    return writer.say(_NAMED.given(name=test.name, said=title))
+
+
+def _renamed(block: Block, test: Tested) -> Block:
+    """Return a block whose graph, if it is one, is told from those of the other lines."""
+    if not isinstance(block, Graph):
+        return block
+    figure = block.figure
+    title = _NAMED.given(name=test.name, said=figure.title)
+    return Graph(replace(figure, key=f"{test.name}-{figure.key}", title=title))
+
+
+def _captioned(block: Block, test: Tested, writer: Writer) -> Block:
+    if not isinstance(block, Table):
+        return block
+    return replace(block, caption=writer.say(_TABLE.given(name=test.name, caption=block.caption)))

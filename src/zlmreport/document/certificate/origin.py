@@ -1,0 +1,166 @@
+"""Where the numbers of a document come from: files, programs, and what the reader of them should know."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Align, Block, Column, Facts, Paragraph, RowGroup, Section, Table
+from zlmreport.document.certificate.attachments import Role, Source
+from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.language import Words
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.document import Certificate
+    from zlmreport.document.writer import Writer
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+_TITLE = Words(en="Origin of the results", de="Herkunft der Ergebnisse")
+
+
+def section(
+    sources: Sequence[Source],
+    measurements: Sequence[MeasurementSet],
+    generator: str,
+    plugins: Mapping[str, str],
+    writer: Writer,
+) -> Section:
+    """Return the section that lets anyone evaluate again: files with digests, program and plugins.
+
+    `measurements`: What was read: the axis as left, and as found if it was adjusted.
+    """
+    programs = _programs(generator, plugins, writer)
+    axis = measurements[0].axis
+    deviation = _INDICATED if measurements[0].is_indication else axis.measurand.sign_of(axis.letter)
+    signs = (_SIGN if axis.measurand.joins_tests or axis.measurand.is_closed else _SIGNS).given(
+        deviation=deviation, reversal=axis.measurand.reversal
+    )
+    blocks: list[Block] = [
+        *(Paragraph(writer.say(words)) for words in (_READING_AID, signs)),
+        _files(sources, measurements, writer),
+        programs,
+    ]
+    remarks = tuple(
+        said_of_each(
+            (name, line.provenance.remarks)
+            for each in measurements
+            for name, line in (each.tests or {"": each}).items()
+        )
+    )
+    if remarks:
+        blocks.append(_remarks(remarks, writer))
+    return Section("origin", writer.say(_TITLE), tuple(blocks))
+
+
+def section_of_several(
+    sources: Sequence[Source],
+    parts: Mapping[str, Certificate],
+    generator: str,
+    plugins: Mapping[str, str],
+    writer: Writer,
+) -> Section:
+    """Return the section of a document of several measurements, by what they are called."""
+    found = [
+        (f"{name} {line}".strip(), readings)
+        for name, part in parts.items()
+        for line, readings in (part.measurements.tests or {"": part.measurements}).items()
+    ]
+    headed = [(_OF_LINE.given(name=name, source=each.provenance.source), each) for name, each in found]
+    blocks: list[Block] = [
+        Paragraph(writer.say(_READING_AID)),
+        _files_of(sources, headed, writer),
+        _programs(generator, plugins, writer),
+    ]
+    if remarks := tuple(said_of_each((name, each.provenance.remarks) for name, each in found)):
+        blocks.append(_remarks(remarks, writer))
+    return Section("origin", writer.say(_TITLE), tuple(blocks))
+
+
+#: Above the files of each measurement: of the axis as left, and as found if it was adjusted.
+_READINGS = (
+    Words(en="Readings, read by {source}", de="Messwerte, gelesen mit {source}"),
+    Words(
+        en="Readings as found, read by {source}",
+        de="Messwerte im vorgefundenen Zustand, gelesen mit {source}",
+    ),
+)
+_OF_LINE = Words(en="Readings of {name}, read by {source}", de="Messwerte von {name}, gelesen mit {source}")
+_READING_AID = Words(
+    en="Values were computed from the unrounded readings, and limits are compared with unrounded values; "
+    "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
+    "readings.",
+    de="Gerechnet wurde mit ungerundeten Messwerten, und Grenzwerte werden mit ungerundeten Werten "
+    "verglichen; "
+    "gerundet ist nur, was gedruckt steht: ein Wert mit seiner Unsicherheit, jeder andere auf die "
+    "Dezimalstellen der Messwerte.",
+)
+_SIGNS = Words(
+    en="Signs: deviation = {deviation}; {reversal} B = mean of the positive approach ↑ − mean of the "
+    "negative approach ↓.",
+    de="Vorzeichen: Abweichung = {deviation}; {reversal} B = Mittel der positiven Anfahrrichtung ↑ − "
+    "Mittel der negativen Anfahrrichtung ↓.",
+)
+_SIGN = Words(en="Sign: {deviation}.", de="Vorzeichen: {deviation}.")
+_INDICATED = Words(en="indicated − calibrated position", de="angezeigte − kalibrierte Position")
+
+
+def _remarks(remarks: Iterable[Words], writer: Writer) -> Table:
+    """Return what the reader of the files has to say of them."""
+    heading = writer.say(
+        Words(en="How the readings were understood", de="Wie die Messwerte verstanden wurden")
+    )
+    rows = tuple((said,) for said in dict.fromkeys(map(writer.say, remarks)))
+    return Table(writer.say(Words(en="Remarks", de="Bemerkungen")), (Column(heading),), (RowGroup(rows),))
+
+
+def _programs(generator: str, plugins: Mapping[str, str], writer: Writer) -> Facts:
+    return Facts(
+        (
+            (writer.say(Words(en="Program", de="Programm")), generator),
+            (
+                writer.say(Words(en="Plugins", de="Plugins")),
+                ", ".join(f"{name} {version}" for name, version in sorted(plugins.items())),
+            ),
+        ),
+        writer.say(Words(en="Evaluated with", de="Ausgewertet mit")),
+    )
+
+
+def _files(sources: Sequence[Source], measurements: Sequence[MeasurementSet], writer: Writer) -> Table:
+    """Return the files of each measurement, and of each of several measured lines."""
+    headed = [
+        ((_OF_LINE if name else heading).given(name=name, source=line.provenance.source), line)
+        for heading, each in zip(_READINGS, measurements, strict=False)
+        for name, line in (each.tests or {"": each}).items()
+    ]
+    return _files_of(sources, headed, writer)
+
+
+def _files_of(
+    sources: Sequence[Source], headed: Sequence[tuple[Words, MeasurementSet]], writer: Writer
+) -> Table:
+    columns = (
+        Column(writer.say(Words(en="File", de="Datei"))),
+        Column("Bytes", align=Align.RIGHT),
+        Column("SHA-256"),
+    )
+    readings = [source for source in sources if source.role is Role.READINGS]
+    groups = [
+        RowGroup(
+            tuple(_row(source) for source in readings if source.file in line.provenance.files),
+            writer.say(heading),
+        )
+        for heading, line in headed
+    ]
+    others = tuple(_row(source) for source in sources if source not in readings)
+    groups.append(RowGroup(others, writer.say(Words(en="Job", de="Auftrag"))))
+    return Table(
+        writer.say(Words(en="Files", de="Dateien")),
+        columns,
+        tuple(group for group in groups if group.rows),
+        dense=True,
+    )
+
+
+def _row(source: Source) -> tuple[str, str, str]:
+    return source.name, str(source.file.size), source.file.sha256

@@ -1,0 +1,99 @@
+"""What a laboratory says and arranges its own way: its texts in the document, and the order of the sections.
+
+A text is never evaluated: a key in braces is looked up among what the job states, and nothing else is.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from datetime import date
+from typing import TYPE_CHECKING, Any
+
+from zlmreport.document.blocks import Notice, Section
+from zlmreport.errors import InputError, Problem, did_you_mean
+from zlmreport.job.document_keys import OwnText
+from zlmreport.language import Words
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+
+#: Above what no reading gives: nobody is to take it for a result.
+_QUOTED = Words(en="The laboratory's own words", de="Worte des Laboratoriums")
+_PLACEHOLDER = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)+)\}")
+_NAMES = frozenset({"conditions", "definitions", "uncertainty", "readings", "origin", "opinions", "model"})
+#: Sections that a calibration certificate cannot leave out: what they state, and its clause of ISO/IEC 17025.
+_MANDATORY = {
+    "conditions": ("what departs from the method, and the conditions", "7.8.2.1 n, 7.8.4.1 b"),
+    "uncertainty": ("the measurement uncertainty and how the results are traceable", "7.8.4.1 a, c"),
+    "opinions": ("that opinions are opinions, and on what they rest", "7.8.7"),
+}
+
+
+def filled(text: str, job: Job, key: str) -> str:
+    """Return a text with the values of the keys that it names in braces.
+
+    `text`: As the job states it at `key`.
+    `job`: The job; its texts, numbers and dates can be named.
+
+    Raises `InputError` if it names a key that the job does not state: every such key.
+    """
+    known = dict(_values(job.keys.model_dump(exclude_none=True)))
+    problems = tuple(
+        Problem(
+            job.place_of(key),
+            f"{{{name}}} stands for no value that this job states; {did_you_mean(name, sorted(known))}",
+        )
+        for name in dict.fromkeys(_PLACEHOLDER.findall(text))
+        if name not in known
+    )
+    if problems:
+        raise InputError(problems)
+    return _PLACEHOLDER.sub(lambda found: known[found[1]], text)
+
+
+def _values(keys: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, str]]:
+    for name, value in keys.items():
+        match value:
+            case dict():
+                yield from _values(value, f"{within}{name}.")
+            case str() | int() | float() | date():  # and no path: it tells of the laboratory's folders
+                yield f"{within}{name}", str(value)
+
+
+def arranged(sections: Sequence[Section], job: Job) -> tuple[Section, ...]:
+    """Return the sections that the job wants, in its order, with its own texts among them."""
+    wanted = job.keys.certificate.sections
+    if wanted is None:
+        return tuple(sections)
+    found: list[Section] = []
+    for number, each in enumerate(wanted):
+        if isinstance(each, OwnText):
+            key = f"certificate.sections.{number}"
+            lines = filled(each.text, job, f"{key}.text").splitlines()
+            heading = _QUOTED.in_language(job.keys.certificate.language)
+            said = Notice(heading, tuple(filter(None, map(str.strip, lines))), is_quoted=True)
+            found.append(Section(f"text-{number + 1}", filled(each.title, job, f"{key}.title"), (said,)))
+        else:
+            found += (section for section in sections if _name(section, job) == each)
+    return tuple(found)
+
+
+def _name(section: Section, job: Job) -> str:
+    """Return by what name a job arranges a section."""
+    name = section.key
+    for of_a_part in (*job.measurements, "as-found", *job.tests):
+        name = name.removeprefix(f"{of_a_part}-")
+    return name if name in _NAMES else "results"
+
+
+def left_out(job: Job) -> Iterator[Problem]:
+    """Yield what a calibration certificate must state and the job's list of sections leaves out."""
+    wanted = job.keys.certificate.sections
+    for name, (what, clause) in _MANDATORY.items():
+        if wanted is not None and name not in wanted and (name != "opinions" or job.keys.opinions):
+            yield Problem(
+                job.place_of("certificate.sections"),
+                f"a calibration certificate must state {what} (ISO/IEC 17025:2017, {clause}): add {name} to "
+                "certificate.sections, or make a measuring report by certificate.kind: report",
+            )

@@ -1,0 +1,333 @@
+"""The results by one standard: parameters, graphs, table by position, requirements, definitions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Explained,
+    Formulas,
+    Graph,
+    Mark,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+    Verdict,
+)
+from zlmreport.document.certificate import conformity
+from zlmreport.document.certificate.values import Values, told_apart
+from zlmreport.document.writer import written_uncertainty
+from zlmreport.evaluation.evaluation import Basis, Finding, Group
+from zlmreport.evaluation.uncertainty.wording import RAISED_TO
+from zlmreport.language import Words
+from zlmreport.language.formatting import plain
+
+if TYPE_CHECKING:
+    from zlmreport.document.figures.figure import Figure
+    from zlmreport.document.writer import Writer
+    from zlmreport.evaluation.evaluation import Evaluation
+    from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.arrays import FloatArray
+    from zlmreport.measurement.measurement_set import MeasurementSet
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluated:
+    """An evaluation with the standard's prescribed graphs of it, and the budget of its uncertainties."""
+
+    evaluation: Evaluation
+    figures: tuple[Figure, ...]
+    budget: Budget | NoBudget
+
+
+@dataclass(frozen=True, slots=True)
+class Tested:
+    """One of several measured lines that are evaluated together."""
+
+    name: str  #: As the job calls it.
+    job: Job  #: What the job says of it, as a job of its own.
+    measurements: MeasurementSet
+    budget: Budget | NoBudget
+    evaluated: tuple[Evaluated, ...]  #: By those standards that evaluate it alone; there may be none.
+
+
+_GROUPS = {
+    Group.SYSTEMATIC: (
+        Words(en="Systematic deviations", de="Systematische Abweichungen"),
+        Words(
+            en="What repeats from run to run: the average error to expect.",
+            de="Was sich von Durchlauf zu Durchlauf wiederholt: der im Mittel zu erwartende Fehler.",
+        ),
+    ),
+    Group.RANDOM: (
+        Words(en="Random deviations", de="Zufällige Abweichungen"),
+        Words(
+            en="How far repeated approaches to one position scatter.",
+            de="Wie weit wiederholte Anfahrten einer Position streuen.",
+        ),
+    ),
+    Group.COMPOSITE: (
+        Words(en="Composite deviations", de="Gesamtabweichungen"),
+        Words(
+            en="Systematic and random deviations together.",
+            de="Systematische und zufällige Abweichungen zusammen.",
+        ),
+    ),
+}
+
+_OF_THE_AXIS = Words(en="Parameters of the axis", de="Kenngrößen der Achse")
+_PARAMETERS = Words(en="Parameters", de="Kenngrößen")
+_NO_PARAMETER = Words(
+    en="This test defines none of the parameters.", de="Diese Messung bestimmt keine der Kenngrößen."
+)
+_BY_STANDARD = Words(en="Results by {designations}", de="Ergebnisse nach {designations}")
+_BY_METHOD = Words(
+    en="Results by the method of {designations}", de="Ergebnisse nach dem Verfahren von {designations}"
+)
+_MET = Words(en="met", de="erfüllt")
+_NOT_MET = Words(en="not met", de="nicht erfüllt")
+_OPEN = Words(en="open", de="offen")
+
+
+def title_of(evaluations: Sequence[Evaluation], writer: Writer) -> str:
+    """Return the title of the results by one standard or method, or by several that give the same numbers."""
+    title = _BY_METHOD if evaluations[0].is_method else _BY_STANDARD
+    return writer.say(title.given(designations=", ".join(each.designation for each in evaluations)))
+
+
+def section_key(evaluation: Evaluation) -> str:
+    """Return the key of the section on the results by one standard."""
+    return evaluation.standard.replace(":", "-")
+
+
+def section(evaluated: Evaluated, writer: Writer) -> Section:
+    """Return the section on the results by one standard."""
+    evaluation = evaluated.evaluation
+    blocks: list[Block] = [
+        Paragraph(writer.say(evaluation.title)),
+        *([shortfall(evaluation.designation, items, writer)] if (items := unmet(evaluation, writer)) else []),
+        _parameters(evaluation, writer) if evaluation.parameters else Paragraph(writer.say(_NO_PARAMETER)),
+        *raised(evaluation, writer),
+        *map(Graph, evaluated.figures),
+        *conformity.blocks(evaluation, writer),
+        *by_position(evaluation, writer),
+        *([requirements([evaluation], writer)] if evaluation.findings else []),
+        *([definitions(evaluation, writer)] if evaluation.parameters else []),
+        *(Paragraph(writer.say(note)) for note in evaluation.notes),
+    ]
+    return Section(
+        key=section_key(evaluation),
+        title=title_of([evaluation], writer),
+        blocks=tuple(blocks),
+    )
+
+
+_UNMET = {
+    Basis.PUBLISHED: Words(en="{requirement}; found: {found}", de="{requirement}; vorgefunden: {found}"),
+    Basis.APPLIED: Words(
+        en="{requirement} (as applied); found: {found}",
+        de="{requirement} (wie angewandt); vorgefunden: {found}",
+    ),
+}
+
+
+def unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
+    """Return the requirements that the test does not meet, each with what was found."""
+    return tuple(
+        writer.say(_UNMET[finding.basis].given(requirement=finding.requirement, found=finding.found))
+        for finding in evaluation.findings
+        if finding.met is False
+    )
+
+
+def shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Notice:
+    """Return the notice of requirements that are not met."""
+    heading = Words(en="The test deviates from {designation}", de="Die Messung weicht von {designation} ab")
+    return Notice(writer.say(heading.given(designation=designations)), items)
+
+
+def parameters_in_words(evaluation: Evaluation) -> Words:
+    """Return what a table of parameters is called: those of an axis, or of whatever was measured."""
+    is_position = evaluation.measurements.axis.measurand.is_position
+    return _OF_THE_AXIS if is_position else _PARAMETERS
+
+
+def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
+    values = Values.of([evaluation], writer, with_interval=True)
+    columns = values.columns(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))
+    groups = []
+    for group, (heading, note) in _GROUPS.items():
+        rows = tuple(
+            (
+                Symbol(parameter.quantity.notation),
+                Explained(writer.say(parameter.quantity.name), writer.say(parameter.quantity.meaning)),
+                *values.cells(parameter),
+            )
+            for parameter in evaluation.parameters
+            if parameter.quantity.group is group
+        )
+        if rows:
+            groups.append(RowGroup(rows, writer.say(heading), writer.say(note)))
+    if len(groups) == 1 and not evaluation.measurements.axis.measurand.is_position:
+        groups = [replace(groups[0], heading="", note="")]  # nothing that they would be told apart from
+    caption = told_apart(
+        parameters_in_words(evaluation),
+        (each.quantity for each in evaluation.parameters),
+        has_uncertainty=values.has_uncertainty,
+        writer=writer,
+    )
+    return Table(caption, columns, tuple(groups))
+
+
+def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
+    """Yield which uncertainties were raised, and to what."""
+    for least, words in RAISED_TO.items():
+        symbols = [each.quantity.notation for each in evaluation.parameters if each.raised_to is least]
+        if symbols:
+            statement = Words(en="U of {symbols}: {what}.", de="U von {symbols}: {what}.")
+            yield Paragraph(writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words)))
+
+
+def by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Table]:
+    """Yield the table by position.
+
+    None of several lines, which have theirs one by one, and none of what was read without targets: the graph
+    shows it, and the results file has the values.
+    """
+    measurements = evaluation.measurements
+    if not measurements.tests and not measurements.axis.measurand.is_continuous:
+        yield positions(evaluation, writer)
+
+
+def positions(evaluation: Evaluation, writer: Writer) -> Table:
+    """Return the table by position; it shows n where readings are missing somewhere."""
+    statistics = evaluation.statistics
+    measurements = evaluation.measurements
+    unit = writer.deviation_unit.symbol
+    index = f"_{{{evaluation.position_index}}}"
+    columns = [
+        Column(Symbol(evaluation.position_index), align=Align.RIGHT),
+        Column(Symbol(f"P{index}"), writer.position_unit.symbol, Align.RIGHT),
+    ]
+    cells: list[tuple[str, ...]] = [
+        tuple(str(number) for number in range(1, len(measurements.target_positions) + 1)),
+        tuple(writer.position(float(target)) for target in measurements.target_positions),
+    ]
+
+    def add(notation: str, values: FloatArray) -> None:
+        columns.append(Column(Symbol(notation), unit, Align.RIGHT))
+        cells.append(tuple(writer.mean(float(value)) for value in values))
+
+    for approach in measurements.approaches:
+        if measurements.missing():
+            columns.append(Column(Symbol(f"n{index}{approach.arrow}"), align=Align.RIGHT))
+            cells.append(tuple(str(int(count)) for count in statistics.count[approach.index]))
+        add(f"x̄{index}{approach.arrow}", statistics.mean[approach.index])
+        if len(measurements.runs) > 1:
+            add(f"s{index}{approach.arrow}", statistics.standard_deviation[approach.index])
+    if measurements.is_bidirectional and not measurements.one_sided_targets:
+        add(f"x̄{index}", statistics.mean_bidirectional)
+        add(f"B{index}", statistics.reversal_value)
+    for arrows, expanded in _mean_uncertainties(evaluation):
+        columns.append(Column(Symbol(f"U(x̄{index}{arrows})"), unit, Align.RIGHT))
+        cells.append(tuple(written_uncertainty(float(value), writer) for value in expanded))
+    for column in evaluation.columns:
+        if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
+            add(column.quantity.notation, column.values)
+    caption = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
+    told = told_apart(
+        caption,
+        (column.quantity for column in evaluation.columns),
+        has_uncertainty=evaluation.mean_uncertainty is not None,
+        writer=writer,
+    )
+    return Table(told, tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True)
+
+
+def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:
+    """Yield U of the mean deviations by direction: once, if it is alike in both directions."""
+    expanded = evaluation.mean_uncertainty
+    if expanded is None:
+        return
+    approaches = evaluation.measurements.approaches
+    of_each = [expanded.by_approach[approach.index] for approach in approaches]
+    if all(np.array_equal(values, of_each[0], equal_nan=True) for values in of_each):
+        yield "".join(approach.arrow for approach in approaches), of_each[0]
+        return
+    for approach, values in zip(approaches, of_each, strict=True):
+        yield approach.arrow, values
+
+
+def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
+    """Return what standards require of a test, and what was found; standards that agree share their rows."""
+    columns = (
+        Column(writer.say(Words(en="Requirement on the test", de="Anforderung an die Messung"))),
+        Column(writer.say(Words(en="Found", de="Vorgefunden"))),
+        Column(writer.say(Words(en="Result", de="Ergebnis"))),
+    )
+    groups: dict[tuple[tuple[Cell, ...], ...], list[str]] = {}
+    for evaluation in evaluations:
+        rows = tuple(
+            (_requirement(finding, writer), writer.say(finding.found), _mark(finding, writer))
+            for finding in evaluation.findings
+        )
+        groups.setdefault(rows, []).append(evaluation.designation)
+    caption = Words(
+        en="Requirements on the test. Those marked * are applied as this program's reading of the "
+        "standard, not quoted from its text.",
+        de="Anforderungen an die Messung. Mit * bezeichnete werden nach dem Verständnis dieses Programms "
+        "angewandt und nicht aus dem Wortlaut der Norm zitiert.",
+    )
+    of_several = len(evaluations) > 1
+    return Table(
+        writer.say(caption),
+        columns,
+        tuple(
+            RowGroup(rows, ", ".join(names) if of_several else "") for rows, names in groups.items() if rows
+        ),
+    )
+
+
+def _requirement(finding: Finding, writer: Writer) -> str:
+    words = writer.say(finding.requirement)
+    return words if finding.basis is Basis.PUBLISHED else f"{words}\N{NO-BREAK SPACE}*"
+
+
+def _mark(finding: Finding, writer: Writer) -> Verdict:
+    if finding.met is None:
+        return Verdict(Mark.OPEN, writer.say(_OPEN))
+    if finding.met:
+        return Verdict(Mark.MET, writer.say(_MET))
+    return Verdict(Mark.NOT_MET, writer.say(_NOT_MET))
+
+
+def definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
+    """Return the definitions of a standard's parameters."""
+    caption = Words(
+        en="Definitions. Names describe the parameters; the formulas define what was computed.",
+        de="Definitionen. Die Namen beschreiben die Kenngrößen; maßgebend für die Berechnung sind die "
+        "Formeln.",
+    )
+    return Formulas(
+        writer.say(caption),
+        tuple(
+            (
+                Symbol(parameter.quantity.notation),
+                Symbol(parameter.quantity.formula),
+                writer.say(parameter.quantity.name),
+            )
+            for parameter in evaluation.parameters
+        ),
+    )

@@ -1,0 +1,331 @@
+"""The layout ``standard``: a page or so for each standard, and once for all what the standards share.
+
+Editions that give the same numbers share their page, and it says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import TypeAlias, TypeGuard
+
+from zlmreport.document.blocks import Block, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
+from zlmreport.document.certificate import columns, conditions, conformity, cover, results, statements
+from zlmreport.document.certificate.material import (
+    LaidOut,
+    Material,
+    opinions_and_model,
+    origin_section,
+    readings_sections,
+    uncertainty_sections,
+)
+from zlmreport.document.certificate.measured_lines import results_of_lines
+from zlmreport.document.certificate.results import Evaluated, section_key
+from zlmreport.document.certificate.values import Values, told_apart
+from zlmreport.document.figures.figure import Figure, Panel
+from zlmreport.document.writer import Writer
+from zlmreport.evaluation.evaluation import Evaluation, Group
+from zlmreport.language import Words
+
+#: Heights of graphs, mm: of the main one, of panels beside each other, of any other, of what is no result.
+_MAIN, _BESIDE, _OTHER, _ASIDE = 57.0, 43.0, 54.0, 46.0
+#: Of a graph about a circle, mm: the other one stands below it on the same page.
+_ROUND = 120.0
+#: The part of its height that a graph keeps at least where a page is short of room.
+_LEAST_DRAWN = 0.75
+#: Points that are none.
+_ROUNDED = 1e-6
+#: The part of the first page that must be taken for the next part to begin a page.
+_FULL_ENOUGH = 0.38
+#: Panels that have room beside each other.
+_MOST_BESIDE = 2
+
+#: Evaluations that share a page, page by page.
+Pages: TypeAlias = list[tuple[Evaluated, ...]]
+
+_SHARED = Words(
+    en="These readings give the same numbers by {others}; {named} are those of {first}.",
+    de="Diese Messwerte ergeben nach {others} dieselben Zahlen; {named} sind die von {first}.",
+)
+_NAMES = Words(en="the names", de="die Benennungen")
+_NAMES_AND_LIMITS = Words(en="names and limits", de="Benennungen und Grenzwerte")
+_DEFINITIONS = Words(
+    en="Limits, requirements and definitions", de="Grenzwerte, Anforderungen und Definitionen"
+)
+_IN_THREE_GROUPS = Words(
+    en="{parameters}: systematic, random and composite deviations",
+    de="{parameters}: systematische, zufällige und Gesamtabweichungen",
+)
+_DEFINED = Words(en="{caption} {designations}.", de="{caption} {designations}.")
+
+
+def lay_out(of: Material) -> LaidOut:
+    """Return the document.
+
+    Each standard begins a page where the first page holds all that stands before the results, and is not
+    left empty by it; where it does not, parts follow each other without a break. What holds of every
+    certificate goes over to the uncertainty where only that makes the first page too long.
+    """
+    pages = together(of.evaluated, of.writer)
+    page = columns.PAGES[of.job.keys.certificate.paper]
+    on_cover = cover.blocks(of, pages)
+    said = () if of.is_part else tuple(statements.paragraphs(of.job.keys, of.writer))
+    free = page - columns.head_height(of.letterhead, of.title) - columns.height(on_cover)
+    is_said_at_end = columns.height(said) > free >= 0
+    breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
+    *others, last = map(_without_graphs, uncertainty_sections(of))
+    if is_said_at_end:
+        last = replace(last, blocks=(*last.blocks, *statements.in_a_paragraph(said)))
+    return LaidOut(
+        on_cover if is_said_at_end else (*on_cover, *said),
+        (
+            *_results(of, pages, page if breaks else None),
+            *results_by_line(of),
+            *map(in_smaller_type, _besides_conditions(of)),
+            *in_common(pages, of.writer),
+            *others,
+            last,
+            *readings_sections(of),
+            in_smaller_type(origin_section(of)),
+            *map(in_smaller_type, opinions_and_model(of)),
+        ),
+        is_compact=True,
+    )
+
+
+def results_by_line(of: Material) -> Iterator[Section]:
+    """Yield what is said of each of several measured lines, on a page if it fits on one."""
+    known = conditions.groups(of.job, of.measurements, of.described, of.writer)
+    sections = results_of_lines(of.tests, known, of.writer, lambda each, writer: page((each,), writer))
+    room = columns.PAGES[of.job.keys.certificate.paper]
+    yield from (replace(on_a_page(each, room), new_page=True) for each in sections)
+
+
+def _besides_conditions(of: Material) -> Iterator[Section]:
+    """Yield what is to be said of the conditions and is no fact: the facts stand on the first page."""
+    blocks = tuple(conditions.besides(of.measurements, of.described, of.writer))
+    if blocks:
+        section = conditions.section(of.job, of.measurements, of.described, of.writer)
+        yield replace(section, blocks=blocks)
+
+
+def _results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator[Section]:
+    """Yield the results; of an axis that was adjusted, compared first, after and before.
+
+    Each standard begins a page of that many points, or goes on where the one before ends.
+    """
+    sections: Iterator[Section] = (page(each, of.writer) for each in pages)
+    keys = of.job.keys.as_found
+    if keys:
+        from zlmreport.document.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+
+        sections = beside_as_found(
+            keys, sections, of.as_found, of.evaluated, of.writer, lambda each, writer: page((each,), writer)
+        )
+        comparison = on_a_page(in_smaller_type(next(sections)), columns.PAGES[of.job.keys.certificate.paper])
+        yield replace(comparison, new_page=room_of_page is not None)
+    if room_of_page is None:
+        yield from sections
+    else:
+        yield from (replace(on_a_page(each, room_of_page), new_page=True) for each in sections)
+
+
+def _without_graphs(section: Section) -> Section:
+    """Return a section whose table says what its bars repeat: that of the uncertainty."""
+    return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
+
+
+def in_smaller_type(section: Section) -> Section:
+    """Return a section with graphs no higher than they must be, and tables in smaller type."""
+    return replace(section, blocks=tuple(map(_smaller, section.blocks)))
+
+
+def on_a_page(section: Section, page: float) -> Section:
+    """Return a section with its graphs somewhat lower, if that makes it fit on a page.
+
+    Panels beside each other are low already: they give way last.
+    """
+    excess = columns.heading_height(section.title) + columns.height(section.blocks) - page
+    blocks = section.blocks
+    for is_wide in (False, True):
+        heights = [each.figure.height or 0.0 for each in blocks if _is_drawn(each, is_wide=is_wide)]
+        drawn = sum(heights) * columns.MILLIMETRE
+        part = min(1.0, max(_LEAST_DRAWN, 1 - excess / drawn)) if drawn else 1.0
+        blocks = tuple(_lower(each, part) if _is_drawn(each, is_wide=is_wide) else each for each in blocks)
+        excess -= (1 - part) * drawn
+    return section if excess > _ROUNDED else replace(section, blocks=blocks)
+
+
+def _is_drawn(block: Block, *, is_wide: bool) -> TypeGuard[Graph]:
+    return isinstance(block, Graph) and block.figure.is_wide is is_wide
+
+
+def _lower(graph: Graph, part: float) -> Graph:
+    height = graph.figure.height
+    return Graph(replace(graph.figure, height=height and round(height * part, 1)))
+
+
+def _smaller(block: Block) -> Block:
+    match block:
+        case Graph(figure):
+            return Graph(replace(figure, height=_ASIDE * len(figure.panels)))
+        case Table():
+            return replace(block, dense=True)
+        case _:
+            return block
+
+
+def together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
+    """Return the evaluations, those together that share a page: the first of them gives names and limits."""
+    pages: Pages = []
+    numbers: list[list[object]] = []
+    for each in evaluated:
+        printed = _numbers(each.evaluation, writer)
+        for number, page in enumerate(pages):
+            if printed == numbers[number] and _limits_fit(page[0].evaluation, each.evaluation):
+                pages[number] = (*page, each)
+                break
+        else:
+            pages.append((each,))
+            numbers.append(printed)
+    return pages
+
+
+def designations(page: Sequence[Evaluated]) -> str:
+    """Return the standards of a page."""
+    return ", ".join(each.evaluation.designation for each in page)
+
+
+def page(shared: Sequence[Evaluated], writer: Writer) -> Section:
+    """Return the results by a standard, and by others that give the same numbers."""
+    first, *others = (each.evaluation for each in shared)
+    blocks: list[Block] = [*said_of_all((first, *others), writer)]
+    if first.parameters:
+        blocks += (parameters(first, writer), *results.raised(first, writer))
+    blocks += map(Graph, in_less_room(shared[0].figures))
+    blocks += results.by_position(first, writer)
+    return Section(section_key(first), results.title_of((first, *others), writer), tuple(blocks))
+
+
+def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
+    """Yield that standards share a page, whose names it has, and what deviates from them."""
+    first, *others = evaluations
+    if others:
+        has_limits = any(each.limit is not None for each in first.parameters)
+        named = _NAMES_AND_LIMITS if has_limits else _NAMES
+        names = ", ".join(each.designation for each in others)
+        yield Paragraph(writer.say(_SHARED.given(others=names, named=named, first=first.designation)))
+    yield from _shortfalls(evaluations, writer)
+
+
+def in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
+    """Yield what is said once for all standards: limits, requirements, definitions, notes."""
+    evaluations = [each.evaluation for page in pages for each in page]
+    tables = [*conformity.statements([page[0].evaluation for page in pages], writer)]
+    if any(each.findings for each in evaluations):
+        tables.append(results.requirements(evaluations, writer))
+    blocks: list[Block] = [*map(_smaller, tables)]
+    for page in pages:
+        lead = page[0].evaluation
+        if lead.parameters:
+            defined = results.definitions(lead, writer)
+            caption = _DEFINED.given(caption=defined.caption, designations=designations(page))
+            blocks.append(replace(defined, caption=writer.say(caption)))
+        # Below its own definitions: of "2 standard deviations" a reader must know which standard takes them.
+        notes = (writer.say(note) for each in page for note in each.evaluation.notes)
+        blocks += map(Paragraph, dict.fromkeys(notes))
+    if blocks:
+        yield Section("definitions", writer.say(_DEFINITIONS), tuple(blocks))
+
+
+def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
+    """Yield a standard's graphs: the one with the brackets first, and none that shows its curves again.
+
+    Single readings of a graph that is left out stand in the one that is kept.
+    """
+    single = [each for each in figures if len(each.panels) == 1]
+    main = main_graph(figures)
+    if main is not None:
+        again = [each for each in single if each is not main and _shows_again(each.panels[0], main.panels[0])]
+        readings = main.panels[0].readings or next((each.panels[0].readings for each in again), ())
+        height = _ROUND if main.panels[0].is_polar else _MAIN
+        yield replace(main, panels=(replace(main.panels[0], readings=readings),), height=height)
+        single = [each for each in single if each is not main and each not in again]
+    for each in figures:
+        if 1 < len(each.panels) <= _MOST_BESIDE:
+            yield replace(each, height=_BESIDE, is_wide=True)
+        elif len(each.panels) > 1:
+            yield each
+        elif any(each is other for other in single):
+            yield replace(each, height=_OTHER)
+
+
+def main_graph(figures: Sequence[Figure]) -> Figure | None:
+    """Return the graph that shows where the parameters arise; any other of one panel if none does.
+
+    Of a circle it is that about the circle.
+    """
+    single = [each for each in figures if len(each.panels) == 1]
+    single = [each for each in single if each.panels[0].is_polar] or single
+    return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
+
+
+def _shows_again(panel: Panel, main: Panel) -> bool:
+    def shown(of: Panel) -> set[tuple[object, ...]]:
+        curves = {(each.role, each.y.tobytes()) for each in of.curves}
+        return curves | {(each.role, each.lower.tobytes(), each.upper.tobytes()) for each in of.bands}
+
+    return not panel.bars and not panel.levels and shown(panel) <= shown(main)
+
+
+def _limits_fit(first: Evaluation, other: Evaluation) -> bool:
+    """Return whether the other evaluation has no limits of its own."""
+    limits = [(each.limit, each.decision) for each in other.parameters]
+    return all(limit is None for limit, _ in limits) or limits == [
+        (each.limit, each.decision) for each in first.parameters
+    ]
+
+
+def _numbers(evaluation: Evaluation, writer: Writer) -> list[object]:
+    """Return what is printed of an evaluation, but for its limits."""
+    without_limits = Values(writer, has_uncertainty=True, has_limits=False)
+    parameters = [
+        (each.quantity.notation, each.quantity.group, without_limits.cells(each))
+        for each in evaluation.parameters
+    ]
+    return [parameters, *results.by_position(evaluation, writer)]
+
+
+def _shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Notice]:
+    """Yield the notices of requirements that are not met; standards with the same ones share a notice."""
+    found: dict[tuple[str, ...], list[str]] = {}
+    for each in evaluations:
+        if items := results.unmet(each, writer):
+            found.setdefault(items, []).append(each.designation)
+    for items, names in found.items():
+        yield results.shortfall(", ".join(names), items, writer)
+
+
+def parameters(evaluation: Evaluation, writer: Writer) -> Table:
+    """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
+    values = Values.of([evaluation], writer, with_interval=True)
+    headings = values.columns()
+    groups = (
+        tuple(
+            (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.cells(each))
+            for each in evaluation.parameters
+            if each.quantity.group is group
+        )
+        for group in Group
+    )
+    caption = results.parameters_in_words(evaluation)
+    if evaluation.measurements.axis.measurand.is_position:
+        caption = _IN_THREE_GROUPS.given(parameters=caption)
+    rows = tuple(RowGroup(each) for each in groups if each)
+    told = told_apart(
+        caption,
+        (each.quantity for each in evaluation.parameters),
+        has_uncertainty=values.has_uncertainty,
+        writer=writer,
+    )
+    return Table(told, headings, rows, dense=True)

@@ -1,0 +1,282 @@
+"""Statements beside the results: what they hold for, what was set aside or amended, what is an opinion."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup, Section, Table
+from zlmreport.document.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
+from zlmreport.evaluation.uncertainty.reasons import is_reference
+from zlmreport.language import Words, same
+from zlmreport.measurement.error_symbol import error_named
+from zlmreport.measurement.units import with_unit
+
+if TYPE_CHECKING:
+    from zlmreport.job.document_keys import CertificateKeys, Person
+    from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.measurement.provenance import Exclusion
+
+_ONLY_THIS_ITEM = Words(
+    en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
+    de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der Messung.",
+)
+#: The statement of 7.8.4.1 c.
+TRACEABLE = Words(
+    en="The results are metrologically traceable through the calibration of the measuring instrument "
+    "(calibration certificate {certificate}).",
+    de="Die Ergebnisse sind über die Kalibrierung des Messgeräts (Kalibrierschein {certificate}) "
+    "metrologisch rückführbar.",
+)
+_ONLY_IN_FULL = Words(
+    en="This certificate may be reproduced only in full, unless the laboratory agrees in writing.",
+    de="Dieser Kalibrierschein darf nur vollständig vervielfältigt werden; Auszüge bedürfen der "
+    "schriftlichen Zustimmung des Laboratoriums.",
+)
+_SIMPLIFIED = Words(
+    en="By agreement with the customer{reference} the results are reported in a simplified way: the single "
+    "readings are not printed. The laboratory keeps them available.",
+    de="Nach Vereinbarung mit dem Auftraggeber{reference} sind die Ergebnisse vereinfacht dargestellt: Die "
+    "einzelnen Messwerte sind nicht abgedruckt. Das Laboratorium hält sie verfügbar.",
+)
+_SUPPLIED = Words(
+    en="{mark} Provided by the customer. The laboratory is not responsible for these data, which can affect "
+    "the validity of the results.",
+    de="{mark} Angaben des Auftraggebers. Das Laboratorium ist für sie nicht verantwortlich; sie können die "
+    "Gültigkeit der Ergebnisse beeinflussen.",
+)
+_DEVIATIONS = Words(
+    en="Additions to, deviations and exclusions from the method",
+    de="Ergänzungen, Abweichungen und Ausschlüsse gegenüber dem Verfahren",
+)
+_EXTERNAL = Words(en="{mark} Results from external providers", de="{mark} Ergebnisse von externen Anbietern")
+_FROM = Words(en="{results}: {provider}", de="{results}: {provider}")
+_FROM_REPORT = Words(en="{results}: {provider}, {reference}", de="{results}: {provider}, {reference}")
+_ONE = Words(
+    en="{count} reading was set aside and did not enter the results",
+    de="{count} Messwert wurde beiseite gelegt und ging nicht in die Ergebnisse ein",
+)
+_SEVERAL = Words(
+    en="{count} readings were set aside and did not enter the results",
+    de="{count} Messwerte wurden beiseite gelegt und gingen nicht in die Ergebnisse ein",
+)
+_READING = Words(
+    en="target {target} {arrow}, run {run}, read {deviation}: {reason}",
+    de="Sollposition {target} {arrow}, Durchlauf {run}, gelesen {deviation}: {reason}",
+)
+_EXCLUSION_STATED = Words(
+    en="Set aside{mark}: target {target} {arrow}, run {run}: {reason}",
+    de="Beiseite gelegt{mark}: Sollposition {target} {arrow}, Durchlauf {run}: {reason}",
+)
+_STATED_AS_FOUND = Words(
+    en="Set aside as found{mark}: target {target} {arrow}, run {run}: {reason}",
+    de="Beiseite gelegt, vorgefundener Zustand{mark}: Sollposition {target} {arrow}, "
+    "Durchlauf {run}: {reason}",
+)
+_KEY = "measurement.excluded"
+_ARROWS = {"+": "↑", "-": "↓"}
+#: Readings that the first page names one by one.
+_MOST_NAMED = 6
+_MORE = Words(
+    en="Set aside besides: {count} more, see the section on the readings",
+    de="Außerdem beiseite gelegt: {count} weitere, siehe den Abschnitt über die Messwerte",
+)
+TITLES = {
+    "certificate": Words(en="Calibration Certificate", de="Kalibrierschein"),
+    "report": Words(en="Measuring Report", de="Messbericht"),
+}
+_AMENDMENT = {
+    "certificate": Words(
+        en="Amendment to Calibration Certificate {number}", de="Änderung zum Kalibrierschein {number}"
+    ),
+    "report": Words(en="Amendment to Measuring Report {number}", de="Änderung zum Messbericht {number}"),
+}
+_AMENDMENT_OF_OWN_TITLE = Words(en="Amendment to {title} {number}", de="Änderung zu {title} {number}")
+_RUNNING_AMENDMENT = Words(en="Amendment {number}", de="Änderung {number}")
+
+_AMENDS = Words(
+    en="This document amends {number}, which remains valid in all that is not changed here",
+    de="Dieses Dokument ändert {number}; was hier nicht geändert ist, gilt dort unverändert",
+)
+_REPLACES = Words(
+    en="This document replaces {number}, which is no longer valid",
+    de="Dieses Dokument ersetzt {number}; jenes ist nicht mehr gültig",
+)
+_REASON = Words(en="Reason: {reason}", de="Grund: {reason}")
+_CHANGE = Words(en="Changed: {change}", de="Geändert: {change}")
+#: Above every opinion of a document.
+OPINION = Words(
+    en="Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the calibration",
+    de="Meinung und Interpretation (ISO/IEC 17025:2017, 7.8.7), kein Ergebnis der Kalibrierung",
+)
+_OPINIONS = Words(en="Opinions and interpretations", de="Meinungen und Interpretationen")
+_RESTS = Words(
+    en="Each is stated by an authorised person and rests on what is named as its basis.",
+    de="Jede stammt von einer dazu befugten Person und beruht auf dem, was als Grundlage genannt ist.",
+)
+
+
+def notices(keys: JobKeys, writer: Writer) -> Iterator[Notice]:
+    """Yield what nobody may overlook: how the work departed from the method, and what others did."""
+    deviations = keys.measurement.deviations_from_method
+    items = (*([deviations] if deviations else []), *exclusions_stated(keys, writer))
+    if items:
+        yield Notice(writer.say(_DEVIATIONS), items)
+    if keys.external:
+        yield Notice(
+            writer.say(_EXTERNAL.given(mark=EXTERNAL)),
+            tuple(
+                writer.say(
+                    (_FROM_REPORT if each.reference else _FROM).given(
+                        results=each.results, provider=each.provider, reference=each.reference or ""
+                    )
+                )
+                for each in keys.external
+            ),
+        )
+
+
+def paragraphs(keys: JobKeys, writer: Writer) -> Iterator[Block]:
+    """Yield the statements in running text."""
+    if keys.provided_by_customer:
+        yield Paragraph(writer.say(_SUPPLIED.given(mark=BY_CUSTOMER)))
+    if keys.agreement.simplified:
+        reference = keys.agreement.reference
+        yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
+    if keys.instrument and keys.instrument.certificate and is_reference(keys.instrument.certificate):
+        yield Paragraph(writer.say(TRACEABLE.given(certificate=keys.instrument.certificate)))
+    yield Paragraph(writer.say(_ONLY_THIS_ITEM))
+    if keys.certificate.kind == "certificate":
+        yield Paragraph(writer.say(_ONLY_IN_FULL))
+
+
+def in_a_paragraph(blocks: Iterable[Block]) -> Iterator[Block]:
+    """Yield what is said in sentences as one paragraph, below what is not."""
+    said = list(blocks)
+    yield from (each for each in said if not isinstance(each, Paragraph))
+    yield Paragraph(" ".join(each.text for each in said if isinstance(each, Paragraph)))
+
+
+def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _KEY) -> Iterator[Notice]:
+    """Yield the notice that names every reading that was set aside, with its value and the reason.
+
+    `key`: The job key that names them: marked if that was the customer's decision.
+    """
+    exclusions = measurements.provenance.exclusions
+    if exclusions:
+        heading = (_ONE if len(exclusions) == 1 else _SEVERAL).given(count=len(exclusions))
+        marked = writer.say(heading) + writer.marks.after(key)
+        yield Notice(marked, tuple(_item(each, writer) for each in exclusions))
+
+
+def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
+    """Return what the first page says of readings that were set aside: they depart from the method."""
+    found = [(_EXCLUSION_STATED, _KEY, each) for each in keys.measurement.excluded]
+    if keys.as_found:
+        found += [(_STATED_AS_FOUND, f"as_found.{_KEY}", each) for each in keys.as_found.measurement.excluded]
+    items = [
+        writer.say(
+            words.given(
+                mark=writer.marks.after(key),
+                target=with_unit(writer.number(each.target), writer.position_unit.symbol),
+                arrow=_ARROWS[each.direction],
+                run=each.run,
+                reason=each.reason,
+            )
+        )
+        for words, key, each in found[:_MOST_NAMED]
+    ]
+    if len(found) > _MOST_NAMED:
+        items.append(writer.say(_MORE.given(count=len(found) - _MOST_NAMED)))
+    return tuple(items)
+
+
+def _item(exclusion: Exclusion, writer: Writer) -> str:
+    return writer.say(
+        _READING.given(
+            target=with_unit(writer.position(exclusion.target_position), writer.position_unit.symbol),
+            arrow=exclusion.approach.arrow,
+            run=exclusion.run,
+            deviation=with_unit(writer.deviation(exclusion.deviation), writer.deviation_unit.symbol),
+            reason=exclusion.reason,
+        )
+    )
+
+
+def document_title(keys: CertificateKeys) -> Words:
+    """Return the document's title: an amendment's names what it amends."""
+    usual = TITLES[keys.kind]
+    amends = keys.amends
+    if amends is None or amends.kind == "replacement":
+        return usual if keys.title is None else Words("{title}", "{title}").given(title=keys.title)
+    if keys.title is None:
+        return _AMENDMENT[keys.kind].given(number=amends.number)
+    return _AMENDMENT_OF_OWN_TITLE.given(title=keys.title, number=amends.number)
+
+
+_BY_VDI = Words("{symbol} (VDI/VDE 2617-3: {vdi})", "{symbol} (VDI/VDE 2617-3: {vdi})")
+
+
+def subject_of(job: Job) -> Words:
+    """Return what the document is about: ``Straightness error EYX of axis X``, in both notations if asked."""
+    axis = job.axis
+    if not axis.error or job.keys.measurement.symbols == "iso230-1":
+        return axis.subject
+    both = _BY_VDI.given(symbol=axis.error, vdi=error_named(axis.error).vdi)
+    return axis.measurand.named(axis.name, both)
+
+
+def running_title(keys: CertificateKeys) -> Words:
+    """Return what stands on every page: what the document is, with its number."""
+    if keys.amends and keys.amends.kind == "amendment":
+        return _RUNNING_AMENDMENT.given(number=keys.number)
+    return Words("{title} {number}", "{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
+
+
+def amendment_notice(keys: CertificateKeys, writer: Writer) -> Iterator[Notice]:
+    """Yield what is said of the earlier document: which it is, what is changed, and why."""
+    amends = keys.amends
+    if amends is None:
+        return
+    heading = _AMENDS if amends.kind == "amendment" else _REPLACES
+    yield Notice(
+        writer.say(heading.given(number=amends.number)),
+        (
+            writer.say(_REASON.given(reason=amends.reason)),
+            *(writer.say(_CHANGE.given(change=change)) for change in amends.changes),
+        ),
+    )
+
+
+def opinion_sections(keys: JobKeys, writer: Writer) -> Iterator[Section]:
+    """Yield the opinion_sections of a job's opinions, if it states any."""
+    if keys.opinions:
+        apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
+        yield Section("opinions", writer.say(_OPINIONS), (apart, _opinion_table(keys, writer)))
+
+
+def _opinion_table(keys: JobKeys, writer: Writer) -> Table:
+    columns = tuple(
+        Column(writer.say(heading))
+        for heading in (
+            Words(en="Opinion", de="Meinung"),
+            Words(en="Basis", de="Grundlage"),
+            Words(en="Stated by", de="Geäußert von"),
+        )
+    )
+    rows = tuple(
+        (
+            opinion.statement,
+            opinion.basis,
+            in_a_line(person) if (person := opinion.by or keys.certificate.authorised_by) else NOTHING,
+        )
+        for opinion in keys.opinions
+    )
+    return Table(writer.say(_OPINIONS), columns, (RowGroup(rows),))
+
+
+def in_a_line(person: Person) -> str:
+    """Return a person's name and function."""
+    return ", ".join(filter(None, (person.name, person.function)))

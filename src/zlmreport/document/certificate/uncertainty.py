@@ -1,0 +1,271 @@
+"""The uncertainty of measurement: what U means, the budget as a table and as bars, and what it leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    Explained,
+    Graph,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.document.figures.bars import budget_bars
+from zlmreport.evaluation.uncertainty import wording
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, KnownError, NoBudget
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
+from zlmreport.language import Words
+from zlmreport.language.formatting import percentage, rounded_pair
+from zlmreport.measurement.units import MICROMETRE
+
+if TYPE_CHECKING:
+    from zlmreport.document.writer import Writer
+    from zlmreport.measurement.axis import Axis
+    from zlmreport.measurement.measurand import Measurand
+
+_TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
+_COVERAGE = Words(
+    en="U = k·u is the expanded uncertainty of this test: y ± U holds, with a probability of about 95 %, the "
+    "value that a faultless measuring set-up would have found in it.",
+    de="U = k·u ist die erweiterte Messunsicherheit dieser Messung: y ± U enthält mit einer "
+    "Wahrscheinlichkeit von etwa 95 % den Wert, den eine fehlerfreie Messeinrichtung darin gefunden hätte.",
+)
+_INTERVAL = Words(
+    en="{coverage} The interval of the axis holds, with the same probability, what another test of this "
+    "axis by the same plan would find.",
+    de="{coverage} Das Intervall der Achse enthält mit derselben Wahrscheinlichkeit, was eine weitere "
+    "Messung nach demselben Plan fände.",
+)
+_INCOMPLETE = Words(
+    en="U incomplete: {missing} not considered",
+    de="U unvollständig: {missing} nicht berücksichtigt",
+)
+_INCOMPLETE_MEANS = Words(
+    en="Nothing is stated of these contributors to the uncertainty. y ± U holds the errors of the others "
+    "only; no probability is stated for it, and no rule that uses U decides anything.",
+    de="Zu diesen Beiträgen zur Messunsicherheit ist nichts angegeben. y ± U enthält nur die Fehler der "
+    "übrigen; eine Wahrscheinlichkeit ist dafür nicht angegeben, und keine Regel, die U benutzt, "
+    "entscheidet.",
+)
+_NOT_AT_REFERENCE = Words(
+    en="The temperature or the expansion of the measured length is not known: the results hold at the "
+    "temperature of the test, and not at 20 °C",
+    de="Temperatur oder Ausdehnung der gemessenen Länge sind nicht bekannt: die Ergebnisse gelten bei der "
+    "Temperatur der Messung, nicht bei 20 °C",
+)
+_EXPANDED = Words(
+    en="The measured length was {expansion} µm {longer} than at 20 °C; the readings are not corrected for "
+    "it.",
+    de="Die gemessene Länge war um {expansion} µm {longer} als bei 20 °C; die Messwerte sind dafür nicht "
+    "korrigiert.",
+)
+_LONGER, _SHORTER = Words(en="longer", de="länger"), Words(en="shorter", de="kürzer")
+_KNOWN_ERRORS = Words(
+    en="Known errors that are in the readings ({names}) are added to U whole: U = k·u + |b|, where b is what "
+    "the parameter would change by if they were taken out of every reading (JCGM 100:2008, F.2.4.5).",
+    de="Bekannte Fehler, die in den Messwerten stehen ({names}), sind in U ganz enthalten: U = k·u + |b|, wo "
+    "b die Änderung der Kenngröße ist, wenn man sie aus jedem Messwert herausnähme (JCGM 100:2008, F.2.4.5).",
+)
+_NEGLIGIBLE = Words(
+    en="Declared negligible by the laboratory",
+    de="Vom Laboratorium als vernachlässigbar erklärt",
+)
+_REASON = Words(en="{contributor}: {reason}", de="{contributor}: {reason}")
+_METHOD = Words(
+    en="The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
+    "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
+    "formulas of each standard. Errors that readings share stay shared. y ± U holds 95.45 % of the simulated "
+    "values.",
+    de="Die folgende Bilanz wurde mit der Monte-Carlo-Methode (JCGM 101:2008) auf jede Kenngröße übertragen: "
+    "{trials} simulierte Messungen, die Messwerte mit Fehlern nach der Bilanz, wurden nach den Formeln jeder "
+    "Norm ausgewertet. Fehler, die Messwerten gemeinsam sind, bleiben gemeinsam. y ± U enthält 95,45 % der "
+    "simulierten Werte.",
+)
+_METHOD_BY_POSITION = Words(
+    en="{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
+    "with k = 2.",
+    de="{method} U der mittleren Abweichungen an den Sollpositionen folgt aus dem Fortpflanzungsgesetz (JCGM "
+    "100:2008), mit k = 2.",
+)
+_SCATTER = Words(
+    en="The scatter of the axis itself is a property of the axis, which the parameters state, and no "
+    "uncertainty of the measurement.",
+    de="Die Streuung der Achse selbst ist eine Eigenschaft der Achse, die die Kenngrößen angeben, und keine "
+    "Unsicherheit der Messung.",
+)
+_SCATTER_OF_THE_MACHINE = Words(
+    en="What the machine does otherwise from time to time is a property of the machine, and no uncertainty "
+    "of the measurement.",
+    de="Was die Maschine von Mal zu Mal anders macht, ist eine Eigenschaft der Maschine und keine "
+    "Unsicherheit der Messung.",
+)
+_CAPTION = Words(
+    en="Uncertainty budget, grouped by the readings that share an error. u is the root mean square of the "
+    "error of a reading{at_the_end}; the share is that of u² in the combined u².",
+    de="Messunsicherheitsbilanz, nach den Messwerten geordnet, denen ein Fehler gemeinsam ist. u ist der "
+    "quadratische Mittelwert des Fehlers eines Messwerts{at_the_end}; der Anteil ist der von u² an der "
+    "kombinierten u².",
+)
+_COMBINED = Words(en="all contributions together", de="alle Beiträge zusammen")
+_KNOWN = Words(
+    en="known errors, not corrected: in no u, and in every U whole",
+    de="bekannte Fehler, nicht korrigiert: in keinem u, in jedem U ganz",
+)
+_OF_KNOWN_SIZE = Words(en="known", de="bekannt")
+_AT_THE_END = Words(
+    en=" at the end of the measured length, where every contribution has its full effect",
+    de=" am Ende der Messlänge, wo jeder Beitrag voll wirkt",
+)
+_COMBINED_OF = Words(
+    en="A single reading at the end of the measured length",
+    de="Ein einzelner Messwert am Ende der Messlänge",
+)
+_SINGLE = Words(en="A single reading", de="Ein einzelner Messwert")
+_NO_BUDGET = Words(
+    en="The uncertainty of the parameters is not evaluated: {reason}.",
+    de="Die Messunsicherheit der Kenngrößen ist nicht ermittelt: {reason}.",
+)
+
+
+def statement(budget: Budget | NoBudget, measurands: Iterable[Measurand], writer: Writer) -> Iterator[Block]:
+    """Yield what U means, what it leaves out, or why there is none: for the first page.
+
+    `measurands`: What was measured; targets at which an axis stops have an interval of that axis.
+    """
+    if isinstance(budget, NoBudget):
+        yield Paragraph(writer.say(_NO_BUDGET.given(reason=budget.reason)))
+    elif budget.is_complete:
+        stops = not all(each.is_continuous for each in measurands)
+        yield Paragraph(writer.say(_INTERVAL.given(coverage=_COVERAGE) if stops else _COVERAGE))
+    else:
+        missing = "; ".join(writer.say(wording.contributor(name)) for name in budget.missing)
+        yield Notice(writer.say(_INCOMPLETE.given(missing=missing)), (writer.say(_INCOMPLETE_MEANS),))
+    if budget.uncorrected_expansion is None:
+        yield Notice(writer.say(_NOT_AT_REFERENCE), ())
+    elif budget.uncorrected_expansion:
+        longer = MICROMETRE.from_si(budget.uncorrected_expansion)
+        expansion = writer.number(float(f"{abs(longer):.3g}"))
+        words = _EXPANDED.given(expansion=expansion, longer=_LONGER if longer > 0 else _SHORTER)
+        yield Paragraph(writer.say(words))
+    if isinstance(budget, Budget) and budget.known_errors:
+        names = ", ".join(writer.say(each.name) for each in budget.known_errors)
+        yield Paragraph(writer.say(_KNOWN_ERRORS.given(names=names)))
+
+
+def neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragraph]:
+    """Yield in a line what was declared negligible, with the reasons; those that share one stand together."""
+    by_reason: dict[str, list[str]] = {}
+    for name, reason in budget.negligible:
+        by_reason.setdefault(reason, []).append(writer.say(wording.contributor(name)))
+    if by_reason:
+        said = "; ".join(f"{', '.join(names)} ({reason})" for reason, names in by_reason.items())
+        yield Paragraph(f"{writer.say(_NEGLIGIBLE)}: {said}.")
+
+
+def section(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Section:
+    """Return the section on the uncertainty of everything that the document states."""
+    return Section("uncertainty", writer.say(_TITLE), tuple(_blocks(budget, axis, writer)))
+
+
+def _blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
+    yield from statement(budget, (axis.measurand,), writer)
+    if isinstance(budget, NoBudget):
+        return
+    method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
+    yield Paragraph(writer.say(_METHOD_BY_POSITION.given(method=method) if stops else method))
+    yield Paragraph(writer.say(_SCATTER if stops else _SCATTER_OF_THE_MACHINE))
+    if not budget.tests:  # each line of several has a budget of its own
+        yield from own_blocks(budget, axis, writer)
+    yield from _declared(budget, writer)
+
+
+def own_blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
+    """Yield the contributions of a budget, as a table and as bars."""
+    if isinstance(budget, Budget):
+        yield _table(budget, writer)
+        yield Graph(budget_bars(budget, axis))
+
+
+def _declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
+    if budget.negligible:
+        reasons = (
+            _REASON.given(contributor=wording.contributor(name), reason=reason)
+            for name, reason in budget.negligible
+        )
+        yield Notice(writer.say(_NEGLIGIBLE), tuple(map(writer.say, reasons)))
+
+
+def _table(budget: Budget, writer: Writer) -> Table:
+    columns = (
+        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Contribution and its source", de="Beitrag und seine Quelle"))),
+        Column(
+            writer.say(Words(en="Stated", de="Angabe"))
+            + writer.marks.after("instrument", "environment", "uncertainty")
+        ),
+        Column(writer.say(Words(en="Distribution", de="Verteilung"))),
+        Column(Symbol("u"), writer.deviation_unit.symbol, Align.RIGHT),
+        Column(writer.say(Words(en="Share", de="Anteil")), "%", Align.RIGHT),
+    )
+    groups = [
+        RowGroup(rows, writer.say(wording.ACTS[acts]))
+        for acts in Acts
+        if (rows := tuple(_rows(budget, acts, writer)))
+    ]
+    total = (
+        Symbol("u"),
+        writer.say(_COMBINED_OF if budget.acting(Acts.ALONG_THE_LENGTH) else _SINGLE),
+        "",
+        "",
+        _size(budget.standard_uncertainty, writer),
+        percentage(1.0, writer.language.decimal_sign, 1),
+    )
+    groups.append(RowGroup((total,), writer.say(_COMBINED)))
+    if budget.known_errors:
+        rows = tuple(_known(number, each, writer) for number, each in enumerate(budget.known_errors, 1))
+        groups.append(RowGroup(rows, writer.say(_KNOWN)))
+    at_the_end = _AT_THE_END if budget.acting(Acts.ALONG_THE_LENGTH) else ""
+    return Table(writer.say(_CAPTION.given(at_the_end=at_the_end)), columns, tuple(groups))
+
+
+def _known(number: int, error: KnownError, writer: Writer) -> tuple[Cell, ...]:
+    return (
+        Symbol(f"b_{{{number}}}"),
+        Explained(writer.say(error.name), writer.say(error.source)),
+        writer.say(error.stated),
+        writer.say(_OF_KNOWN_SIZE),
+        "",
+        "",
+    )
+
+
+def _rows(budget: Budget, acts: Acts, writer: Writer) -> Iterator[tuple[Cell, ...]]:
+    for number, each in enumerate(budget.contributions, 1):
+        if each.acts is acts:
+            yield _row(number, each, budget.share(each), writer)
+
+
+def _row(number: int, contribution: Contribution, share: float, writer: Writer) -> tuple[Cell, ...]:
+    return (
+        Symbol(f"u_{{{number}}}"),
+        Explained(writer.say(contribution.name), writer.say(contribution.source)),
+        writer.say(contribution.stated),
+        writer.say(wording.DISTRIBUTIONS[contribution.distribution]),
+        _size(contribution.standard_uncertainty, writer),
+        percentage(share, writer.language.decimal_sign, 1),
+    )
+
+
+def _size(value: float, writer: Writer) -> str:
+    """Write a standard uncertainty to two significant digits."""
+    printed = writer.deviation_unit.from_si(value)
+    return rounded_pair(printed, printed, writer.language.decimal_sign)[1] if value else "0"

@@ -1,0 +1,138 @@
+"""Values of parameters in a table: with their uncertainties, their limits, and what is stated of these."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Align, Cell, Column, Symbol
+from zlmreport.document.certificate import conformity
+from zlmreport.document.writer import NOTHING, Writer, with_uncertainty, written
+from zlmreport.language import Words
+from zlmreport.language.formatting import fixed_number, plain
+from zlmreport.measurement.units import with_unit
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
+
+_SYMBOL = Words(en="Symbol", de="Zeichen")
+_PARAMETER = Words(en="Parameter", de="Kenngröße")
+_VALUE = Words(en="Value", de="Wert")
+_AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")
+_LIMIT = Words(en="Limit", de="Grenzwert")
+_CONFORMITY = Words(en="Conformity", de="Konformität")
+_DECIMALS_OF_K = 2
+_TOLD_APART = Words(
+    en="{caption}. U is the expanded uncertainty of measurement; {others}",
+    de="{caption}. U ist die erweiterte Messunsicherheit; {others}",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Values:
+    """The columns of a table that say how large parameters are."""
+
+    writer: Writer  #: Writes them.
+    #: has_uncertainty, has_limits and has_interval: Whether any parameter in the table has an uncertainty, a
+    #: limit, or an interval of the axis that is to be shown: without one there is no column.
+    has_uncertainty: bool
+    has_limits: bool
+    has_interval: bool = False
+    is_mixed: bool = False  #: Whether they have different units: each value then has its own beside it.
+
+    @classmethod
+    def of(cls, evaluations: Iterable[Evaluation], writer: Writer, *, with_interval: bool = False) -> Values:
+        """Return the columns for the parameters of evaluations, with the interval of the axis if wanted."""
+        parameters = [parameter for each in evaluations for parameter in each.parameters]
+        return cls(
+            writer,
+            any(parameter.expanded_uncertainty is not None for parameter in parameters),
+            any(parameter.limit is not None for parameter in parameters),
+            with_interval and any(parameter.axis_interval is not None for parameter in parameters),
+            is_mixed(parameters, writer),
+        )
+
+    def columns(self, parameter: Words = _PARAMETER) -> tuple[Column, ...]:
+        """Return the headings of a row's symbol, of its parameter, and of what `cells` are."""
+        return tuple(self._columns(parameter))
+
+    def cells(self, parameter: Parameter) -> tuple[Cell, ...]:
+        """Return how large a parameter is, cell by cell."""
+        return tuple(self._cells(parameter))
+
+    def _columns(self, parameter: Words) -> Iterator[Column]:
+        say, unit = self.writer.say, "" if self.is_mixed else self.writer.deviation_unit.symbol
+        yield Column(say(_SYMBOL))
+        yield Column(say(parameter))
+        yield Column(say(_VALUE), unit, Align.RIGHT)
+        if self.has_uncertainty:
+            yield Column(Symbol("U"), unit, Align.RIGHT)
+            yield Column(Symbol("k"), align=Align.RIGHT)
+        if self.has_interval:
+            yield Column(say(_AXIS), unit, Align.RIGHT)
+        if self.has_limits:
+            yield Column(say(_LIMIT) + self.writer.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
+            yield Column(say(_CONFORMITY))
+
+    def _cells(self, parameter: Parameter) -> Iterator[Cell]:
+        value, uncertainty = written(parameter, self.writer)
+        yield self._with_unit(value, parameter)
+        if self.has_uncertainty:
+            yield self._with_unit(uncertainty, parameter)
+            yield coverage_factor(parameter, self.writer)
+        if self.has_interval:
+            yield self._with_unit(interval(parameter, self.writer), parameter)
+        if self.has_limits:
+            yield self._with_unit(limit(parameter, self.writer), parameter)
+            yield conformity.verdict(parameter, self.writer)
+
+    def _with_unit(self, number: str, parameter: Parameter) -> str:
+        """Write the unit beside a number, where the column has none."""
+        if not self.is_mixed or number == NOTHING:
+            return number
+        return with_unit(number, parameter.quantity.unit_or(self.writer.deviation_unit).symbol)
+
+
+def is_mixed(parameters: Iterable[Parameter], writer: Writer) -> bool:
+    """Return whether parameters have units other than that of what was measured."""
+    return any(each.quantity.unit_or(writer.deviation_unit) != writer.deviation_unit for each in parameters)
+
+
+def told_apart(
+    caption: Words,
+    quantities: Iterable[Quantity | PositionQuantity],
+    *,
+    has_uncertainty: bool,
+    writer: Writer,
+) -> str:
+    """Write a table's caption; where U heads a column, it tells U from the quantities that begin with U."""
+    others = [
+        f"{plain(each.notation)}: {writer.say(each.name)}" for each in quantities if each.notation[:1] == "U"
+    ]
+    if not (has_uncertainty and others):
+        return writer.say(caption)
+    return writer.say(_TOLD_APART.given(caption=caption, others=", ".join(dict.fromkeys(others))))
+
+
+def coverage_factor(parameter: Parameter, writer: Writer) -> str:
+    """Write k; nothing where there is no uncertainty to cover."""
+    if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
+        return NOTHING
+    return fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
+
+
+def interval(parameter: Parameter, writer: Writer) -> str:
+    """Write where another test of the same plan would find a parameter, with the sign that is printed."""
+    if parameter.axis_interval is None:
+        return NOTHING
+    writer = writer.of_quantity(parameter.quantity)
+    ends = sorted(parameter.quantity.printed_sign * end for end in parameter.axis_interval)
+    return " … ".join(with_uncertainty(end, (ends[1] - ends[0]) / 2, writer)[0] for end in ends)
+
+
+def limit(parameter: Parameter, writer: Writer) -> str:
+    """Write a parameter's limit as the job states it, with no digits added."""
+    if parameter.limit is None:
+        return NOTHING
+    return writer.number(writer.of_quantity(parameter.quantity).deviation_unit.from_si(parameter.limit))

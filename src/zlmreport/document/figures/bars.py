@@ -1,0 +1,131 @@
+"""The graph of conformity: every value that has a limit, with its uncertainty, in percent of its limit."""
+
+from __future__ import annotations
+
+from zlmreport.document.figures.figure import Bar, Figure, Level, Panel, Role
+from zlmreport.document.figures.prescribed import alternative_text
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.uncertainty.budget import Budget
+from zlmreport.language import Language, Words, same
+from zlmreport.language.formatting import plain, rounded_pair
+from zlmreport.language.numbers import number_words
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import behind
+
+_UNCERTAIN_TITLE = Words(
+    en="{bearer}: amounts in percent of their limits TL with their uncertainty ± U",
+    de="{bearer}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U",
+)
+_GUARDED_TITLE = Words(
+    en="{bearer}: amounts in percent of their limits TL with their uncertainty ± U; a line across a bar "
+    "is the acceptance limit",
+    de="{bearer}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U; ein Strich über "
+    "einem Balken ist die Annahmegrenze",
+)
+_BARE_TITLE = Words(
+    en="{bearer}: amounts in percent of their limits TL",
+    de="{bearer}: Beträge in Prozent ihrer Grenzwerte TL",
+)
+_GRAPH = Words(
+    en="{bearer}: bar chart of the parameters that have a limit.",
+    de="{bearer}: Balkendiagramm der Kenngrößen, die einen Grenzwert haben.",
+)
+#: One by itself compares nothing.
+_FEWEST_BARS = 2
+_X_TITLE = Words(en="Parameters with a limit", de="Kenngrößen mit Grenzwert")
+_Y_TITLE = Words(en="Share of limit", de="Anteil am Grenzwert")
+_BAR = Words(en="{symbol}: {percent} % of its limit", de="{symbol}: {percent} % des Grenzwerts")
+_UNCERTAIN = Words(en="{bar} ± {uncertainty} %", de="{bar} ± {uncertainty} %")
+_ACCEPTED = Words(en="{bar}, accepted up to {accepted} %", de="{bar}, angenommen bis {accepted} %")
+_SENTENCE = Words(en="{bar}.", de="{bar}.")
+
+
+def conformity_graph(evaluation: Evaluation) -> Figure | None:
+    """Return the graph; None of a single bar, which the table says better."""
+    limited = [each for each in evaluation.parameters if each.limit]
+    if len(limited) < _FEWEST_BARS:
+        return None
+    bars = tuple(map(_bar, limited))
+    graph = _GRAPH.given(bearer=evaluation.measurements.axis.heading)
+    sentences = [graph, *(_sentence(each, bar) for each, bar in zip(limited, bars, strict=True))]
+    title = _UNCERTAIN_TITLE if any(bar.uncertainty for bar in bars) else _BARE_TITLE
+    if any(bar.accepted is not None for bar in bars):
+        title = _GUARDED_TITLE
+    return Figure(
+        key="conformity",
+        title=title.given(bearer=evaluation.measurements.axis.heading),
+        alternative=alternative_text(*sentences),
+        x_title=_X_TITLE,
+        y_title=_Y_TITLE,
+        x_unit="",
+        y_unit="%",
+        panels=(Panel(bars=bars, levels=(Level("TL", Role.TOLERANCE, 100.0),)),),
+    )
+
+
+def _bar(parameter: Parameter) -> Bar:
+    limit = parameter.limit or 1.0
+    decision = parameter.decision
+    accepted = None if decision is None else decision.acceptance_limit
+    percent = 100.0 * abs(parameter.value) / limit
+    return Bar(
+        label=same(parameter.quantity.notation),
+        y=percent,
+        value=number_words(percent, 1),
+        uncertainty=100.0 * (parameter.expanded_uncertainty or 0.0) / limit,
+        accepted=None if accepted in (None, limit) else max(0.0, 100.0 * accepted / limit),
+        is_symbol=True,
+    )
+
+
+def _sentence(parameter: Parameter, bar: Bar) -> Words:
+    words = _BAR.given(symbol=plain(parameter.quantity.notation), percent=bar.value)
+    if bar.uncertainty:
+        words = _UNCERTAIN.given(bar=words, uncertainty=number_words(bar.uncertainty, 1))
+    if bar.accepted is not None:
+        words = _ACCEPTED.given(bar=words, accepted=number_words(bar.accepted, 1))
+    return _SENTENCE.given(bar=words)
+
+
+_BUDGET_TITLE = Words(
+    en="Standard uncertainties of the contributions at full effect",
+    de="Standardunsicherheiten der Beiträge bei voller Wirkung",
+)
+_CONTRIBUTIONS = Words(en="Contributions", de="Beiträge")
+_STANDARD_UNCERTAINTY = Words(en="Standard uncertainty", de="Standardunsicherheit")
+_CONTRIBUTION = Words(en="{symbol}, {name}: {value}{unit}.", de="{symbol}, {name}: {value}{unit}.")
+
+
+def budget_bars(budget: Budget, axis: Axis) -> Figure:
+    """Return the graph of the standard uncertainties of a budget, in the order of its table."""
+    unit = axis.deviation_unit
+    bars = []
+    sentences = []
+    for number, each in enumerate(budget.contributions, 1):
+        size = unit.from_si(each.standard_uncertainty)
+        bar = Bar(same(f"u_{{{number}}}"), size, _written(size), is_symbol=True)
+        bars.append(bar)
+        sentences.append(
+            _CONTRIBUTION.given(
+                symbol=f"u{number}", name=each.name, value=bar.value, unit=behind(unit.symbol)
+            )
+        )
+    return Figure(
+        key="budget",
+        title=_BUDGET_TITLE,
+        alternative=alternative_text(*sentences),
+        x_title=_CONTRIBUTIONS,
+        y_title=_STANDARD_UNCERTAINTY,
+        x_unit="",
+        y_unit=unit.symbol,
+        panels=(Panel(bars=tuple(bars)),),
+    )
+
+
+def _written(value: float) -> Words:
+    """Write an uncertainty to two significant digits in each language."""
+    english, german = (
+        rounded_pair(value, value, language.decimal_sign)[1] if value else "0"
+        for language in (Language.ENGLISH, Language.GERMAN)
+    )
+    return Words(english, german)

@@ -1,0 +1,211 @@
+"""A graph as data: what is drawn, in words of metrology and without a line width or a colour.
+
+A standard says which curves, bands, arrows and brackets its prescribed graph has, the error model which
+points, curves and bars; `zlmreport.document.figures.draw` gives all of them one look. Coordinates are in
+the units that the axes print (mm and µm, ° and ″).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Literal
+
+from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray
+
+
+class Role(Enum):
+    """What a mark stands for; the drawing style follows from it, in colour and in black and white."""
+
+    MEAN_POSITIVE = "mean, positive approach"
+    MEAN_NEGATIVE = "mean, negative approach"
+    MEAN_BIDIRECTIONAL = "mean of both approaches"
+    LIMIT_POSITIVE = "spread limit, positive approach"
+    LIMIT_NEGATIVE = "spread limit, negative approach"
+    SPREAD = "spread of both approaches"
+    REVERSAL = "half reversal value about the mean"
+    BAND_LIMIT = "limit of the overall band"
+    TOLERANCE = "tolerance"
+    MODEL_POSITIVE = "model, positive approach"
+    MODEL_NEGATIVE = "model, negative approach"
+    UNCERTAINTY_POSITIVE = "expanded uncertainty of the model, positive approach"
+    UNCERTAINTY_NEGATIVE = "expanded uncertainty of the model, negative approach"
+    NOISE = "scatter of single readings"
+    PATH = "motion of the axis"
+
+
+@dataclass(frozen=True, slots=True)
+class Curve:
+    """A line through one value at each target.
+
+    Attributes
+    ----------
+    notation
+        The symbol in the legend (`zlmreport.language.formatting`).
+    role
+        What it stands for.
+    x, y : (m,) arrays
+        Target positions and values; NaN leaves a gap.
+    """
+
+    notation: str
+    role: Role
+    x: FloatArray
+    y: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Band:
+    """The area between two limits; `lower` and `upper` have shape (m,), NaN leaves a gap."""
+
+    notation: str
+    role: Role
+    x: FloatArray
+    lower: FloatArray
+    upper: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Readings:
+    """All single readings of one approach, behind the curves: `x` and `y` of shape (N,)."""
+
+    approach: Approach
+    x: FloatArray
+    y: FloatArray
+
+
+@dataclass(frozen=True, slots=True)
+class Arrow:
+    """A double-headed arrow at one target position, between two values, with its symbol.
+
+    ``B_i`` at the worst target, ``U_j/2`` about a mean. Equal ends make no arrow but a mark.
+    """
+
+    notation: str
+    x: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Bracket:
+    """An overall parameter as a dimension line beside the diagram.
+
+    Attributes
+    ----------
+    notation
+        The parameter's symbol.
+    low, high
+        The two values that it spans.
+    low_at, high_at
+        The target positions at which these values arise; extension lines lead from there to the bracket.
+    """
+
+    notation: str
+    low: float
+    high: float
+    low_at: float
+    high_at: float
+
+
+@dataclass(frozen=True, slots=True)
+class Level:
+    """A horizontal line over the whole diagram: an offset, the middle of a band, a tolerance.
+
+    One whose notation is empty has no label.
+    """
+
+    notation: str
+    role: Role
+    y: float
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """A value as a bar from zero; the bars of a panel stand side by side instead of over positions."""
+
+    label: Words  #: Below the bar: words, or the notation of a symbol.
+    y: float  #: Where it ends.
+    value: Words  #: Written at its end.
+    #: Half the width of the interval about its end that is drawn as a whisker; 0 for none.
+    uncertainty: float = 0.0
+    #: Up to where the bar may reach, marked by a line across it; None for no mark.
+    accepted: float | None = None
+    is_symbol: bool = False  #: Whether its label is one.
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """One pair of axes.
+
+    Attributes
+    ----------
+    heading
+        Above the panel, where a figure has more than one; None otherwise.
+    curves, bands, readings, arrows, brackets, levels, bars
+        What is drawn.
+    projection
+        ``polar`` for values over an angle, in degrees: drawn outwards from a nominal circle, magnified. A
+        curve then shows where it begins and in which sense it goes on; levels are circles, and arrows,
+        brackets and bars have no place.
+    directions
+        Of a panel about a circle: angles, degrees, and what stands at them beside the angle, such as the
+        letter of the axis that turns round there; a point on the nominal circle marks each.
+    """
+
+    heading: Words | None = None
+    curves: tuple[Curve, ...] = ()
+    bands: tuple[Band, ...] = ()
+    readings: tuple[Readings, ...] = ()
+    arrows: tuple[Arrow, ...] = ()
+    brackets: tuple[Bracket, ...] = ()
+    levels: tuple[Level, ...] = ()
+    bars: tuple[Bar, ...] = ()
+    projection: Literal["straight", "polar"] = "straight"
+    directions: tuple[tuple[float, str], ...] = ()
+
+    @property
+    def is_polar(self) -> bool:
+        """Whether it is drawn about a circle."""
+        return self.projection == "polar"
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """A graph of a certificate.
+
+    Attributes
+    ----------
+    key
+        Short and unique among one standard's figures: ``means``, ``overall``.
+    title
+        The caption.
+    alternative
+        What the graph shows, for those who cannot see it: with its values.
+    x_title, y_title
+        The axes' quantities, without unit.
+    x_unit, y_unit
+        As printed.
+    panels
+        From top to bottom; they share the position axis.
+    spans_are_alike
+        Whether lengths of all panels compare by eye: not where one shows what is left of the other.
+    height
+        In millimetres; None for the usual one.
+    is_wide
+        Whether the panels stand beside each other instead of one below the other.
+    """
+
+    key: str
+    title: Words
+    alternative: Words
+    x_title: Words
+    y_title: Words
+    x_unit: str
+    y_unit: str
+    panels: tuple[Panel, ...]
+    spans_are_alike: bool = True
+    height: float | None = None
+    is_wide: bool = False

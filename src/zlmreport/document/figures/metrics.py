@@ -1,0 +1,90 @@
+"""How far a text moves the pen: advance widths, kerning and ligatures of the bundled faces, by HarfBuzz.
+
+No library that draws is needed; each font file is read once, when its first text is set.
+"""
+
+from __future__ import annotations
+
+from functools import cache, lru_cache
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+from unicodedata import normalize
+
+import uharfbuzz
+
+from zlmreport.document.figures.canvas import Face, Label, Run
+from zlmreport.language.formatting import Span, spans
+
+
+@cache
+def font_file(face: Face) -> Path:
+    """Return the path of a face's file: fonts of the system are never used."""
+    return Path(str(files("zlmreport_templates").joinpath("fonts", f"{face.value}.ttf")))
+
+
+@lru_cache(maxsize=4096)
+def advance(text: str, face: Face) -> float:
+    """Return how far a text of size 1 moves the pen."""
+    glyphs = _shaped(normalize("NFC", text), face).glyph_positions or ()  # none of an empty text
+    units = sum(each.x_advance for each in glyphs)
+    return float(units / _font(face).face.upem)
+
+
+def mark_offset(letter: str, mark: str, face: Face) -> tuple[float, float]:
+    """Return how far right of a letter's pen, and above it, that of a mark on it stands, at size 1."""
+    of_letter, on_letter = _shaped(letter + mark, face).glyph_positions
+    _, unplaced = _shaped(letter + mark, face, mark=False).glyph_positions
+    em = _font(face).face.upem
+    if (on_letter.x_offset, on_letter.y_offset) == (unplaced.x_offset, unplaced.y_offset):
+        raise LookupError(f"no place for U+{ord(mark):04X} on {letter!r}")
+    return (of_letter.x_advance + on_letter.x_offset) / em, on_letter.y_offset / em
+
+
+def has_letter(letter: str, face: Face) -> bool:
+    """Return whether a face has a shape for a letter."""
+    return _font(face).get_nominal_glyph(ord(letter)) is not None
+
+
+@cache
+def _font(face: Face) -> Any:
+    return uharfbuzz.Font(uharfbuzz.Face(uharfbuzz.Blob.from_file_path(str(font_file(face)))))
+
+
+def _shaped(text: str, face: Face, **features: bool) -> Any:
+    """Return the glyphs of a text in the order of the line: mixed directions have no place on a graph."""
+    buffer = uharfbuzz.Buffer()
+    buffer.add_str(text)
+    buffer.direction, buffer.script, buffer.language = "ltr", "Latn", "en"
+    # A mark stays a glyph of its own, as it is drawn.
+    uharfbuzz.shape(_font(face), buffer, {"ccmp": False, "locl": False, **features})
+    return buffer
+
+
+#: Subscripts, as parts of the type size: their size, and how far they lie below the line.
+_SUBSCRIPT_SIZE = 0.72
+_SUBSCRIPT_DROP = 0.2
+
+
+def plain_label(text: str, size: float, face: Face = Face.REGULAR) -> Label:
+    """Return a line of words or a number."""
+    return Label((Run(text, face, size, 0.0, 0.0),), size * advance(text, face), size)
+
+
+@lru_cache(maxsize=1024)
+def symbol_label(notation: str, size: float) -> Label:
+    """Return a symbol or a formula as `zlmreport.language.formatting` writes it."""
+    runs = []
+    end = 0.0
+    for span in spans(notation):
+        run = _run(span, size, end)
+        runs.append(run)
+        end += run.size * advance(run.text, run.face)
+    return Label(tuple(runs), end, size)
+
+
+def _run(span: Span, size: float, start: float) -> Run:
+    face = Face.ITALIC if span.italic else Face.REGULAR
+    if span.subscript:
+        return Run(span.text, face, size * _SUBSCRIPT_SIZE, start, size * _SUBSCRIPT_DROP)
+    return Run(span.text, face, size, start, 0.0)

@@ -1,0 +1,251 @@
+"""Where a model fails: readings against model, and what is left over position, run, time and conditions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import floor, log10
+
+import numpy as np
+
+from zlmreport.document.figures.figure import Bar, Curve, Figure, Level, Panel, Role
+from zlmreport.document.figures.model_diagram import MODEL, RESIDUAL_TITLE, ModelDiagram
+from zlmreport.document.figures.prescribed import MEANS, POSITION_TITLE, alternative_text
+from zlmreport.language import Words, same
+from zlmreport.language.numbers import number_words, significant_words
+from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
+from zlmreport.measurement.units import behind
+from zlmreport.model.diagnosis.diagnosis import Candidate
+from zlmreport.model.diagnosis.study import Fitted
+from zlmreport.model.effects.effect import Dimension, unit_of
+
+#: Groups of readings that follow one another, through whose means a curve leads.
+_GROUPS = 12
+_MINUTE = 60.0
+_LONG = 600.0
+
+_AGAINST_MODEL = Words(
+    en="Readings and error model over the target position; below, what the model leaves of the readings "
+    "(residual e = x − x̂), with twice the scatter of single readings",
+    de="Messwerte und Fehlermodell über der Sollposition; darunter, was das Modell von den Messwerten übrig "
+    "lässt (Residuum e = x − x̂), mit dem Doppelten der Streuung einzelner Messwerte",
+)
+_OVER = Words(
+    en="Residuals over {quantity}, with twice the scatter of single readings",
+    de="Residuen über {quantity}, mit dem Doppelten der Streuung einzelner Messwerte",
+)
+_SLOPE = Words(en="Slope of the residuals", de="Steigung der Residuen")
+_SLOPES = Words(
+    en="Slope over the position of what the model leaves of each pass, over {quantity}",
+    de="Steigung über der Position dessen, was das Modell von jedem Durchgang übrig lässt, über {quantity}",
+)
+_SLOPES_RANGE = Words(
+    en="{caption}: from {low} to {high}{unit}.", de="{caption}: von {low} bis {high}{unit}."
+)
+_MEASURED = Words(en="Measured and model", de="Gemessen und Modell")
+_RUN = (Words(en="Run", de="Durchlauf"), Words(en="the run", de="dem Durchlauf"))
+_TIME = (Words(en="Time", de="Zeit"), Words(en="time", de="der Zeit"))
+_COUNTED = (
+    Words(en="Number of the reading", de="Nummer des Messwerts"),
+    Words(en="their order", de="ihrer Reihenfolge"),
+)
+
+
+def over_position(diagram: ModelDiagram) -> Figure:
+    """Return readings and model, and the residuals below, over the target position for each direction."""
+    fit, x = diagram.fit, diagram.positions
+    model, residual = [], []
+    for approach in diagram.approaches:
+        chosen = diagram.of(approach)
+        arrow, targets = approach.arrow, fit.design.target[chosen]
+        model.append(
+            diagram.means(f"x̂_{{i}}{arrow}", MODEL[approach], x[chosen], fit.fitted[chosen], targets)
+        )
+        residual.append(
+            diagram.means(f"ē_{{i}}{arrow}", MEANS[approach], x[chosen], fit.residual[chosen], targets)
+        )
+    return diagram.figure(
+        "model",
+        _AGAINST_MODEL,
+        alternative_text(
+            diagram.range_sentence(Words(en="Readings", de="Messwerte"), fit.deviation),
+            diagram.range_sentence(Words(en="Model", de="Modell"), fit.fitted),
+            *diagram.residual_sentences(),
+        ),
+        POSITION_TITLE,
+        diagram.axis.position_unit.symbol,
+        Panel(heading=_MEASURED, curves=tuple(model), readings=diagram.readings(x, fit.deviation)),
+        Panel(
+            heading=RESIDUAL_TITLE,
+            curves=tuple(residual),
+            readings=diagram.readings(x, fit.residual),
+            bands=(diagram.scatter_of_single_readings(x),),
+        ),
+    )
+
+
+def over_run(diagram: ModelDiagram) -> Figure:
+    """Return the residuals over the number of the run, with the mean of each run and direction."""
+    runs = diagram.design.run
+    curves = [
+        diagram.means(
+            f"ē{approach.arrow}", MEANS[approach], runs[chosen].astype(np.float64), residual, runs[chosen]
+        )
+        for approach in diagram.approaches
+        for chosen in (diagram.of(approach),)
+        for residual in (diagram.fit.residual[chosen],)
+    ]
+    panel = _panel(diagram, runs.astype(np.float64))
+    return _residuals(
+        diagram, "run", _RUN, "", Panel(curves=tuple(curves), readings=panel.readings, bands=panel.bands)
+    )
+
+
+def over_time(diagram: ModelDiagram) -> Figure:
+    """Return the residuals over time, or in their order where the source tells no times."""
+    time, quantity, unit = _time_of(diagram)
+    return _residuals(diagram, "time", quantity, unit, _panel(diagram, time))
+
+
+def _time_of(diagram: ModelDiagram) -> tuple[FloatArray, tuple[Words, Words], str]:
+    design = diagram.design
+    if design.time_is_counted:
+        return 1.0 + design.time, _COUNTED, ""
+    in_minutes = design.duration > _LONG
+    return design.time / _MINUTE if in_minutes else design.time, _TIME, "min" if in_minutes else "s"
+
+
+def slopes_over_time(diagram: ModelDiagram) -> Figure:
+    """Return the slope over the position of what the model leaves of each pass, at the mean time of the pass.
+
+    Whatever warms turns the straight line from pass to pass.
+    """
+    design, residual = diagram.design, diagram.fit.residual
+    time, (title, in_sentence), unit_of_time = _time_of(diagram)
+    slope = unit_of(Dimension.SLOPE, diagram.axis.kind)
+    curves = []
+    for approach in diagram.approaches:
+        passes = [(diagram.of(approach)) & (design.run == run) for run in np.unique(design.run)]
+        seen = [each for each in passes if len(np.unique(design.position[each])) > 1]
+        slopes = [np.polyfit(design.position[each], residual[each], 1)[0] * slope.per_si for each in seen]
+        times = [float(time[each].mean()) for each in seen]
+        curves.append(
+            Curve(f"b{approach.arrow}", MEANS[approach], read_only_floats(times), read_only_floats(slopes))
+        )
+    values = np.concatenate([each.y for each in curves])
+    ends = {"low": significant_words(values.min()), "high": significant_words(values.max())}
+    caption = _SLOPES.given(quantity=in_sentence)
+    return Figure(
+        key="slopes-time",
+        title=caption,
+        alternative=alternative_text(_SLOPES_RANGE.given(caption=caption, unit=behind(slope.symbol), **ends)),
+        x_title=title,
+        y_title=_SLOPE,
+        x_unit=unit_of_time,
+        y_unit=slope.symbol,
+        panels=(Panel(curves=tuple(curves)),),
+    )
+
+
+def over_condition(diagram: ModelDiagram, condition: str) -> Figure:
+    """Return the residuals over a condition that was logged beside the readings."""
+    log = diagram.design.conditions[condition]
+    name, unit = CONDITION_NAMES.get(condition, same(condition)), ""
+    if condition in CONDITIONS:
+        scale = CONDITIONS[condition].unit
+        log, unit = scale.from_si(log), scale.symbol
+    in_sentence = replace(name, en=name.en[:1].lower() + name.en[1:])
+    return _residuals(diagram, condition.replace("_", "-"), (name, in_sentence), unit, _panel(diagram, log))
+
+
+def _residuals(
+    diagram: ModelDiagram, key: str, quantity: tuple[Words, Words], unit: str, panel: Panel
+) -> Figure:
+    title, in_sentence = quantity
+    caption = _OVER.given(quantity=in_sentence)
+    return diagram.figure(
+        f"residuals-{key}",
+        caption,
+        alternative_text(
+            Words("{caption}.", "{caption}.").given(caption=caption), *diagram.residual_sentences()
+        ),
+        title,
+        unit,
+        panel,
+        y_title=RESIDUAL_TITLE,
+    )
+
+
+def _panel(diagram: ModelDiagram, x: FloatArray) -> Panel:
+    """Return the residuals over anything that changes from reading to reading."""
+    residual = diagram.fit.residual
+    curve = diagram.means("ē", Role.MEAN_BIDIRECTIONAL, x, residual, _followers(x))
+    return Panel(
+        curves=(curve,),
+        readings=diagram.readings(x, residual),
+        bands=(diagram.scatter_of_single_readings(x),),
+    )
+
+
+def _followers(x: FloatArray) -> IntArray:
+    """Return groups of readings that follow one another: alike in number, like values together."""
+    rank = np.unique(x, return_inverse=True)[1]
+    share = np.searchsorted(np.sort(x), x, side="left") / len(x)
+    group = np.floor(share * _GROUPS)
+    return np.asarray(group if len(np.unique(rank)) > _GROUPS else rank, dtype=np.int64)
+
+
+_TITLE = Words(
+    en="Root mean square error after each effect of the model; σ₀ is the noise floor, which no effect can "
+    "take away",
+    de="Quadratischer Mittelwert der Abweichungen nach jedem Einfluss des Modells; σ₀ ist das Grundrauschen, "
+    "das kein Einfluss wegnehmen kann",
+)
+_WITHOUT = Words(en="without model", de="ohne Modell")
+_ADDED = Words(en="+ {effect}", de="+ {effect}")
+_WITH = Words(en="with {effect}", de="mit {effect}")
+_BAR = Words(en="{label}: {value}{unit}.", de="{label}: {value}{unit}.")
+_FLOOR = Words(en="Noise floor: {value}{unit}.", de="Grundrauschen: {value}{unit}.")
+_X_TITLE = Words(en="Effects, one after another", de="Einflüsse, einer nach dem anderen")
+_Y_TITLE = Words(en="Root mean square error", de="Quadratischer Mittelwert")
+
+
+def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:
+    """Return the fall chart of a model, from the readings without a model to the whole of it.
+
+    `missing`: What the model lacks: a last bar shows the error with it.
+    """
+    axis = history[-1].fit.design.axis
+    unit = axis.deviation_unit
+    further = [missing] if missing else []
+    errors = [*(each.error for each in history), *(each.error for each in further)]
+    values = [unit.from_si(each.rms) for each in errors]
+    noise = history[-1].error.noise_rms
+    decimals = _decimals(min(values))
+    labels = [_WITHOUT, *(_ADDED.given(effect=name) for name in history[-1].fit.model.identifiers)]
+    labels += [_WITH.given(effect=each.identifier) for each in further]
+    bars = tuple(
+        Bar(label, value, number_words(value, decimals)) for label, value in zip(labels, values, strict=True)
+    )
+    sentences = [_BAR.given(label=bar.label, value=bar.value, unit=behind(unit.symbol)) for bar in bars]
+    levels: tuple[Level, ...] = ()
+    if noise is not None:
+        levels = (Level("σ₀", Role.TOLERANCE, unit.from_si(noise)),)
+        written = number_words(unit.from_si(noise), decimals)
+        sentences.append(_FLOOR.given(value=written, unit=behind(unit.symbol)))
+    return Figure(
+        key="fall",
+        title=_TITLE,
+        alternative=alternative_text(*sentences),
+        x_title=_X_TITLE,
+        y_title=_Y_TITLE,
+        x_unit="",
+        y_unit=unit.symbol,
+        panels=(Panel(bars=bars, levels=levels),),
+    )
+
+
+def _decimals(value: float) -> int:
+    """Return the decimals that show two significant digits of a value."""
+    return max(0, 1 - floor(log10(value))) if value > 0 else 2

@@ -1,0 +1,258 @@
+"""Where everything in and beside a panel stands, once its frame is known.
+
+All places are points from the lower left corner of the drawing, y upwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from zlmreport.document.figures.canvas import Face, Label
+from zlmreport.document.figures.dimensions import (
+    GAP,
+    Dimension,
+    Span,
+    beside_targets,
+    margin_columns,
+    margin_width,
+    spread,
+)
+from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, Readings
+from zlmreport.document.figures.metrics import plain_label, symbol_label
+from zlmreport.document.figures.polar import PolarGrid, polar_grid, square
+from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, PlacedLabel
+from zlmreport.language import Language, Words
+from zlmreport.measurement.arrays import FloatArray
+
+#: Between the frame and the first column of brackets, and between the end of a level and its label.
+_MARGIN_GAP = 9.0
+_LEVEL_GAP = 5.0
+#: Between the end of a bar and its value.
+_VALUE_GAP = 2.5
+#: Distance of the points that stand for a line when labels look for room.
+_SAMPLING = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class PanelLayout:
+    """A panel with the place of everything in it."""
+
+    panel: Panel  #: What is drawn.
+    frame: Frame  #: The area of its values.
+    legend: LegendLayout  #: Above the frame.
+    #: brackets and arrows: Dimension lines in the margin, and beside targets.
+    brackets: tuple[Dimension, ...]
+    arrows: tuple[Dimension, ...]
+    #: Each level with its height at the frame, and its label.
+    levels: tuple[tuple[Level, float, PlacedLabel], ...]
+    bar_values: tuple[PlacedLabel, ...]  #: What is written at the end of each bar.
+    grid: PolarGrid | None = None  #: Of a panel about a circle; None for the usual ones.
+
+
+def lay_out_panel(
+    panel: Panel, frame: Frame, legend: LegendLayout, level_width: float, language: Language
+) -> PanelLayout:
+    """Return the places of everything in a panel; labels of levels take a width beside the frame."""
+    if panel.is_polar:
+        grid = polar_grid(panel, language.decimal_sign)
+        round_frame = Frame(square(frame.box), grid.scale, grid.scale)
+        return PanelLayout(panel, round_frame, legend, (), (), (), (), grid)
+    box = frame.box
+    spans = [_span(bracket, frame, bracket.low_at, bracket.high_at) for bracket in drawable_brackets(panel)]
+    brackets = margin_columns(spans, box.right + level_width + _MARGIN_GAP, box.bottom, box.top)
+    drawable = [arrow for arrow in panel.arrows if np.isfinite((arrow.low, arrow.high, arrow.x)).all()]
+    spans = [_span(arrow, frame, arrow.x, arrow.x) for arrow in drawable]
+    arrows = beside_targets(spans, box, _marks(panel, frame), _lines(panel, frame, brackets))
+    levels, values = _levels(panel, frame), _bar_values(panel, frame, language)
+    return PanelLayout(panel, frame, legend, brackets, arrows, levels, values)
+
+
+def drawable_brackets(panel: Panel) -> list[Bracket]:
+    """Return the brackets whose ends exist."""
+    return [
+        bracket
+        for bracket in panel.brackets
+        if np.isfinite((bracket.low, bracket.high, bracket.low_at, bracket.high_at)).all()
+    ]
+
+
+def drawable_levels(panel: Panel) -> list[Level]:
+    """Return the levels whose value exists."""
+    return [level for level in panel.levels if np.isfinite(level.y)]
+
+
+def bracket_width(panel: Panel) -> float:
+    """Return the width that a panel's brackets take beside the frame."""
+    labels = [symbol_label(bracket.notation, TEXT_SIZE) for bracket in drawable_brackets(panel)]
+    return _MARGIN_GAP + margin_width(labels) if labels else 0.0
+
+
+def level_width(panel: Panel) -> float:
+    """Return the width that the labels of a panel's levels take beside the frame."""
+    named = (level.notation for level in drawable_levels(panel) if level.notation)
+    widths = [symbol_label(notation, TEXT_SIZE).width for notation in named]
+    return _LEVEL_GAP + max(widths) if widths else 0.0
+
+
+def _span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float) -> Span:
+    ends = [
+        (frame.y_point(one.low), frame.x_point(low_at)),
+        (frame.y_point(one.high), frame.x_point(high_at)),
+    ]
+    (low, low_from), (high, high_from) = sorted(ends)
+    return Span(symbol_label(one.notation, TEXT_SIZE), low, high, low_from, high_from)
+
+
+def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel], ...]:
+    levels = drawable_levels(panel)
+    heights = [frame.y_point(level.y) for level in levels]
+    labels = [symbol_label(level.notation, TEXT_SIZE) for level in levels]
+    distance = max((label.height for label in labels), default=0.0)
+    return tuple(
+        (level, height, PlacedLabel(label, frame.box.right + _LEVEL_GAP, moved - label.rise))
+        for level, label, height, moved in zip(
+            levels, labels, heights, spread(heights, distance, frame.box.bottom, frame.box.top), strict=True
+        )
+    )
+
+
+def _bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
+    """Return the values above their bars, none of them on a line."""
+    labels = [plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
+    lines = sorted(frame.y_point(level.y) for level in drawable_levels(panel))
+
+    def foot(top_of_bar: float, height: float) -> float:
+        at = top_of_bar + _VALUE_GAP
+        for line in lines:
+            if at - _VALUE_GAP < line < at + height:
+                at = line + _VALUE_GAP
+        return at
+
+    return tuple(
+        PlacedLabel(
+            label,
+            frame.x_point(number) - label.width / 2,
+            foot(frame.y_point(bar.y + bar.uncertainty), label.height),
+        )
+        for number, (bar, label) in enumerate(zip(panel.bars, labels, strict=True))
+    )
+
+
+def _marks(panel: Panel, frame: Frame) -> FloatArray:
+    """Return where curves and readings have their marks."""
+    points = [frame.points(curve.x, curve.y) for curve in panel.curves]
+    points += [frame.points(readings.x, readings.y) for readings in panel.readings]
+    return np.concatenate([np.empty((0, 2)), *points])
+
+
+def _lines(panel: Panel, frame: Frame, brackets: Sequence[Dimension]) -> FloatArray:
+    """Return points along all lines inside the frame, those that lead to the brackets among them."""
+    lines = [frame.points(curve.x, curve.y) for curve in panel.curves]
+    for band in panel.bands:
+        lines += [frame.points(band.x, band.lower), frame.points(band.x, band.upper)]
+    for height in map(frame.y_point, (0.0, *(level.y for level in drawable_levels(panel)))):
+        lines.append(np.array([(frame.box.left, height), (frame.box.right, height)]))
+    for bracket in brackets:
+        span = bracket.span
+        for start, height in ((span.low_from, span.low), (span.high_from, span.high)):
+            lines.append(np.array([(start + GAP, height), (frame.box.right, height)]))
+    return np.concatenate([np.empty((0, 2)), *map(_sampled, lines)])
+
+
+def _sampled(line: FloatArray) -> FloatArray:
+    if len(line) < 2:
+        return line
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+    places = np.arange(0.0, along[-1], _SAMPLING)
+    return np.column_stack([np.interp(places, along, line[:, 0]), np.interp(places, along, line[:, 1])])
+
+
+#: Width of the sample of a line or a band, and of a single mark.
+LINE_SAMPLE = 25.0
+MARK_SAMPLE = 6.0
+
+#: Between a legend and the frame below it.
+LEGEND_GAP = 5.0
+
+_ROW_HEIGHT = 13.0
+_SAMPLE_GAP = 4.0
+_ENTRY_GAP = 14.0
+_HEADING_GAP = 14.0
+_READINGS = Words("single readings", "Einzelmesswerte")
+
+#: What an entry explains; the readings of all approaches share one.
+Explained: TypeAlias = Curve | Band | Level | tuple[Readings, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LegendEntry:
+    """A sample, and the label after it."""
+
+    explained: Explained
+    label: Label
+
+    @property
+    def label_start(self) -> float:
+        """Where the label begins, from the beginning of the sample."""
+        marks = len(self.explained) if isinstance(self.explained, tuple) else 0
+        return (marks * MARK_SAMPLE or LINE_SAMPLE) + _SAMPLE_GAP
+
+    @property
+    def width(self) -> float:
+        """Of sample and label."""
+        return self.label_start + self.label.width
+
+
+@dataclass(frozen=True, slots=True)
+class LegendLayout:
+    """The heading, and each entry with the beginning of its sample and the height of its middle.
+
+    Places are points from the legend's lower left corner, y upwards.
+    """
+
+    heading: PlacedLabel | None
+    entries: tuple[tuple[LegendEntry, float, float], ...]
+    height: float
+
+
+def lay_out_legend(panel: Panel, language: Language, width: float) -> LegendLayout:
+    """Return the legend of a panel in rows of a width; a heading begins the first row."""
+    entries = _entries(panel, language)
+    heading = None
+    x, row = 0.0, 0
+    if panel.heading is not None:
+        heading = plain_label(panel.heading.in_language(language), TEXT_SIZE, Face.SEMIBOLD)
+        x = heading.width + _HEADING_GAP
+    places = []
+    for entry in entries:
+        if x > 0 and x + entry.width > width:
+            x, row = 0.0, row + 1
+        places.append((entry, x, row))
+        x += entry.width + _ENTRY_GAP
+    rows = row + 1 if entries or heading else 0
+    middles = [(rows - row - 0.5) * _ROW_HEIGHT for row in range(rows)]
+    return LegendLayout(
+        None if heading is None else PlacedLabel(heading, 0.0, middles[0] - heading.rise),
+        tuple((entry, x, middles[row]) for entry, x, row in places),
+        rows * _ROW_HEIGHT,
+    )
+
+
+def _entries(panel: Panel, language: Language) -> tuple[LegendEntry, ...]:
+    """Return one entry for each symbol of a panel: curves, bands, readings; about a circle levels as well."""
+    levels = drawable_levels(panel) if panel.is_polar else ()
+    explained: tuple[Curve | Band | Level, ...] = (*panel.curves, *panel.bands, *levels)
+    found: dict[object, LegendEntry] = {}
+    for one in explained:
+        if one.notation:
+            entry = LegendEntry(one, symbol_label(one.notation, TEXT_SIZE))
+            found.setdefault((type(one), one.role, one.notation), entry)
+    if panel.readings:
+        arrows = (readings.approach.arrow for readings in panel.readings)
+        text = " ".join((_READINGS.in_language(language), *arrows))
+        found["readings"] = LegendEntry(panel.readings, plain_label(text, TEXT_SIZE))
+    return tuple(found.values())

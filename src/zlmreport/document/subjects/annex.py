@@ -1,0 +1,124 @@
+"""The annex on the error model: what the laboratory thinks the deviations come from.
+
+An opinion, and marked as one (ISO/IEC 17025:2017, 7.8.7): it stands on pages of its own, after all results.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Block, Graph, Notice, Paragraph, Section, Table
+from zlmreport.document.certificate.statements import OPINION
+from zlmreport.document.figures.model_diagram import ModelDiagram, estimate
+from zlmreport.document.figures.model_residuals import (
+    fall_chart,
+    over_condition,
+    over_position,
+    over_run,
+    over_time,
+    slopes_over_time,
+)
+from zlmreport.document.subjects.diagnosis import diagnosis_sections
+from zlmreport.document.subjects.fit import equations
+from zlmreport.document.subjects.forecast import fall, left_after_compensation
+from zlmreport.document.subjects.linked import linked
+from zlmreport.language import Words
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.document import Linked
+    from zlmreport.document.figures.figure import Figure
+    from zlmreport.document.subjects.forecast import StandardForecast
+    from zlmreport.document.writer import Writer
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+    from zlmreport.model.diagnosis.study import Fitted, Study
+    from zlmreport.model.planning.experiment import Experiment
+
+_KEY = "model"
+_TITLE = Words(
+    en="Annex: error model – opinion and interpretation",
+    de="Anhang: Fehlermodell – Meinung und Interpretation",
+)
+_BASIS = Words(
+    en="It rests on the readings of this document alone: a model of physical effects was fitted to them. "
+    "What the model explains is not proved to be the cause.",
+    de="Sie beruht allein auf den Messwerten dieses Dokuments: An sie wurde ein Modell physikalischer "
+    "Einflüsse angepasst. Was das Modell erklärt, ist damit nicht als Ursache bewiesen.",
+)
+_SYMBOLS = Words(
+    en="P: target position; d: +1 approaching in the positive direction, −1 in the negative; t: time; s: "
+    "distance since the last reversal; ΔT: temperature less 20 °C; the other symbols are parameters.",
+    de="P: Sollposition; d: +1 beim Anfahren in positiver, −1 in negativer Richtung; t: Zeit; s: Weg seit "
+    "der letzten Umkehr; ΔT: Temperatur minus 20 °C; die übrigen Zeichen sind Parameter.",
+)
+#: What an annex leaves out: effects that are hardly missing; what the table at its end shows of all effects.
+_ELSEWHERE = ("improbable", "hidden")
+#: Columns of tables that a page has no room for.
+_TOO_WIDE = ("name", "expected", "share", "left_out", "p", "parameters", "explains")
+
+
+@dataclass(frozen=True, slots=True)
+class Modelled:
+    """The error model of a job, studied."""
+
+    history: tuple[Fitted, ...]  #: Its fits, effect by effect; the first without any.
+    diagnosis: Diagnosis  #: What it lacks.
+    forecasts: tuple[StandardForecast, ...]  #: What each standard would say of a corrected axis.
+    titles: Mapping[str, Words]  #: What all installed effects are called, by identifier.
+    study: Study  #: The model and the readings that it was held against.
+    experiment: Experiment | None = None  #: What to measure next; None where nothing is to be decided.
+
+    @property
+    def sessions(self) -> tuple[MeasurementSet, ...]:
+        """Other tests that the model was held against."""
+        return self.study.sessions
+
+    def section(self, writer: Writer) -> Section:
+        """Return the annex."""
+        blocks = _blocks(self, writer)
+        narrow = (each.without(*_TOO_WIDE) if isinstance(each, Table) else each for each in blocks)
+        return Section(_KEY, writer.say(_TITLE), tuple(narrow))
+
+    def linked(self, writer: Writer) -> Linked:
+        """Return the annex's graphs as values, for documents in which readings can be pointed at."""
+        return linked(_KEY, self.study, self.history[-1], self.diagnosis, writer.language)
+
+
+def _blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
+    """Yield what is said of the diagnosis, with the graphs that show it."""
+    diagnosis, whole = modelled.diagnosis, modelled.history[-1]
+    sections = diagnosis_sections(diagnosis, writer.language, modelled.titles, modelled.experiment)
+    said = {each.key: each.blocks for each in sections}
+    diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
+    table, *moving = fall(modelled.history, modelled.forecasts[0], writer).blocks
+    yield Notice(writer.say(OPINION), (writer.say(_BASIS),))
+    yield from said.pop("verdict")
+    yield equations(whole.fit, writer.language)
+    yield Paragraph(writer.say(_SYMBOLS))
+    yield from said.pop("assumed", ())
+    yield from said.pop("model", ())
+    yield Graph(over_position(diagram))
+    yield Graph(estimate(diagram))
+    yield Graph(fall_chart(modelled.history, next(iter(diagnosis.candidates), None)))
+    yield table
+    yield left_after_compensation(modelled.forecasts, writer)
+    yield from moving
+    yield from said.pop("failures")
+    yield from map(Graph, _graphs(diagnosis.failures, diagram))
+    for key, blocks in said.items():
+        if key not in _ELSEWHERE:
+            yield from blocks
+
+
+def _graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figure]:
+    """Yield the residuals over whatever a failed test is about; those over the position stand above."""
+    failed = {failure.test for failure in failures}
+    if ResidualTest.RUNS in failed:
+        yield over_run(diagram)
+    if failed & {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}:
+        yield over_time(diagram)
+        yield slopes_over_time(diagram)
+    yield from (over_condition(diagram, each.condition) for each in failures if each.condition)

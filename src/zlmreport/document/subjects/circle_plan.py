@@ -1,0 +1,140 @@
+"""The path of a circular test before it is run, as people read it, and as plain values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+from zlmreport.document.blocks import Align, Block, Column, Paragraph, RowGroup, Section, Table
+from zlmreport.document.subjects.plan_values import SCHEMA
+from zlmreport.job.job import Job
+from zlmreport.language import Language, Words
+from zlmreport.language.formatting import general_number
+from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.model.planning.circle_path import SENSES, CirclePath
+
+_MINUTE = 60.0
+_DIGITS = 3
+_SIZE = Words(en="{count} turns of radius {radius} mm", de="{count} Umläufe mit Radius {radius} mm")
+_PATH = Words(en="Path", de="Bahn")
+_ROUND = Words(
+    en="evaluated from {first} to {last}°, +{from_axis} towards +{to_axis}, counter-clockwise and back "
+    "clockwise",
+    de="ausgewertet von {first} bis {last}°, +{from_axis} nach +{to_axis}, gegen und zurück im Uhrzeigersinn",
+)
+_RUNS = Words(en="{runs} in each sense{assumed}", de="{runs} in jedem Drehsinn{assumed}")
+_ASSUMED = Words(en=" (assumed)", de=" (angenommen)")
+_BESIDE = Words(
+    en="{arc}° of the circle before and behind it; the tool comes up from {run_up} mm outside, and rests "
+    "{rest} s between two turns",
+    de="{arc}° des Kreises davor und dahinter; das Werkzeug kommt aus {run_up} mm außerhalb und ruht {rest} "
+    "s zwischen zwei Umläufen",
+)
+_FEEDS = Words(en="Feeds", de="Vorschübe")
+_SLOWER = Words(
+    en="a control that allows less acceleration runs slower than it is told; the readings then tell their "
+    "own time",
+    de="eine Steuerung, die weniger Beschleunigung zulässt, fährt langsamer als angegeben; die Messwerte "
+    "nennen dann ihre eigene Zeit",
+)
+_TO_READ = Words(en="To read the circle", de="Zum Einlesen des Kreises")
+_SOURCE = Words(
+    en="source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}",
+    de="source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}",
+)
+
+
+def size_of_circle(path: CirclePath) -> Words:
+    """Return how many turns a test has, and of which radius."""
+    return _SIZE.given(count=len(path.turns), radius=path.radius)
+
+
+def circle_plan_sections(job: Job, paths: Sequence[CirclePath], language: Language) -> tuple[Section, ...]:
+    """Return what is said of the path of a circular test: ``path``, ``feeds``, ``reading``.
+
+    `paths`: One for each feed.
+    """
+
+    def say(words: Words) -> str:
+        return words.in_language(language)
+
+    arc = general_number(paths[0].turns[0].arc)
+    return (
+        Section("path", say(_PATH), tuple(Paragraph(say(words)) for words in _path(job, paths[0]))),
+        Section("feeds", say(_FEEDS), tuple(_feeds(paths, language))),
+        Section("reading", say(_TO_READ), (Paragraph(say(_SOURCE.given(arc=arc))),)),
+    )
+
+
+def _path(job: Job, path: CirclePath) -> Iterator[Words]:
+    turn = path.turns[0]
+    first, last = sorted((turn.first, turn.last))
+    from_axis, to_axis = path.circle.axes
+    yield _ROUND.given(first=first, last=last, from_axis=from_axis, to_axis=to_axis)
+    runs = len({each.run for each in path.turns})
+    yield _RUNS.given(runs=runs, assumed="" if job.keys.plan.runs else _ASSUMED)
+    yield _BESIDE.given(arc=turn.arc, run_up=path.run_up, rest=path.rest)
+
+
+def _feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
+    columns = (
+        Column("", "mm/min", Align.RIGHT),
+        Column(Words(en="turn", de="Umlauf").in_language(language), "s", Align.RIGHT),
+        Column(Words(en="test", de="Messung").in_language(language), "min", Align.RIGHT),
+        Column(Words(en="acceleration", de="Beschleunigung").in_language(language), "m/s²", Align.RIGHT),
+    )
+    sign = language.decimal_sign
+    rows = tuple(
+        tuple(
+            general_number(float(f"{value:.{_DIGITS}g}"), sign)
+            for value in (path.feed, _seconds(path), path.duration / _MINUTE, path.acceleration)
+        )
+        for path in paths
+    )
+    yield Table("", columns, (RowGroup(rows),))
+    yield Paragraph(_SLOWER.in_language(language))
+
+
+def _seconds(path: CirclePath) -> float:
+    """Return the time of what is evaluated of a turn, s."""
+    turn = path.turns[0]
+    return math.radians(abs(turn.last - turn.first)) * path.radius / path.feed * _MINUTE
+
+
+def circle_plan_values(job: Job, paths: Sequence[CirclePath], written: Sequence[Path] = ()) -> dict[str, Any]:
+    """Return the path of a circular test as plain values for JSON; positions in mm, angles in degrees."""
+    path = paths[0]
+    return {
+        "schema": SCHEMA,
+        "certificate": {"number": job.keys.certificate.number},
+        "circle": {
+            "plane": path.circle.plane,
+            "radius": path.radius,
+            "centre": [MILLIMETRE.from_si(each) for each in path.circle.centre],
+        },
+        "units": {"position": "mm", "angle": "deg", "time": "s"},
+        "run_up": path.run_up,
+        "rest": path.rest,
+        "turns": [
+            {
+                "sense": SENSES[turn.sense],
+                "run": turn.run,
+                "first": turn.first,
+                "last": turn.last,
+                "arc": turn.arc,
+            }
+            for turn in path.turns
+        ],
+        "feeds": [
+            {
+                "feed_per_minute": each.feed,
+                "duration": each.duration,
+                "acceleration": each.acceleration,
+            }
+            for each in paths
+        ],
+        "assumed": [] if job.keys.plan.runs else ["plan.runs"],
+        "files": [str(each) for each in written],
+    }

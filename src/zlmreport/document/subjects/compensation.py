@@ -1,0 +1,464 @@
+"""The sheet beside a compensation table: for who loads it at the control."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Column,
+    Facts,
+    Graph,
+    Mark,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.document.certificate import conditions
+from zlmreport.document.certificate.build import GENERATOR
+from zlmreport.document.certificate.document import Certificate, PageWords
+from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
+from zlmreport.document.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
+from zlmreport.document.writer import NOTHING, Writer
+from zlmreport.language import Words
+from zlmreport.language.formatting import fixed_number
+from zlmreport.language.numbers import number_words
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.units import with_unit
+from zlmreport.model.compensation.confirmation import ConfirmationVerdict
+from zlmreport.model.compensation.making import GridReason
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
+    from zlmreport.model.compensation.confirmation import Confirmation
+    from zlmreport.model.compensation.forecast import Figures
+    from zlmreport.model.compensation.making import Made
+
+_TITLE = Words(en="Compensation table", de="Kompensationstabelle")
+_SUBTITLE = Words(en="Axis {axis}, for {control}", de="Achse {axis}, für {control}")
+_CONFIDENCE = {
+    "verified": Words(en="tried on the control", de="an der Steuerung erprobt"),
+    "documented": Words(
+        en="documented by the maker, not tried on the control",
+        de="vom Hersteller dokumentiert, nicht an der Steuerung erprobt",
+    ),
+    "unconfirmed": Words(
+        en="not confirmed: sign or format may be another",
+        de="nicht bestätigt: Vorzeichen oder Format können andere sein",
+    ),
+}
+_CHECK = Words(
+    en="Load the table, reference the axis, and measure this row again: its deviation must vanish. If it "
+    "doubles, the sign is wrong: take the table out. A backlash parameter of the control must not correct "
+    "the same play a second time.",
+    de="Tabelle laden, Achse referenzieren und diese Zeile erneut messen: ihre Abweichung muss verschwinden. "
+    "Verdoppelt sie sich, ist das Vorzeichen falsch: Tabelle herausnehmen. Ein Loseparameter der Steuerung "
+    "darf dasselbe Spiel nicht ein zweites Mal korrigieren.",
+)
+_NO_MEASUREMENT = Words(
+    en="A forecast is no measurement: the axis with its table needs a test of its own "
+    "(zlmreport compensate --confirm).",
+    de="Eine Vorhersage ist keine Messung: die Achse mit ihrer Tabelle braucht eine eigene Prüfung "
+    "(zlmreport compensate --confirm).",
+)
+_BOTH_SET_UPS = Words(
+    en="A second test shows the scatter of both tests, and the errors of two set-ups of this test's budget.",
+    de="Eine zweite Prüfung zeigt die Streuung beider Prüfungen und die Fehler zweier Aufbauten nach dem "
+    "Budget dieser Prüfung.",
+)
+_SCATTER_ALONE = Words(
+    en="A second test shows the scatter of both tests; of the set-up's errors the job states no budget.",
+    de="Eine zweite Prüfung zeigt die Streuung beider Prüfungen; für die Fehler des Aufbaus nennt der "
+    "Auftrag kein Budget.",
+)
+_ALTERNATIVE = Words(
+    en="The mean deviations with the table, from {low} to {high}; and what the table leaves of them, from "
+    "{least} to {most}.",
+    de="Die mittleren Abweichungen mit der Tabelle, von {low} bis {high}; und was die Tabelle davon "
+    "übrig lässt, von {least} bis {most}.",
+)
+#: What a second test says of the table.
+CONFIRMED = {
+    ConfirmationVerdict.HELD: Words(
+        en="The second test holds the forecast.", de="Die zweite Prüfung hält die Vorhersage."
+    ),
+    ConfirmationVerdict.WRONG_SIGN: Words(
+        en="The table acts with the wrong sign: turn it.",
+        de="Die Tabelle wirkt mit falschem Vorzeichen: Kehren Sie es um.",
+    ),
+    ConfirmationVerdict.HALF: Words(
+        en="Half of the table acts; look for a factor of two.",
+        de="Die Tabelle wirkt zur Hälfte; suchen Sie einen Faktor zwei.",
+    ),
+    ConfirmationVerdict.SHIFTED: Words(
+        en="The table acts at other positions; look at its start.",
+        de="Die Tabelle wirkt an anderen Positionen; prüfen Sie ihren Anfang.",
+    ),
+    ConfirmationVerdict.OTHER: Words(
+        en="The second test does not show this table; is it active?",
+        de="Die zweite Prüfung zeigt diese Tabelle nicht; ist sie wirksam?",
+    ),
+}
+_RATIO = Words(en="E after is {share} % of E before.", de="E danach ist {share} % von E davor.")
+_APPLIED = Words(
+    en="{share} % of the table shows in the second test.",
+    de="{share} % der Tabelle zeigt sich in der zweiten Prüfung.",
+)
+_SHIFTED = Words(en="It is shifted by {length}.", de="Sie ist um {length} verschoben.")
+_WITHIN, _OUTSIDE = Words(en="within", de="innerhalb"), Words(en="outside", de="außerhalb")
+_SYMBOL, _PARAMETER = Words(en="Symbol", de="Zeichen"), Words(en="Parameter", de="Kenngröße")
+_BEFORE, _SECOND_TEST = Words(en="Before", de="Vorher"), Words(en="Second test", de="Zweite Prüfung")
+_FORECAST = Words(
+    en="Forecast from the files as the control reads them",
+    de="Vorhersage aus den Dateien, wie die Steuerung sie liest",
+)
+#: U of E, M, B and A by their symbols, before and with the table, in the unit of deviations.
+Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
+#: Of what is left, m or rad: the rounding of doubles is no curve.
+_DIGITS_DRAWN = 12
+_FIGURES = {
+    "E": Words(en="Systematic deviation", de="Systematische Abweichung"),
+    "M": Words(en="Mean bidirectional deviation", de="Mittlere Abweichung beider Richtungen"),
+    "B": Words(en="Reversal value", de="Umkehrspanne"),
+    "A": Words(en="Accuracy", de="Positioniergenauigkeit"),
+}
+
+
+def compensation_sheet(
+    job: Job, measurements: MeasurementSet, made: Made, uncertainties: Uncertainties
+) -> Certificate:
+    """Return the document: what the table is for, what it leaves, how to load it, how to check it."""
+    keys = job.keys.certificate
+    writer = Writer.of(measurements, keys.language)
+    say = writer.say
+    title, control = say(_TITLE), say(made.controller.title)
+    return Certificate(
+        number=keys.number,
+        title=title,
+        subtitle=say(_SUBTITLE.given(axis=job.axis.name, control=control)),
+        language=keys.language,
+        issued=keys.issued,
+        paper=keys.paper,
+        letterhead=None,
+        cover=(
+            Facts(tuple(_facts(job, made, writer))),
+            *forecast(made, writer, uncertainties).blocks,
+            Graph(_figure(made, writer)),
+        ),
+        sections=(
+            Section(
+                "loading",
+                say(Words(en="Loading and checking", de="Laden und prüfen")),
+                _loading(made, writer),
+            ),
+            conditions.section(job, measurements, (), writer),
+        ),
+        page_words=PageWords(
+            number=f"{title} {keys.number}",
+            page=say(Words(en="page", de="Seite")),
+            of=say(Words(en="of", de="von")),
+            end=say(Words(en="End of document", de="Ende des Dokuments")),
+            figure=say(Words(en="Figure", de="Bild")),
+            table=say(Words(en="Table", de="Tabelle")),
+        ),
+        description=f"{title}, {control}",
+        measurements=measurements,
+        evaluations=(),
+        generator=GENERATOR,
+        is_compact=True,
+    )
+
+
+def _facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str]]:
+    say, active = writer.say, job.keys.axis.compensation_table
+    none = Words(en="no table", de="keine Tabelle")
+    names = ", ".join(f"{job.keys.certificate.number}{end}" for end in made.files)
+    yield say(Words(en="Files", de="Dateien")), names
+    yield say(Words(en="Format", de="Format")), say(_CONFIDENCE[made.controller.confidence])
+    yield say(Words(en="Rows", de="Zeilen")), str(len(made.decoded.positions))
+    yield (
+        say(Words(en="Active during the test", de="Bei der Prüfung wirksam")),
+        active.name if isinstance(active, Path) else say(none),
+    )
+
+
+def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Section:
+    """Return E, M, B and A before, with the table and in a second test, and what is to be known of it."""
+    say, unit = writer.say, writer.deviation_unit
+    factor = unit.from_si(1.0)
+    before, after = (each.in_unit(factor) for each in (made.forecast.before, made.forecast.after))
+    rows = tuple(
+        (
+            Symbol(symbol),
+            say(_FIGURES[symbol]),
+            _with_u(before[symbol], uncertainties[0].get(symbol), writer),
+            _with_u(after[symbol], uncertainties[1].get(symbol), writer),
+            _expected(made, symbol, writer),
+        )
+        for symbol in before
+    )
+    columns = (
+        Column(say(_SYMBOL)),
+        Column(say(_PARAMETER)),
+        Column(say(_BEFORE), unit.symbol, Align.RIGHT),
+        Column(say(Words(en="With the table", de="Mit Tabelle")), unit.symbol, Align.RIGHT),
+        Column(say(Words(en="A second test, 95 %", de="Zweite Prüfung, 95 %")), unit.symbol, Align.RIGHT),
+    )
+    sentences = (*remarks(made, writer), _NO_MEASUREMENT)
+    return Section(
+        "forecast",
+        say(_FORECAST),
+        (Table(say(_FORECAST), columns, (RowGroup(rows),)), *(Paragraph(say(each)) for each in sentences)),
+    )
+
+
+def confirmation(found: Confirmation, made: Made, shown: Figures, writer: Writer) -> Section:
+    """Return whether a second test holds the forecast: in words, and beside what was and was forecast.
+
+    `shown`: What the second test shows.
+    """
+    say, unit = writer.say, writer.deviation_unit
+    factor = unit.from_si(1.0)
+    before, after = made.forecast.before.in_unit(factor), shown.in_unit(factor)
+    is_held = found.verdict is ConfirmationVerdict.HELD
+
+    def where(symbol: str) -> str:
+        expected = made.forecast.second_test.get(symbol)
+        if expected is None:
+            return ""
+        return say(_WITHIN if expected.low <= after[symbol] / factor <= expected.high else _OUTSIDE)
+
+    sentences = [
+        _RATIO.given(share=number_words(100 * found.ratio, 1)),
+        _APPLIED.given(share=number_words(100 * found.applied, 0)),
+    ]
+    if found.shift:
+        sentences.append(_SHIFTED.given(length=writer.length(round(found.shift, 6))))
+    rows = tuple(
+        (
+            Symbol(symbol),
+            say(_FIGURES[symbol]),
+            _number(before[symbol], writer) if symbol in before else NOTHING,
+            _expected(made, symbol, writer),
+            _number(value, writer),
+            where(symbol),
+        )
+        for symbol, value in after.items()
+    )
+    columns = (
+        Column(say(_SYMBOL)),
+        Column(say(_PARAMETER)),
+        Column(say(_BEFORE), unit.symbol, Align.RIGHT),
+        Column(say(Words(en="Forecast, 95 %", de="Vorhersage, 95 %")), unit.symbol, Align.RIGHT),
+        Column(say(_SECOND_TEST), unit.symbol, Align.RIGHT),
+        Column(""),
+    )
+    return Section(
+        "confirmation",
+        say(_SECOND_TEST),
+        (
+            Paragraph(say(CONFIRMED[found.verdict]), Mark.MET if is_held else Mark.NOT_MET),
+            *(Paragraph(say(each)) for each in sentences),
+            Table(say(_SECOND_TEST), columns, (RowGroup(rows),)),
+        ),
+    )
+
+
+def _expected(made: Made, symbol: str, writer: Writer) -> str:
+    """Return from where to where a parameter of a second test is expected."""
+    expected, factor = made.forecast.second_test.get(symbol), writer.deviation_unit.from_si(1.0)
+    if expected is None:
+        return NOTHING
+    return " … ".join(_number(each * factor, writer) for each in (expected.low, expected.high))
+
+
+def _with_u(value: float, expanded: float | None, writer: Writer) -> str:
+    text = _number(value, writer)
+    return text if expanded is None else f"{text} ± {_number(expanded, writer)}"
+
+
+def remarks(made: Made, writer: Writer) -> Iterator[Words]:
+    """Yield what is to be known of a table: between its rows, left out, constants, play that is left."""
+    found, unit = made.forecast, writer.deviation_unit
+
+    def amount(value: float) -> str:
+        return with_unit(_number(unit.from_si(value), writer), unit.symbol)
+
+    yield _grid(made, writer, amount)
+    yield Words(
+        en="Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes "
+        "{rounding}.",
+        de="Zwischen den {rows} Zeilen bleiben bis zu {between}, am meisten bei {at}; Runden nimmt "
+        "{rounding}.",
+    ).given(
+        rows=len(made.decoded.positions),
+        between=amount(found.between),
+        at=writer.length(round(found.between_at, 6)),
+        rounding=amount(found.rounding),
+    )
+    if made.left_out:
+        names = ", ".join(f"{name} ({writer.length(wave)})" for name, wave in made.left_out)
+        yield Words(
+            en="Left out, for no row carries it: {names}. It stays, with up to {error}.",
+            de="Weggelassen, weil keine Zeile es trägt: {names}. Es bleibt, mit bis zu {error}.",
+        ).given(names=names, error=amount(found.left_out))
+    if found.second_test:
+        yield _BOTH_SET_UPS if found.has_set_up else _SCATTER_ALONE
+    if abs(found.constant) > found.rounding:
+        yield Words(
+            en="The control's table begins at zero: a constant of {constant} was taken out.",
+            de="Die Tabelle der Steuerung beginnt bei null: eine Konstante von {constant} wurde entfernt.",
+        ).given(constant=amount(-found.constant))
+    if found.play:
+        yield Words(
+            en="The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
+            "control's backlash parameter.",
+            de="Die Tabelle hat eine Spalte: die mittlere Umkehrspanne, {play} (vorwärts − rückwärts), "
+            "bleibt dem Loseparameter der Steuerung.",
+        ).given(play=amount(found.play))
+
+
+_GRIDS = {
+    GridReason.STATED: Words(
+        en="{rows} rows, {step} apart, as stated: the lines between them miss up to {added}.",
+        de="{rows} Zeilen im Abstand von {step}, wie verlangt: Geraden dazwischen verfehlen bis zu {added}.",
+    ),
+    GridReason.TARGETS: Words(
+        en="{rows} rows at the targets: the lines between them miss up to {added}, and U of a mean is "
+        "{allowed} (scatter, k = 2).",
+        de="{rows} Zeilen an den Zielpositionen: Geraden dazwischen verfehlen bis zu {added}, und U eines "
+        "Mittelwerts ist {allowed} (Streuung, k = 2).",
+    ),
+    GridReason.UNCERTAINTY: Words(
+        en="{rows} rows, {step} apart, are the fewest whose lines miss no more than U of a mean, {allowed} "
+        "(scatter, k = 2): up to {added}.",
+        de="{rows} Zeilen im Abstand von {step} sind die wenigsten, deren Geraden nicht mehr verfehlen als U "
+        "eines Mittelwerts, {allowed} (Streuung, k = 2): bis zu {added}.",
+    ),
+    GridReason.CONTROL: Words(
+        en="{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
+        "{allowed} (scatter, k = 2), for the control takes no more rows.",
+        de="{rows} Zeilen im Abstand von {step}: die Geraden dazwischen verfehlen bis zu {added}, mehr als U "
+        "eines Mittelwerts, {allowed} (Streuung, k = 2), denn mehr Zeilen nimmt die Steuerung nicht.",
+    ),
+    GridReason.SUPPORT: Words(
+        en="{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
+        "{allowed} (scatter, k = 2); the targets support no finer rows.",
+        de="{rows} Zeilen im Abstand von {step}: die Geraden dazwischen verfehlen bis zu {added}, mehr als U "
+        "eines Mittelwerts, {allowed} (Streuung, k = 2); feinere Zeilen tragen die Zielpositionen nicht.",
+    ),
+}
+
+
+def _grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
+    """Return where the table has its rows, and why."""
+    grid = made.grid
+    return _GRIDS[grid.reason].given(
+        rows=len(grid.rows),
+        step=writer.length(round(float(grid.rows[1] - grid.rows[0]), 6)),
+        added=amount(grid.added),
+        allowed=amount(grid.allowed) if grid.allowed else NOTHING,
+    )
+
+
+def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
+    say, unit = writer.say, writer.deviation_unit
+    worst = int(np.argmax(np.abs(made.meant.forward + made.meant.reverse)))  # what a check can see best
+    at = made.meant.positions[worst : worst + 1]
+
+    def both(values: FloatArray) -> str:
+        up, down = (_signed(unit.from_si(float(each[0])), writer) for each in values)
+        return f"{up} ↑, {down} ↓ {unit.symbol}"
+
+    worked = Words(
+        en="Worked row: at {at} the axis was off by {stood} (actual − target, ↑ moving forward, "
+        "↓ moving back); the table takes away {taken}.",
+        de="Beispielzeile: bei {at} wich die Achse um {stood} ab (Ist − Soll, ↑ vorwärts, "
+        "↓ rückwärts); die Tabelle nimmt {taken} weg.",
+    ).given(at=writer.length(float(at[0])), stood=both(made.meant.at(at)), taken=both(made.decoded.at(at)))
+    return (
+        Paragraph(say(worked)),
+        Notice(
+            say(Words(en="For who loads it", de="Für den, der sie lädt")),
+            (*map(say, made.controller.notes), say(_CHECK)),
+        ),
+    )
+
+
+def _figure(made: Made, writer: Writer) -> Figure:
+    """Return the picture: means and table above, what is left below."""
+    curve, printed = made.basis.curve, writer.deviation_unit.from_si
+    targets = read_only_floats(writer.position_unit.from_si(curve.positions))
+    rows = read_only_floats(writer.position_unit.from_si(made.decoded.positions))
+    means = np.stack([curve.forward, curve.reverse])
+    table = np.stack([made.decoded.forward, made.decoded.reverse])
+    if made.active is not None:
+        table = table - made.active.at(made.decoded.positions)
+    count = 2 if curve.is_bidirectional else 1
+
+    def curves(
+        x: FloatArray, values: FloatArray, names: tuple[str, str], roles: tuple[Role, Role]
+    ) -> tuple[Curve, ...]:
+        return tuple(
+            Curve(name, role, x, read_only_floats(printed(each)))
+            for name, role, each in list(zip(names, roles, values, strict=True))[:count]
+        )
+
+    measured = (Role.MEAN_POSITIVE, Role.MEAN_NEGATIVE)
+    before = (
+        *curves(targets, means, ("x̄↑", "x̄↓"), measured),
+        *curves(rows, table, ("C↑", "C↓"), (Role.MODEL_POSITIVE, Role.MODEL_NEGATIVE)),
+    )
+    known = printed(made.grid.allowed)
+    left = curves(targets, np.round(made.forecast.left, _DIGITS_DRAWN), ("x̄↑", "x̄↓"), measured)
+    beside = np.full(len(targets), known)
+    band = Band("±U", Role.NOISE, targets, read_only_floats(-beside), read_only_floats(beside))
+    unit = writer.deviation_unit.symbol
+    words = {
+        name: with_unit(_number(float(printed(value)), writer), unit)
+        for name, value in (
+            ("low", means.min()),
+            ("high", means.max()),
+            ("least", made.forecast.left.min()),
+            ("most", made.forecast.left.max()),
+        )
+    }
+    return Figure(
+        key="compensation",
+        title=Words(
+            en="The mean deviations with the table C, and what it leaves",
+            de="Die mittleren Abweichungen mit der Tabelle C, und was sie übrig lässt",
+        ),
+        alternative=_ALTERNATIVE.given(**words),
+        x_title=POSITION_TITLE,
+        y_title=DEVIATION_TITLE,
+        x_unit=writer.position_unit.symbol,
+        y_unit=unit,
+        panels=(
+            Panel(Words(en="Before, and the table", de="Vorher, und die Tabelle"), curves=before),
+            Panel(
+                Words(en="With the table, and U of a mean", de="Mit Tabelle, und U eines Mittelwerts"),
+                bands=(band,) if known else (),
+                curves=left,
+            ),
+        ),
+        spans_are_alike=False,
+    )
+
+
+def _number(value: float, writer: Writer) -> str:
+    return fixed_number(value, 2, writer.language.decimal_sign)
+
+
+def _signed(value: float, writer: Writer) -> str:
+    text = fixed_number(value, 3, writer.language.decimal_sign)
+    return text if value < 0 else f"+{text}"

@@ -1,0 +1,420 @@
+"""A diagnosis as people read it: verdict, where the model fails, what it may lack, what the test hides."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Cell,
+    Column,
+    ColumnKind,
+    Explained,
+    Facts,
+    Mark,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Table,
+)
+from zlmreport.document.subjects.fit import (
+    EFFECTS,
+    ParameterRow,
+    deviation,
+    error_facts,
+    in_a_sentence,
+    parameters,
+)
+from zlmreport.document.writer import NOTHING
+from zlmreport.language import Language, Words, same
+from zlmreport.language.formatting import p_value, percentage
+from zlmreport.measurement.measurement_set import CONDITION_NAMES
+from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, Verdict
+from zlmreport.model.diagnosis.report import serious_candidates, verdict_statement
+from zlmreport.model.diagnosis.residuals import Failure
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.fitting.fit import Fit
+from zlmreport.model.planning.experiment import Experiment
+
+#: Titles of what is said of a diagnosis.
+VERDICT = Words(en="Verdict", de="Befund")
+FAILURES = Words(en="Where the model fails", de="Wo das Modell versagt")
+CANDIDATES = Words(en="What may be missing", de="Was fehlen kann")
+HIDDEN = Words(en="What this test cannot see", de="Was diese Messung nicht sehen kann")
+LEFT = Words(en="What is left without a name", de="Was ohne Namen übrig bleibt")
+REMEDY = Words(en="What to do if this is the cause", de="Was zu tun ist, wenn dies die Ursache ist")
+EXPERIMENT = Words(en="The next experiment", de="Der nächste Versuch")
+NOT_TRIED = Words(
+    en="Effects that this test could not try", de="Einflüsse, die mit dieser Messung nicht prüfbar sind"
+)
+_ASSUMED = Words(en="Taken for granted", de="Angenommen")
+_NO_FAILURE = Words(
+    en="No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
+    "run, time and the logged conditions.",
+    de="Keine Prüfung der Residuen schlägt an: weder die der Mittelwerte gegen die Wiederholungen noch die "
+    "über Richtung, Durchlauf, Zeit und die aufgezeichneten Bedingungen.",
+)
+_NOT_EXCLUDED = Words(
+    en="Not excluded, for this test could not try them: {effects}.",
+    de="Nicht ausgeschlossen, weil mit dieser Messung nicht prüfbar: {effects}.",
+)
+_CANDIDATES = Words(
+    en="Effects that the model may lack, each with the probability that it is there, beside the others of "
+    "the set and what has no name",
+    de="Einflüsse, die dem Modell fehlen können, jeder mit der Wahrscheinlichkeit, dass er da ist, neben den "
+    "anderen des Satzes und dem, was keinen Namen hat",
+)
+_VISIBILITY = Words(
+    en="What the plan of this test can see of effects that are not in the model: the share that the "
+    "model does not imitate, and the smallest effect that is found half of the time (root mean "
+    "square over all readings)",
+    de="Was der Plan dieser Messung von Einflüssen sieht, die nicht im Modell stehen: der Anteil, "
+    "den das Modell nicht nachahmt, und der kleinste Einfluss, der in der Hälfte der Fälle gefunden "
+    "wird (quadratischer Mittelwert über alle Messwerte)",
+)
+_SHAPE = Words(en="Shape", de="Form")
+_WHERE = Words(en="Place", de="Ort")
+_SIZE = Words(en="Root mean square", de="Quadratischer Mittelwert")
+_OF_THE_REST = Words(en="Share of what the model leaves", de="Anteil an dem, was das Modell übrig lässt")
+_FORMULA = Words(en="Formula to try", de="Formel zum Probieren")
+_IMPROBABLE = Words(en="Hardly missing", de="Kaum fehlend")
+_SENTENCES = ColumnKind.SENTENCES
+_MARKS = {
+    Verdict.ADEQUATE: Mark.MET,
+    Verdict.MISSING: Mark.OPEN,
+    Verdict.UNEXPLAINED: Mark.NOT_MET,
+}
+_EXTRAPOLATED = Words(en="{p} (extrapolated)", de="{p} (extrapoliert)")
+_VISIBLE = Words(
+    en="{share} % of it is visible beside this model",
+    de="neben diesem Modell sind {share} % davon sichtbar",
+)
+_FOUND_FROM = Words(
+    en="{share} % of it is visible beside this model; found from {size} rms on",
+    de="neben diesem Modell sind {share} % davon sichtbar; gefunden ab {size} quadratischem Mittel",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FailureRow:
+    """A test of the residuals that failed."""
+
+    #: statement and where: What the residuals do, and the place, time, run or condition that shows it.
+    statement: str
+    where: str
+    p: str  #: The chance of such residuals if the model held.
+    failure: Failure  #: The test.
+
+
+@dataclass(frozen=True, slots=True)
+class CandidateRow:
+    """An effect that the model may lack."""
+
+    #: effect, argument and title: Identifier; as a job names it, with its keys unless they are the usual
+    #: ones; what it is called.
+    effect: str
+    argument: str
+    title: str
+    #: probability and p: Among all that were tried, in per cent without the sign; chance of so large a fall
+    #: without it.
+    probability: str
+    p: str
+    error: Facts  #: Of the model with it.
+    #: rms and left_out: Root mean square error with it, and at runs predicted from the others, without unit.
+    rms: str
+    left_out: str
+    parameters: tuple[ParameterRow, ...]  #: As fitted.
+    #: explains and tell_apart_by: What it explains; what would tell it from its equals, empty if it has none.
+    explains: str
+    tell_apart_by: str
+    remedy: str  #: What to do about it; empty if nobody says.
+    equals: tuple[str, ...]  #: Effects that these readings cannot tell from it.
+    is_serious: bool  #: Whether it is worth a word: of the set, one with equals, one that is not improbable.
+    is_named: bool  #: Whether the verdict names it.
+    question: str  #: What is asked of a value beyond what is usual; empty if none is.
+    candidate: Candidate
+
+
+@dataclass(frozen=True, slots=True)
+class HiddenRow:
+    """Effects that the test cannot see, or hardly, and why."""
+
+    effects: tuple[str, ...]
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class DiagnosisRows:
+    """A diagnosis in one language."""
+
+    statement: str  #: The verdict in a sentence.
+    error: Facts  #: Of the model.
+    failures: tuple[FailureRow, ...]  #: Where it fails, the clearest first.
+    candidates: tuple[CandidateRow, ...]  #: What it may lack, best first.
+    hidden: tuple[HiddenRow, ...]  #: Effects that the plan of the test hides beside this model.
+    not_tested: tuple[HiddenRow, ...]  #: Effects that could not be tried, reason by reason.
+    not_excluded: tuple[str, ...]  #: Those among them that nothing speaks against.
+    remarks: tuple[str, ...]  #: What was taken for granted.
+    #: Whether the verdict is that the first candidate, or one of its equals, is missing.
+    names_candidates: bool
+    #: What is left without a name, in names and values; none where it is noise.
+    remainder: Facts | None
+
+    @property
+    def leading(self) -> tuple[CandidateRow, ...]:
+        """The candidates that the verdict names: those of the set with their equals; else none."""
+        return tuple(each for each in self.candidates if each.is_named and self.names_candidates)
+
+    @classmethod
+    def of(
+        cls, diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words] | None = None
+    ) -> DiagnosisRows:
+        """Return a diagnosis."""
+        axis = diagnosis.fit.design.axis
+        serious = serious_candidates(diagnosis)
+
+        def rows(candidates: Iterable[Candidate]) -> tuple[CandidateRow, ...]:
+            return tuple(
+                _candidate(each, diagnosis, language, titles or {}, is_serious=each in serious)
+                for each in candidates
+            )
+
+        return cls(
+            statement=verdict_statement(diagnosis).in_language(language),
+            error=error_facts(diagnosis.error, axis, language),
+            failures=tuple(failure_row(each, language) for each in diagnosis.failures),
+            candidates=rows(diagnosis.candidates),
+            hidden=tuple(_hidden(diagnosis, language)),
+            not_tested=_not_tested(diagnosis, language),
+            not_excluded=tuple(diagnosis.not_excluded),
+            remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
+            names_candidates=diagnosis.verdict is Verdict.MISSING,
+            remainder=_remainder(diagnosis, language),
+        )
+
+
+def diagnosis_sections(
+    diagnosis: Diagnosis,
+    language: Language,
+    titles: Mapping[str, Words],
+    experiment: Experiment | None = None,
+) -> tuple[Section, ...]:
+    """Return all that is said of a diagnosis, whoever says it; what is not to be said is left out.
+
+    The sections are ``verdict``, ``remainder``, ``assumed``, ``model``, ``failures``, ``candidates``,
+    ``improbable``, ``remedy``, ``experiment``, ``hidden``, ``not-tried`` and ``visibility``.
+
+    `titles`: What effects are called, by identifier.
+    `experiment`: What to measure next; None where nothing is to be decided.
+    """
+    rows, fit = DiagnosisRows.of(diagnosis, language, titles), diagnosis.fit
+
+    def section(key: str, title: Words, *blocks: Block | None) -> Section:
+        return Section(key, title.in_language(language), tuple(each for each in blocks if each))
+
+    def notice(title: Words, items: Iterable[str]) -> Notice | None:
+        said = tuple(items)
+        return Notice(title.in_language(language), said) if said else None
+
+    serious = [each for each in rows.candidates if each.is_serious]
+    others = [each for each in rows.candidates if not each.is_serious]
+    excluded = _NOT_EXCLUDED.given(effects=", ".join(rows.not_excluded)).in_language(language)
+    leads = bool(rows.candidates) and diagnosis.verdict is not Verdict.ADEQUATE
+    sections = (
+        section("verdict", VERDICT, Paragraph(rows.statement, _MARKS[diagnosis.verdict]), rows.error),
+        section("remainder", LEFT, rows.remainder),
+        section("assumed", _ASSUMED, notice(_ASSUMED, rows.remarks)),
+        section("model", EFFECTS, parameters(fit, language) if fit.model.terms else None),
+        section(
+            "failures",
+            FAILURES,
+            notice(FAILURES, (f"{each.statement} ({each.where}; {each.p})" for each in rows.failures))
+            or Paragraph(_NO_FAILURE.in_language(language)),
+        ),
+        section(
+            "candidates",
+            CANDIDATES,
+            _candidates(serious, fit, language),
+            Paragraph(excluded) if leads and rows.not_excluded else None,
+        ),
+        section("improbable", _IMPROBABLE, _candidates(others, fit, language)),
+        section(
+            "remedy",
+            REMEDY,
+            notice(REMEDY, (f"{each.effect}: {each.remedy}" for each in rows.leading if each.remedy)),
+        ),
+        section(
+            "experiment",
+            EXPERIMENT,
+            notice(EXPERIMENT, [experiment.statement.in_language(language)] if experiment else []),
+        ),
+        section("hidden", HIDDEN, notice(HIDDEN, map(_reason, rows.hidden))),
+        section("not-tried", NOT_TRIED, notice(NOT_TRIED, map(_reason, rows.not_tested))),
+        section("visibility", HIDDEN, _visibility(diagnosis, language, titles)),
+    )
+    return tuple(each for each in sections if each.blocks)
+
+
+def _reason(row: HiddenRow) -> str:
+    return f"{', '.join(row.effects)}: {row.reason}"
+
+
+def _candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language) -> Table | None:
+    """Return effects that the model may lack, best first; None if there are none.
+
+    The columns are ``effect``, ``probability``, ``rms``, ``left_out`` and ``p``, and of those worth a word
+    ``equals``, ``tell``, ``parameters`` and ``explains``.
+    """
+    if not candidates:
+        return None
+    unit = fit.design.axis.deviation_unit.symbol
+
+    def column(key: str, words: Words, unit: str = "", kind: ColumnKind = ColumnKind.VALUES) -> Column:
+        align = Align.RIGHT if unit else Align.LEFT
+        return Column(words.in_language(language), unit, align, key, kind)
+
+    def cells(row: CandidateRow) -> tuple[Cell, ...]:
+        known = Explained(row.effect, row.title), row.probability, row.rms, row.left_out, row.p
+        if not row.is_serious:
+            return known
+        fitted = ", ".join(in_a_sentence(each, language) for each in row.parameters)
+        return (*known, ", ".join(row.equals) or NOTHING, row.tell_apart_by or NOTHING, fitted, row.explains)
+
+    columns = (
+        column("effect", Words(en="Effect", de="Einfluss")),
+        column("probability", Words(en="Probability", de="Wahrscheinlichkeit"), "%"),
+        column("rms", Words(en="RMS after", de="Quadr. Mittel danach"), unit),
+        column("left_out", Words(en="Runs left out", de="Durchläufe ausgelassen"), unit),
+        column("p", same("")),
+        column("equals", Words(en="Not to be told from", de="Nicht zu unterscheiden von"), kind=_SENTENCES),
+        column("tell", Words(en="Told apart by", de="Zu unterscheiden durch"), kind=_SENTENCES),
+        column("parameters", same(""), kind=_SENTENCES),
+        column("explains", same(""), kind=_SENTENCES),
+    )
+    rows = tuple(map(cells, candidates))
+    return Table(_CANDIDATES.in_language(language), columns[: len(rows[0])], (RowGroup(rows),))
+
+
+def _visibility(diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words]) -> Table:
+    """Return how much of each effect the plan of the test can see, the best hidden first."""
+    axis = diagnosis.fit.design.axis
+    columns = (
+        Column(Words(en="Effect", de="Einfluss").in_language(language)),
+        Column(Words(en="Title", de="Bezeichnung").in_language(language)),
+        Column(Words(en="Visible", de="Sichtbar").in_language(language), "%", Align.RIGHT),
+        Column(
+            Words(en="Found from", de="Gefunden ab").in_language(language),
+            axis.deviation_unit.symbol,
+            Align.RIGHT,
+        ),
+    )
+    rows = tuple(
+        (
+            each.effect,
+            titles[each.effect].in_language(language),
+            percentage(each.share, language.decimal_sign),
+            deviation(each.smallest_rms, axis, language),
+        )
+        for each in sorted(diagnosis.visibility, key=lambda each: (each.share, each.effect))
+    )
+    return Table(_VISIBILITY.in_language(language), columns, (RowGroup(rows),), dense=True)
+
+
+def failure_row(failure: Failure, language: Language) -> FailureRow:
+    """Return a test that failed."""
+    where = CONDITION_NAMES.get(failure.condition, failure.where)
+    return FailureRow(
+        failure.statement.in_language(language),
+        where.in_language(language),
+        p_value(failure.p_value, language.decimal_sign),
+        failure,
+    )
+
+
+def argument(effect: Effect) -> str:
+    """Return an effect as a job would name it, with its keys unless they are the usual ones."""
+    settings = effect.settings.model_dump(mode="json", exclude_defaults=True)
+    return f"{effect.identifier}: {json.dumps(settings)}" if settings else effect.identifier
+
+
+def _candidate(
+    candidate: Candidate,
+    diagnosis: Diagnosis,
+    language: Language,
+    titles: Mapping[str, Words],
+    *,
+    is_serious: bool,
+) -> CandidateRow:
+    design, sign = diagnosis.fit.design, language.decimal_sign
+    p = p_value(candidate.p_value, sign, is_extrapolated=candidate.p_value_is_extrapolated)
+    if candidate.p_value_is_extrapolated:
+        p = _EXTRAPOLATED.given(p=p).in_language(language)
+    title, tell = titles.get(candidate.identifier), candidate.discriminate_by
+    remedy = candidate.effect.remedy
+    return CandidateRow(
+        effect=candidate.identifier,
+        argument=argument(candidate.effect),
+        title=title.in_language(language) if title else "",
+        probability=percentage(candidate.probability, sign),
+        p=p,
+        error=error_facts(candidate.error, design.axis, language),
+        rms=deviation(candidate.error.rms, design.axis, language),
+        left_out=deviation(candidate.error.cross_validated_rms, design.axis, language),
+        parameters=tuple(ParameterRow.of(each, design, language) for each in candidate.estimates),
+        explains=candidate.explains.in_language(language),
+        tell_apart_by=tell.in_language(language) if tell else "",
+        remedy=remedy.in_language(language) if remedy else "",
+        equals=tuple(candidate.equals),
+        is_serious=is_serious,
+        is_named=_is_named(candidate, diagnosis),
+        question=candidate.question.in_language(language) if candidate.question else "",
+        candidate=candidate,
+    )
+
+
+def _is_named(candidate: Candidate, diagnosis: Diagnosis) -> bool:
+    """Return whether a candidate is one of the set, or an equal of one."""
+    names = {each.identifier for each in diagnosis.together}
+    return candidate.identifier in names or bool(names & {*candidate.equals})
+
+
+def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
+    """Return what is left without a name: its shape, place, size, share and formula."""
+    left = diagnosis.remainder
+    if left is None:
+        return None
+    axis = diagnosis.fit.design.axis
+    pairs = [
+        (_SHAPE, left.shape.in_language(language)),
+        (_WHERE, left.where.in_language(language)),
+        (_SIZE, wording.deviation(axis, left.rms).in_language(language)),
+        (_OF_THE_REST, f"{percentage(left.share, language.decimal_sign)} %"),
+    ]
+    if left.formula is not None:
+        pairs.append((_FORMULA, left.formula.formula))
+    return Facts(tuple((name.in_language(language), value) for name, value in pairs))
+
+
+def _hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
+    axis = diagnosis.fit.design.axis
+    for each in diagnosis.visibility:
+        if each.is_hidden:
+            words = _FOUND_FROM if math.isfinite(each.smallest_rms) else _VISIBLE
+            reason = words.given(
+                share=percentage(each.share, language.decimal_sign),
+                size=wording.deviation(axis, each.smallest_rms),
+            )
+            yield HiddenRow((each.effect,), reason.in_language(language))
+
+
+def _not_tested(diagnosis: Diagnosis, language: Language) -> tuple[HiddenRow, ...]:
+    by_reason: dict[str, list[str]] = {}
+    for each in diagnosis.not_testable:
+        by_reason.setdefault(each.reason.in_language(language), []).append(each.effect)
+    return tuple(HiddenRow(tuple(effects), reason) for reason, effects in by_reason.items())

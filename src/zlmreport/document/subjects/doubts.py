@@ -1,0 +1,25 @@
+"""Runs that seem to be in another unit than the others."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+_OF_A_RUN = Words("{statement}; {remedy}", "{statement}; {remedy}")
+
+
+def doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a sentence for each run that seems to be in another unit than the others."""
+    if not np.isfinite(measurements.deviation).any():
+        return
+    from zlmreport.model.diagnosis.faults import FaultKind, recorded_faults  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.fitting.observations import observations_of  # noqa: PLC0415 - likewise
+
+    observed = observations_of(measurements)
+    for each in recorded_faults(observed.design, observed.deviation):
+        if each.kind is FaultKind.WRONG_UNIT and each.run is not None:
+            yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)

@@ -1,0 +1,366 @@
+"""A fitted model as people read it: its error, its parameters with their uncertainties, its polynomials."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from zlmreport.document.blocks import (
+    Align,
+    Cell,
+    Column,
+    Facts,
+    Formulas,
+    Paragraph,
+    RowGroup,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.document.writer import NOTHING
+from zlmreport.language import Language, Words, same
+from zlmreport.language.formatting import MINUS, general_number, rounded_pair
+from zlmreport.language.numbers import significant_words
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import DEGREE, Unit, with_unit
+from zlmreport.model.compensation.basis import too_fine, waves_of
+from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
+from zlmreport.model.diagnosis.study import Fitted, Wave, moves_with_time, one_way, waves
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Dimension, unit_of
+from zlmreport.model.fitting.estimate import Estimate, Plausibility
+from zlmreport.model.fitting.fit import Fit
+
+#: Titles of what is said of a model.
+ERROR = Words(en="Error of the model", de="Abweichung des Modells")
+EFFECTS = Words(en="The model's effects", de="Die Einflüsse des Modells")
+_EACH_DIRECTION = Words(en="Each direction by itself", de="Jede Richtung für sich")
+_RMS = Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen")
+_FLOOR = Words(en="Noise floor", de="Grundrauschen")
+_LEFT_OUT = Words(en="Runs predicted from the others", de="Durchläufe, aus den übrigen vorhergesagt")
+_READINGS = Words(en="readings", de="Messwerte")
+_AMPLITUDE = Words(
+    en="Amplitude of harmonic {order}, from the above", de="Amplitude der {order}. Harmonischen, aus Obigem"
+)
+_PHASE = Words(
+    en="Phase of harmonic {order}, from the above", de="Phase der {order}. Harmonischen, aus Obigem"
+)
+_SUM = Words(
+    en="The model: the deviation x is the sum of these effects",
+    de="Das Modell: Die Abweichung x ist die Summe dieser Einflüsse",
+)
+_PARAMETERS = Words(
+    en="Parameters of the model with expanded uncertainty U (coverage probability about 95 %). "
+    "Grid: one of the values that were tried, with the half-width of the interval that holds it. "
+    "Plausible: within what is usual for the effect",
+    de="Parameter des Modells mit erweiterter Messunsicherheit U (Überdeckungswahrscheinlichkeit "
+    "etwa 95 %). Raster: einer der geprüften Werte, mit der halben Weite des Intervalls, in dem er "
+    "liegt. Plausibel: im Bereich des für den Einfluss Üblichen",
+)
+_GIVEN = Words(en="given", de="vorgegeben")
+_HELD = Words(en="held at {bound}", de="gehalten bei {bound}")
+_GRID = Words(en="grid", de="Raster")
+_OF_GRID = Words(en="{half_width} (grid)", de="{half_width} (Raster)")
+_EXPECTED = Words(en="expected {value}", de="erwartet {value}")
+_PLAUSIBLE = {
+    Plausibility.PLAUSIBLE: Words(en="yes", de="ja"),
+    Plausibility.DOUBTFUL: Words(en="doubtful", de="zweifelhaft"),
+    Plausibility.IMPLAUSIBLE: Words(en="no", de="nein"),
+    Plausibility.UNKNOWN: same(NOTHING),
+}
+_DOUBTS = {
+    Plausibility.DOUBTFUL: Words(
+        en="within its uncertainty of the plausible range", de="nur mit seiner Unsicherheit plausibel"
+    ),
+    Plausibility.IMPLAUSIBLE: Words(en="outside the plausible range", de="außerhalb des plausiblen Bereichs"),
+}
+_WEIGHTED = Words(
+    en="Readings are weighted, for they scatter unequally: a single one by {least} to {largest}",
+    de="Die Messwerte sind gewichtet, denn sie streuen ungleich: ein einzelner um {least} bis {largest}",
+)
+_SCOPE = Words(
+    en="Δ and {axis} in {unit}, {axis} from {first} to {last}; each direction by itself",
+    de="Δ und {axis} in {unit}, {axis} von {first} bis {last}; jede Richtung für sich",
+)
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+_MOVES = Words(
+    en="{effects}: not fixed in position. A table of positions leaves it; it goes away only if the control "
+    "compensates it while the axis moves, or if its cause is removed.",
+    de="{effects}: nicht an die Position gebunden. Eine Positionstabelle lässt das stehen; es verschwindet "
+    "nur, wenn die Steuerung es während der Bewegung kompensiert oder die Ursache beseitigt wird.",
+)
+
+_TOO_FINE = Words(
+    en="{effects}: a wave too short for a table with rows at the targets, which leaves it; rows four to a "
+    "period carry it (zlmreport compensate --from model --step).",
+    de="{effects}: eine Welle, zu kurz für eine Tabelle mit Zeilen an den Zielpositionen, die sie stehen "
+    "lässt; vier Zeilen je Periode tragen sie (zlmreport compensate --from model --step).",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterRow:
+    """A parameter of a fitted model, rounded to what is known."""
+
+    effect: str  #: Identifier of its effect.
+    #: name, notation and description: As jobs name it, as it is printed, and in words.
+    name: str
+    notation: str
+    description: str
+    #: value, uncertainty and unit: As they are printed; no uncertainty of a value given or held.
+    value: str
+    uncertainty: str
+    unit: str
+    number: float  #: The printed value as a number: what a click fixes is what was shown.
+    is_given: bool = False  #: Whether the job states it.
+    at_bound: str = ""  #: The bound at which it is held, ``min`` or ``max``.
+    #: Whether it is one of the values that were tried, and the uncertainty half the interval about it.
+    is_on_grid: bool = False
+    plausibility: Plausibility = Plausibility.UNKNOWN  #: How it lies to what is usual for the effect.
+    expected: str = ""  #: The value that follows from the job, without unit; empty where none does.
+
+    @classmethod
+    def of(cls, estimate: Estimate, design: Design, language: Language) -> ParameterRow:
+        """Return an estimated parameter."""
+        own, is_counted = estimate.parameter, design.time_is_counted
+        unit = unit_of(own.dimension, design.axis.kind, time_is_counted=is_counted)
+        value, half, number = _rounded(estimate.value, estimate.expanded_uncertainty, unit, language)
+        if estimate.is_given or estimate.at_bound:
+            value, half = general_number(unit.from_si(estimate.value), language.decimal_sign), ""
+            number = float(f"{unit.from_si(estimate.value):.6g}")
+        expected = estimate.expected
+        return cls(
+            estimate.effect,
+            own.name,
+            own.notation,
+            own.description.in_language(language),
+            value,
+            half,
+            _READINGS.in_language(language)
+            if is_counted and own.dimension is Dimension.TIME
+            else unit.symbol,
+            number,
+            estimate.is_given,
+            estimate.at_bound,
+            estimate.is_scanned and not estimate.is_given,
+            estimate.plausibility(time_is_counted=is_counted),
+            "" if expected is None else general_number(unit.from_si(expected), language.decimal_sign),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class WaveRows:
+    """A wave by amplitude and phase, which follow from its sine and cosine."""
+
+    amplitude: ParameterRow
+    phase: ParameterRow
+
+
+def parameter_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...]:
+    """Return the parameters of a model, effect by effect."""
+    return tuple(
+        ParameterRow.of(each, fit.design, language)
+        for identifier in fit.model.identifiers
+        for each in fit.estimates
+        if each.effect == identifier
+    )
+
+
+def wave_rows(fit: Fit, language: Language) -> tuple[WaveRows, ...]:
+    """Return the waves of a model; one with a given parameter is left out."""
+    return tuple(_wave(each, fit.design.axis, language) for each in waves(fit))
+
+
+def fit_sections(fitted: Fitted, language: Language) -> tuple[Section, ...]:
+    """Return what is said of a fitted model: ``error``, ``model`` and ``polynomials``."""
+    fit = fitted.fit
+    sections = (
+        Section(
+            "error", ERROR.in_language(language), (error_facts(fitted.error, fit.design.axis, language),)
+        ),
+        Section("model", EFFECTS.in_language(language), (parameters(fit, language),)),
+        Section("polynomials", _EACH_DIRECTION.in_language(language), tuple(_one_way(fit, language))),
+    )
+    return tuple(each for each in sections if each.blocks)
+
+
+def error_facts(error: ErrorNumbers, axis: Axis, language: Language) -> Facts:
+    """Return how far model and readings are apart, root mean square first; what the test tells of it."""
+    values = ((_RMS, error.rms), (_FLOOR, error.noise_rms), (_LEFT_OUT, error.cross_validated_rms))
+    pairs = [
+        (name.in_language(language), with_unit(deviation(value, axis, language), axis.deviation_unit.symbol))
+        for name, value in values
+        if value is not None
+    ]
+    if error.chi2_per_dof is not None:
+        pairs.append(("χ²/ν", significant_words(error.chi2_per_dof).in_language(language)))
+    return Facts(tuple(pairs), ERROR.in_language(language))
+
+
+def equations(fit: Fit, language: Language) -> Formulas:
+    """Return the model: the deviation as a sum of effects."""
+    return Formulas(
+        _SUM.in_language(language),
+        tuple(
+            (Symbol(each.identifier), Symbol(each.equation), each.title.in_language(language))
+            for each in (term.effect for term in fit.model.terms)
+        ),
+    )
+
+
+def parameters(fit: Fit, language: Language) -> Table:
+    """Return the parameters of a model with their expanded uncertainties, waves by amplitude and phase, too.
+
+    Its columns are ``name``, ``symbol``, ``parameter``, ``value``, ``uncertainty``, ``unit``, ``plausible``
+    and ``expected``.
+    """
+    rows = [
+        *parameter_rows(fit, language),
+        *(row for each in wave_rows(fit, language) for row in (each.amplitude, each.phase)),
+    ]
+
+    def say(en: str, de: str) -> str:
+        return Words(en, de).in_language(language)
+
+    columns = (
+        Column(say("Name", "Name"), key="name"),
+        Column(say("Symbol", "Zeichen"), key="symbol"),
+        Column(say("Parameter", "Parameter"), key="parameter"),
+        Column(say("Value", "Wert"), align=Align.RIGHT, key="value"),
+        Column("U", align=Align.RIGHT, key="uncertainty"),
+        Column(say("Unit", "Einheit"), key="unit"),
+        Column(say("Plausible", "Plausibel"), key="plausible"),
+        Column(say("Expected", "Erwartet"), align=Align.RIGHT, key="expected"),
+    )
+    groups = tuple(
+        RowGroup(
+            tuple(_cells(each, language) for each in rows if each.effect == effect.identifier),
+            f"{effect.identifier}: {effect.title.in_language(language)}",
+        )
+        for effect in (term.effect for term in fit.model.terms)
+    )
+    return Table(_PARAMETERS.in_language(language), columns, groups)
+
+
+def _cells(row: ParameterRow, language: Language) -> tuple[Cell, ...]:
+    known = row.uncertainty if not row.is_on_grid else _OF_GRID.given(half_width=row.uncertainty)
+    uncertainty = known if row.uncertainty else _how_it_is_known(row)
+    return (
+        row.name,
+        Symbol(row.notation),
+        row.description,
+        row.value,
+        uncertainty if isinstance(uncertainty, str) else uncertainty.in_language(language),
+        row.unit,
+        _PLAUSIBLE[row.plausibility].in_language(language),
+        "" if row.is_given else row.expected,
+    )
+
+
+def _how_it_is_known(row: ParameterRow) -> Words:
+    return _GIVEN if row.is_given else _HELD.given(bound=row.at_bound)
+
+
+def in_a_sentence(row: ParameterRow, language: Language) -> str:
+    """Return a parameter within a sentence: ``drift 3.1 ± 0.4 µm``."""
+    notes: list[Words | str] = []
+    if row.uncertainty:
+        notes += [_GRID] if row.is_on_grid else []
+        amount = f"{row.value} ± {row.uncertainty} {row.unit}"
+    else:
+        notes.append(_how_it_is_known(row))
+        amount = f"{row.value} {row.unit}"
+    if row.plausibility in _DOUBTS:
+        notes.append(_DOUBTS[row.plausibility])
+    elif row.expected and not row.is_given:
+        notes.append(_EXPECTED.given(value=with_unit(row.expected, row.unit)))
+    said = (each if isinstance(each, str) else each.in_language(language) for each in notes)
+    return " ".join((row.name, amount.rstrip(), *(f"({each})" for each in said)))
+
+
+def _one_way(fit: Fit, language: Language) -> Iterator[Paragraph]:
+    """Yield that readings have unequal weights, and the polynomial of each direction."""
+    axis, (least, largest) = fit.design.axis, fit.noise.span
+    if least < largest:
+        ends = (deviation(least, axis, language), deviation(largest, axis, language))
+        words = _WEIGHTED.given(least=ends[0], largest=with_unit(ends[1], axis.deviation_unit.symbol))
+        yield Paragraph(words.in_language(language))
+    curves = tuple(one_way(fit))
+    for approach, values, _ in curves:
+        powers = [(axis.name, power) for power in range(len(values))]
+        yield Paragraph(f"Δ{approach.arrow} = {polynomial(values.tolist(), powers, language)}")
+    if curves:
+        first, last = (
+            general_number(axis.position_unit.from_si(end), language.decimal_sign) for end in fit.design.span
+        )
+        words = _SCOPE.given(axis=axis.name, unit=axis.position_unit.symbol, first=first, last=last)
+        yield Paragraph(words.in_language(language))
+
+
+def polynomial(
+    coefficients: Sequence[float], powers: Sequence[tuple[str, int]], language: Language = Language.ENGLISH
+) -> str:
+    """Write a polynomial: it needs more digits than each of its terms is known to.
+
+    >>> polynomial([-0.5, 2e-5, -3e-8], [("X", 0), ("X", 1), ("X", 2)])
+    '−0.5 + 2e−5·X − 3e−8·X²'
+    """
+    terms = []
+    for value, (name, power) in zip(coefficients, powers, strict=True):
+        number = f"{abs(value):.5g}".replace("e-0", "e-").replace("-", MINUS)
+        number = number.replace(".", language.decimal_sign)
+        factor = f"·{name}{str(power).translate(_RAISED) if power > 1 else ''}" if power else ""
+        terms.append(f"{MINUS if value < 0 else '+'} {number}{factor}")
+    first, *others = terms
+    return " ".join([first.removeprefix("+ ").replace(f"{MINUS} ", MINUS), *others])
+
+
+def deviation(value: float | None, axis: Axis, language: Language) -> str:
+    """Write a deviation (m or rad) with three significant digits, without its unit."""
+    if value is None or not math.isfinite(value):
+        return NOTHING
+    return significant_words(axis.deviation_unit.from_si(value)).in_language(language)
+
+
+def no_table_takes_away(fit: Fit, language: Language) -> str:
+    """Return the sentences on effects that no table of positions takes away; empty if there are none."""
+    named = (
+        (_MOVES, moves_with_time(fit)),
+        (_TOO_FINE, too_fine(waves_of(fit), fit.design.target_positions)),
+    )
+    said = (words.given(effects=", ".join(effects)) for words, effects in named if effects)
+    return " ".join(words.in_language(language) for words in said)
+
+
+def _wave(wave: Wave, axis: Axis, language: Language) -> WaveRows:
+    harmonic, k = wave.harmonic, wave.coverage_factor
+
+    def row(
+        name: str, letter: str, words: Words, rounded: tuple[str, str, float], unit: Unit
+    ) -> ParameterRow:
+        value, half, number = rounded
+        return ParameterRow(
+            effect=wave.effect,
+            name=name if harmonic.order == 1 else f"{name} {harmonic.order}",
+            notation=f"{letter}_{{{harmonic.order}}}",
+            description=words.given(order=harmonic.order).in_language(language),
+            value=value,
+            uncertainty=half,
+            unit=unit.symbol,
+            number=number,
+        )
+
+    unit = axis.deviation_unit
+    amplitude = _rounded(harmonic.amplitude, k * harmonic.amplitude_uncertainty, unit, language)
+    phase = _rounded(harmonic.phase, k * harmonic.phase_uncertainty, DEGREE, language)
+    return WaveRows(
+        row("amplitude", "A", _AMPLITUDE, amplitude, unit), row("phase", "φ", _PHASE, phase, DEGREE)
+    )
+
+
+def _rounded(value: float, expanded: float, unit: Unit, language: Language) -> tuple[str, str, float]:
+    """Write a value and its uncertainty (SI), and return the written value as a number too."""
+    sign = language.decimal_sign
+    printed, half = rounded_pair(unit.from_si(value), unit.from_si(expanded), sign)
+    return printed, half, float(printed.replace(MINUS, "-").replace(sign, "."))

@@ -1,0 +1,166 @@
+"""How the error falls, effect by effect, and what a standard would say if a control corrected the effects."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from zlmreport.document.blocks import Align, Column, ColumnKind, Paragraph, RowGroup, Section, Symbol, Table
+from zlmreport.document.subjects.fit import deviation, no_table_takes_away
+from zlmreport.document.writer import NOTHING, Writer
+from zlmreport.evaluation.evaluation import Group, Quantity
+from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.language import Words
+from zlmreport.language.numbers import significant_words
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.model.compensation.basis import FittedModel, compensated
+from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
+from zlmreport.model.diagnosis.study import Fitted, Study, corrected
+
+if TYPE_CHECKING:
+    from zlmreport.evaluation.evaluate import EvaluatingStandard
+    from zlmreport.measurement.units import Unit
+
+#: Title of the fall of the error.
+FALL = Words(en="How the error falls", de="Wie die Abweichung sinkt")
+_EFFECT = Words(en="Effect", de="Einfluss")
+_FALL = Words(
+    en="How the error falls, effect by effect; the parameters of {designation} are predicted for an "
+    "axis whose control corrects all effects down to the row",
+    de="Wie die Abweichung sinkt, Einfluss für Einfluss; die Kenngrößen nach {designation} sind für "
+    "eine Achse vorhergesagt, deren Steuerung alle Einflüsse bis zu dieser Zeile korrigiert",
+)
+_WITHOUT = Words(en="without model", de="ohne Modell")
+_FLOOR = Words(en="noise floor", de="Grundrauschen")
+_LEFT = Words(
+    en="Predicted errors after compensation, from the readings of this document",
+    de="Was eine Kompensation übrig ließe, vorhergesagt aus den Messwerten dieses Dokuments",
+)
+_ORDER = (Group.COMPOSITE, Group.SYSTEMATIC, Group.RANDOM)
+
+
+@dataclass(frozen=True, slots=True)
+class StandardForecast:
+    """The leading parameters of a standard, predicted for a corrected axis."""
+
+    #: standard and designation: Identifier and as printed.
+    standard: str
+    designation: str
+    unit: Unit  #: In which deviations are printed.
+    quantities: tuple[Quantity, ...]  #: The first parameter of each group: composite, systematic, random.
+    #: (steps, quantities): After each step of the model's history, m or rad; the first row is of the readings
+    #: as they are. NaN for what the test does not define.
+    by_step: FloatArray
+    by_table: FloatArray  #: (quantities,): With a table of the model, its rows at the targets, m or rad.
+
+
+def forecasts(
+    standards: Iterable[tuple[EvaluatingStandard, Any]], study: Study, history: Sequence[Fitted]
+) -> tuple[StandardForecast, ...]:
+    """Return the forecast by each standard."""
+    tests = [corrected(study.measurements, study.observed, each.fit) for each in history]
+    tests.append(compensated(FittedModel(study.measurements, study.observed, history[-1].fit)))
+    statistics = position_statistics(
+        np.stack([test.deviations() for test in tests]), study.measurements.target_positions
+    )
+    found = []
+    for standard, options in standards:
+        values = standard.arithmetic(statistics, options).parameters
+        quantities = _leading(standard.quantities)
+        table = np.stack([values[quantity.symbol] for quantity in quantities], axis=1)
+        found.append(
+            StandardForecast(
+                standard.identifier,
+                standard.designation,
+                study.measurements.axis.deviation_unit,
+                quantities,
+                read_only_floats(table[:-1]),
+                read_only_floats(table[-1]),
+            )
+        )
+    return tuple(found)
+
+
+def _leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
+    """Return the first quantity of each group."""
+    first: dict[Group, Quantity] = {}
+    for quantity in quantities:
+        first.setdefault(quantity.group, quantity)
+    return tuple(first[group] for group in _ORDER if group in first)
+
+
+def fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) -> Section:
+    """Return how the error fell, effect by effect, and what a standard would say after each.
+
+    Its table has the columns ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``,
+    ``cross_validated`` and one for each quantity, by its symbol.
+    """
+    say, language, whole = writer.say, writer.language, history[-1]
+    axis, unit = whole.fit.design.axis, writer.deviation_unit.symbol
+    largest = max(each.error.rms for each in history) or 1.0
+
+    def errors(error: ErrorNumbers) -> tuple[str, ...]:
+        chi2 = error.chi2_per_dof
+        return (
+            _share(error.rms, largest),
+            deviation(error.rms, axis, language),
+            NOTHING if chi2 is None else say(significant_words(chi2)),
+            deviation(error.cross_validated_rms, axis, language),
+        )
+
+    columns = (
+        Column(say(_EFFECT), key="effect"),
+        Column("", "%", Align.LEFT, "share", ColumnKind.BARS),
+        Column(say(Words(en="RMS error", de="Quadr. Mittel")), unit, Align.RIGHT, "rms"),
+        Column("χ²/ν", "", Align.RIGHT, "chi2"),
+        Column(say(Words(en="Cross-validated", de="Kreuzvalidiert")), unit, Align.RIGHT, "cross_validated"),
+        *(Column(Symbol(each.notation), unit, Align.RIGHT, each.symbol) for each in forecast.quantities),
+    )
+    names = [say(_WITHOUT), *(f"+ {name}" for name in whole.fit.model.identifiers)]
+    rows = [
+        (name, *errors(each.error), *map(writer.deviation, values))
+        for name, each, values in zip(names, history, forecast.by_step.tolist(), strict=True)
+    ]
+    floor = whole.error.noise_rms
+    if floor is not None:
+        blank = ("",) * (2 + len(forecast.quantities))
+        rows.append((say(_FLOOR), _share(floor, largest), deviation(floor, axis, language), *blank))
+    caption = say(_FALL.given(designation=forecast.designation))
+    left = no_table_takes_away(whole.fit, language)
+    return Section(
+        "fall",
+        say(FALL),
+        (Table(caption, columns, (RowGroup(tuple(rows)),)), *([Paragraph(left)] if left else [])),
+    )
+
+
+def _share(value: float, largest: float) -> str:
+    return f"{min(100.0, 100.0 * value / largest):.1f}"
+
+
+def left_after_compensation(forecasts: Sequence[StandardForecast], writer: Writer) -> Table:
+    """Return what a compensation would leave of the leading parameters of each standard."""
+    say, unit = writer.say, writer.deviation_unit.symbol
+    columns = (
+        Column(say(Words(en="Symbol", de="Zeichen"))),
+        Column(say(Words(en="Parameter", de="Kenngröße"))),
+        Column(say(Words(en="Measured", de="Gemessen")), unit, Align.RIGHT),
+        Column(say(Words(en="Table of positions", de="Positionstabelle")), unit, Align.RIGHT),
+        Column(say(Words(en="Whole model", de="Ganzes Modell")), unit, Align.RIGHT),
+    )
+    groups = tuple(
+        RowGroup(
+            tuple(
+                (Symbol(quantity.notation), say(quantity.name), *map(writer.deviation, map(float, values)))
+                for quantity, *values in zip(
+                    each.quantities, each.by_step[0], each.by_table, each.by_step[-1], strict=True
+                )
+            ),
+            each.designation,
+        )
+        for each in forecasts
+    )
+    return Table(say(_LEFT), columns, groups)

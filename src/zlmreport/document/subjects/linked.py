@@ -1,0 +1,217 @@
+"""The readings beside the model as values, one by one, for documents in which they can be pointed at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from zlmreport.document.certificate.document import Linked
+from zlmreport.document.figures.model_diagram import SPREAD, ModelDiagram, estimate
+from zlmreport.document.figures.model_residuals import over_position
+from zlmreport.document.subjects.diagnosis import FAILURES, FailureRow, failure_row
+from zlmreport.language import Language, Words, same
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
+from zlmreport.model.diagnosis.study import Fitted, Study, corrected
+from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.curve import shows_reach_only
+
+if TYPE_CHECKING:
+    from zlmreport.measurement.arrays import FloatArray
+    from zlmreport.model.diagnosis.diagnosis import Diagnosis
+
+_MINUTE = 60.0
+_LONG = 600.0
+#: Decimals of values that are drawn: finer than any screen.
+_DECIMALS = 6
+
+_POSITION = Words(en="Position", de="Position")
+_TIME = Words(en="Time", de="Zeit")
+_COUNTED = Words(en="Number of the reading", de="Nummer des Messwerts")
+_RUN = Words(en="Run", de="Durchlauf")
+_DIRECTION = Words(en="Direction", de="Richtung")
+_DEVIATION = Words(en="Deviation", de="Abweichung")
+_RESIDUAL = Words(en="Residual", de="Residuum")
+#: What the graphs say, on the workbench's page and in a certificate.
+GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
+    {
+        "measured": Words(en="Measured against the model", de="Messung gegen Modell"),
+        "residuals": Words(en="Residuals", de="Residuen"),
+        "over": Words(en="over", de="über"),
+        "failures": FAILURES,
+        "noFailures": Words(
+            en="No test of the residuals fails.", de="Keine Prüfung der Residuen schlägt an."
+        ),
+        "show": Words(en="Show the readings", de="Messwerte zeigen"),
+        "reset": Words(en="Whole axis", de="Ganze Achse"),
+        "point": Words(
+            en="Point at a reading, or go from one to the next with the arrow keys.",
+            de="Zeigen Sie auf einen Messwert, oder gehen Sie mit den Pfeiltasten von einem zum nächsten.",
+        ),
+        "target": Words(en="Target", de="Sollposition"),
+        "run": _RUN,
+        "deviation": _DEVIATION,
+        "modelValue": Words(en="Model", de="Modell"),
+        "residual": _RESIDUAL,
+        "flagged": Words(en="stands off; not fitted", de="steht ab; nicht angepasst"),
+        "upwards": Words(en="upwards ↑", de="aufwärts ↑"),
+        "downwards": Words(en="downwards ↓", de="abwärts ↓"),
+        "modelUp": Words(en="model ↑ with U", de="Modell ↑ mit U"),
+        "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
+        "reach": Words(
+            en="The waves are too short to be parted on this length: the line shows how far they reach.",
+            de="Die Wellen sind zu kurz, um auf dieser Länge einzeln sichtbar zu sein: Die Linie zeigt, "
+            "wie weit sie reichen.",
+        ),
+        "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
+        "zoom": Words(
+            en="Drag to look closer, with Shift to move; double-click for the whole axis.",
+            de="Ziehen vergrößert, mit Umschalt verschiebt es; Doppelklick zeigt wieder die ganze Achse.",
+        ),
+        "direction": _DIRECTION,
+        "colour": Words(en="coloured by", de="Farbe nach"),
+        "mode": Words(en="What dragging does", de="Was Ziehen bewirkt"),
+        "modeZoom": Words(en="Look closer", de="Vergrößern"),
+        "modeMove": Words(en="Move", de="Verschieben"),
+        "modeSelect": Words(en="Choose readings", de="Messwerte wählen"),
+        "save": Words(en="Save …", de="Sichern …"),
+        "inSight": Words(en="Readings in sight", de="Sichtbare Messwerte"),
+        "asTable": Words(en="The readings in sight as a table", de="Die sichtbaren Messwerte als Tabelle"),
+        "more": Words(
+            en="{count} more: look closer to see them.", de="{count} weitere: zum Ansehen vergrößern."
+        ),
+        "chosen": Words(en="{count} readings chosen", de="{count} Messwerte gewählt"),
+        "slope": Words(en="Slope of its pass", de="Steigung des Durchgangs"),
+    }
+)
+_IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
+
+
+def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, language: Language) -> Linked:
+    """Return the linked graphs of a studied model.
+
+    `study`: The readings, none set aside.
+    """
+    return Linked(
+        section,
+        {name: words.in_language(language) for name, words in GRAPH_TEXTS.items()},
+        graphs(study, whole, language),
+        tuple(failure_values(failure_row(each, language), diagnosis, study) for each in diagnosis.failures),
+    )
+
+
+def failure_values(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[str, Any]:
+    """Return a failure: what is said of it, and the axis and the readings that show it."""
+    failure = row.failure
+    axis = failure.condition or "position"
+    if failure.test is ResidualTest.RUNS:
+        axis = "run"
+    elif failure.test in _IN_TIME:
+        axis = "time"
+    return {
+        "statement": row.statement,
+        "where": row.where,
+        "p": row.p,
+        "axis": axis,
+        "readings": _readings(failure, diagnosis, study),
+    }
+
+
+def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
+    """Return what both graphs draw, in the units of the page.
+
+    `study`: The readings, none set aside.
+    """
+    observed, axis = study.observed, study.job.axis
+    design = observed.design
+    diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
+    left = corrected(study.measurements, observed, whole.fit).deviation[observed.reading]
+    aside = outliers(study.together.design, study.together.deviation).readings
+    fitted = np.ones(len(observed.reading), dtype=np.bool_)
+    fitted[aside[aside < len(fitted)]] = False  # the job's own readings stand first
+    unit = axis.deviation_unit
+    return {
+        "axes": list(_axes(study, language)),
+        "unit": unit.symbol,
+        "deviation": _DEVIATION.in_language(language),
+        "residual": _RESIDUAL.in_language(language),
+        "readings": {
+            "place": observed.reading.tolist(),
+            "direction": np.where(design.direction > 0, 1, -1).tolist(),
+            "run": design.run.tolist(),
+            "deviation": drawn_values(unit.from_si(observed.deviation)),
+            "residual": drawn_values(unit.from_si(left)),
+            "fitted": fitted.tolist(),
+        },
+        "model": model_curves(diagram),
+        "noise": unit.from_si(SPREAD * diagram.noise),
+        "alternative": over_position(diagram).alternative.in_language(language),
+    }
+
+
+def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
+    """Return the model with its U for each direction; nothing for a model of no effect."""
+    if not diagram.fit.model.terms:
+        return []
+    (panel,) = estimate(diagram).panels
+    reaches = shows_reach_only(diagram.fit, diagram.span)
+    return [
+        {
+            "direction": int(approach),
+            "x": drawn_values(curve.x),
+            "y": drawn_values(curve.y),
+            "low": drawn_values(band.lower),
+            "high": drawn_values(band.upper),
+            "reach": reaches,
+        }
+        for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True)
+    ]
+
+
+def _axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
+    """Yield everything over which readings can be laid out; the first is the position."""
+    design, axis = study.observed.design, study.job.axis
+    yield _axis(
+        "position",
+        _POSITION.in_language(language),
+        axis.position_unit.symbol,
+        axis.position_unit.from_si(design.position),
+    )
+    if design.time_is_counted:
+        yield _axis("time", _COUNTED.in_language(language), "", 1.0 + design.time)
+    else:
+        in_minutes = design.duration > _LONG
+        values = design.time / _MINUTE if in_minutes else design.time
+        yield _axis("time", _TIME.in_language(language), "min" if in_minutes else "s", values)
+    yield _axis("run", _RUN.in_language(language), "", design.run.astype(np.float64))
+    if design.is_bidirectional:
+        yield _axis("direction", _DIRECTION.in_language(language), "", design.direction)
+    for name, log in study.measurements.conditions.items():
+        at = log[study.observed.reading]
+        if np.isnan(at).all():
+            continue
+        title, unit = CONDITION_NAMES.get(name, same(name)), ""
+        if name in CONDITIONS:
+            scale = CONDITIONS[name].unit
+            at, unit = scale.from_si(at), scale.symbol
+        yield _axis(name, title.in_language(language), unit, at)
+
+
+def _axis(key: str, title: str, unit: str, values: FloatArray) -> dict[str, Any]:
+    return {"key": key, "title": title, "unit": unit, "values": drawn_values(values)}
+
+
+def drawn_values(values: FloatArray) -> list[float | None]:
+    """Return values in the units of the page as JSON has them: NaN, which it has not, is nothing."""
+    return [None if value != value else value for value in np.round(values, _DECIMALS).tolist()]  # noqa: PLR0124 - NaN is what differs from itself
+
+
+def _readings(failure: Failure, diagnosis: Diagnosis, study: Study) -> list[int]:
+    """Return the places of the readings that show a failure, in the measurement set; none where all do."""
+    if failure.test is ResidualTest.OUTLIERS:
+        return [int(each) for each in diagnosis.outliers]
+    kept = study.observed.reading[~np.isin(study.observed.reading, diagnosis.outliers)]
+    return [int(each) for each in kept[failure.readings[failure.readings < len(kept)]]]

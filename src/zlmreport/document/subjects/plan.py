@@ -1,0 +1,325 @@
+"""A test before it is done, as people read it: targets, sequence, what it will see, and what it hides."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from zlmreport.document.blocks import (
+    Align,
+    Block,
+    Column,
+    Facts,
+    Mark,
+    Notice,
+    Paragraph,
+    RowGroup,
+    Section,
+    Table,
+)
+from zlmreport.evaluation.checks import position_in_words
+from zlmreport.job.job import Job
+from zlmreport.language import Language, Words
+from zlmreport.language.formatting import fixed_number, general_number, percentage
+from zlmreport.language.numbers import significant_words
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.effect import Shape, unit_of
+from zlmreport.model.planning.methods import Method, Visit
+from zlmreport.model.planning.plan import ASSUMPTION
+from zlmreport.model.planning.planned_test import PlannedTest
+from zlmreport.model.planning.targets import in_users_unit
+from zlmreport.model.planning.visibility import Remedy, SeenEffect, Sight
+
+_MINUTE = 60.0
+_MOST_STRETCHES = 6
+_COUNT = Words(
+    en="{targets} targets, {readings} readings", de="{targets} Sollpositionen, {readings} Messwerte"
+)
+_TARGETS = Words(en="Targets", de="Sollpositionen")
+_FRACTIONS = Words(
+    en="In {unit}, at random fractions, seed {seed}",
+    de="In {unit}, an zufälligen Bruchteilen, Startwert {seed}",
+)
+_NO_FRACTIONS = Words(en="In {unit}, at no random fractions", de="In {unit}, ohne zufällige Bruchteile")
+_HALF_SEEN = Words(
+    en="check: all targets lie at two phases of {period}: of what repeats with it, a part stays hidden that "
+    "no share below counts; choose targets with a random fraction",
+    de="prüfen: alle Sollpositionen liegen an zwei Phasen von {period}: von dem, was sich damit wiederholt, "
+    "bleibt ein Teil verborgen, den kein Anteil unten zählt; wählen Sie zufällige Bruchteile",
+)
+_VISITS = Words(en="Visits", de="Anfahrten")
+_METHOD = Words(en="{method} method{assumed}", de="Verfahren {method}{assumed}")
+_ASSUMED = Words(en=" (assumed)", de=" (angenommen)")
+_SEQUENCES = {
+    Method.LINEAR: Words(
+        en="over all targets upwards, then over all of them downwards: {runs}",
+        de="über alle Sollpositionen aufwärts, dann über alle abwärts: {runs}",
+    ),
+    Method.UNIDIRECTIONAL: Words(
+        en="over all targets upwards, and back without a reading: {runs}",
+        de="über alle Sollpositionen aufwärts und ohne Messwert zurück: {runs}",
+    ),
+    Method.PENDULUM: Words(
+        en="each target from below and from above in turn, {runs}, before the next",
+        de="jede Sollposition abwechselnd von unten und von oben, {runs}, vor der nächsten",
+    ),
+    Method.QUASI_PILGRIM: Words(
+        en="to and fro between neighbours, the next upwards and this one downwards: {runs}",
+        de="zwischen Nachbarn hin und her, die nächste aufwärts und diese abwärts: {runs}",
+    ),
+}
+_ONCE, _TIMES = Words(en="once", de="einmal"), Words(en="{runs} times", de="{runs}-mal")
+_MOTION = Words(
+    en="the axis turns round {overrun} beyond; {feed} {unit}/min{is_feed}, {dwell} s at rest{is_dwell}",
+    de="die Achse kehrt {overrun} dahinter um; {feed} {unit}/min{is_feed}, {dwell} s Ruhe{is_dwell}",
+)
+_TRAVELLED = Words(en="{way} of travel, about {minutes} min", de="{way} Weg, etwa {minutes} min")
+_BEYOND = Words(
+    en="check: it turns round at {low} and {high}; the travel is {first} to {last}",
+    de="prüfen: sie kehrt bei {low} und {high} um; der Verfahrweg ist {first} bis {last}",
+)
+_ASKED = Words(en="What the standards ask", de="Was die Normen verlangen")
+_MET = Words(en="met: {standard}", de="erfüllt: {standard}")
+_NOT_MET = Words(
+    en="not met: {standard}: {requirement}: {found}", de="nicht erfüllt: {standard}: {requirement}: {found}"
+)
+_SEEN = Words(
+    en="What this plan can see beside {model}{assumed}",
+    de="Was dieser Plan neben {model}{assumed} sehen kann",
+)
+_NO_EFFECT = Words(en="nothing", de="nichts")
+_LOG_NEEDED = Words(en="needs a log", de="braucht eine Aufzeichnung")
+_IF = Words(
+    en="if single readings scatter by {scatter} (standard deviation{assumed}), and {rise}",
+    de="wenn einzelne Messwerte um {scatter} streuen (Standardabweichung{assumed}), und {rise}",
+)
+_SCATTER_ASSUMED = Words(en=", assumed", de=", angenommen")
+_HIDDEN = Words(en="What it cannot see", de="Was er nicht sehen kann")
+_SHARE = Words(en="{share} % visible", de="{share} % sichtbar")
+_THEN = Words(en="{shares}, then {share} %", de="{shares}, dann {share} %")
+_HARDLY = Words(
+    en="{shares}; found only from {size}, hardly plausible",
+    de="{shares}; erst ab {size} gefunden, kaum plausibel",
+)
+_NO_REMEDY = Words(
+    en="no other targets or sequence that were tried would show",
+    de="keine anderen Sollpositionen oder Reihenfolge, die geprüft wurden, würden zeigen",
+)
+_REMEDY = Words(en="{reason}; {advice}", de="{reason}; {advice}")
+_NEEDS_LOG = Words(
+    en="cannot be tried without the logged column {columns}",
+    de="ohne die aufgezeichnete Spalte {columns} nicht prüfbar",
+)
+_UNTRIED = Words(en="cannot be tried", de="nicht prüfbar")
+_LOGS = Words(en="What to log beside the readings", de="Was neben den Messwerten aufzuzeichnen ist")
+_TIME = Words(
+    en="time: else the number of the reading stands for it ({effects})",
+    de="time: sonst steht die Nummer des Messwerts dafür ({effects})",
+)
+_TO_TELL = Words(
+    en="{columns}: to be able to tell {effects}", de="{columns}: um {effects} unterscheiden zu können"
+)
+_PARAMETER = Words(en="{name} {size}{unit}", de="{name} {size}{unit}")
+_RMS = Words(en="{size} rms", de="{size} quadratisches Mittel")
+
+
+def size_of_plan(planned: PlannedTest) -> Words:
+    """Return how many targets and readings a plan has."""
+    return _COUNT.given(targets=len(planned.proposal.plan.targets), readings=len(planned.visits))
+
+
+def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[Section, ...]:
+    """Return what is said of a plan: ``targets``, ``visits``, ``asked``, ``seen``, ``hidden``, ``logs``."""
+    said = _Plan(job, planned, language)
+    model = " + ".join(planned.model.identifiers) or said.say(_NO_EFFECT)
+    sections = (
+        Section("targets", said.say(_TARGETS), tuple(said.targets())),
+        Section("visits", said.say(_VISITS), tuple(said.visits())),
+        Section("asked", said.say(_ASKED), tuple(said.requirements())),
+        Section(
+            "seen",
+            said.say(_SEEN.given(model=model, assumed=said.assumed("model.effects"))),
+            tuple(said.seen()),
+        ),
+        Section("hidden", said.say(_HIDDEN), tuple(said.hidden())),
+        Section("logs", said.say(_LOGS), tuple(said.logs())),
+    )
+    return tuple(each for each in sections if each.blocks)
+
+
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """Says what there is to say of a plan in one language."""
+
+    job: Job
+    planned: PlannedTest
+    language: Language
+
+    @property
+    def axis(self) -> Axis:
+        return self.job.axis
+
+    def say(self, words: Words) -> str:
+        return words.in_language(self.language)
+
+    def assumed(self, key: str) -> Words | str:
+        """Return the words behind a value that the job does not state."""
+        return _ASSUMED if key in self.planned.proposal.assumed else ""
+
+    def number(self, value: float) -> str:
+        return general_number(value, self.language.decimal_sign)
+
+    def targets(self) -> Iterator[Block]:
+        proposal, unit = self.planned.proposal, self.axis.position_unit.symbol
+        how = _FRACTIONS if proposal.has_fractions else _NO_FRACTIONS
+        yield Paragraph(self.say(how.given(unit=unit, seed=proposal.seed)))
+        targets = in_users_unit(self.axis, proposal.plan.targets)
+        decimals = max(len(f"{target:.9f}".rstrip("0").partition(".")[2]) for target in targets)
+        texts = (fixed_number(each, decimals, self.language.decimal_sign) for each in targets)
+        yield Facts(tuple((str(number), text) for number, text in enumerate(texts, start=1)))
+        for period in self.planned.half_seen:
+            yield Paragraph(self.say(_HALF_SEEN.given(period=period)), Mark.OPEN)
+
+    def visits(self) -> Iterator[Block]:
+        planned, plan = self.planned, self.planned.proposal.plan
+        unit = self.axis.position_unit
+        runs = _ONCE if plan.runs == 1 else _TIMES.given(runs=plan.runs)
+        stretches = list(_stretches(planned.visits))
+        shown = "  ".join(stretches[:_MOST_STRETCHES])
+        method = _METHOD.given(method=plan.method.value, assumed=self.assumed("measurement.method"))
+        yield Paragraph(self.say(method))
+        yield Paragraph(self.say(_SEQUENCES[plan.method].given(runs=runs)))
+        yield Paragraph(f"{shown}  …" if len(stretches) > _MOST_STRETCHES else shown)
+        motion = _MOTION.given(
+            overrun=position_in_words(self.axis, plan.overrun),
+            feed=self.number(unit.from_si(plan.feed) * _MINUTE),
+            unit=unit.symbol,
+            is_feed=self.assumed("measurement.feed"),
+            dwell=self.number(plan.dwell),
+            is_dwell=self.assumed("measurement.dwell"),
+        )
+        yield Paragraph(self.say(motion))
+        way = position_in_words(self.axis, round(planned.travelled, 3))
+        minutes = max(1, round(planned.duration / _MINUTE))
+        yield Paragraph(self.say(_TRAVELLED.given(way=way, minutes=minutes)))
+        if self.axis.travel is not None and planned.beyond_travel is not None:
+            names = ("low", "high", "first", "last")
+            ends = (position_in_words(self.axis, end) for end in (*planned.beyond_travel, *self.axis.travel))
+            yield Paragraph(self.say(_BEYOND.given(**dict(zip(names, ends, strict=True)))), Mark.OPEN)
+
+    def requirements(self) -> Iterator[Block]:
+        for standard, findings in self.planned.findings.items():
+            unmet = [each for each in findings if each.met is False]
+            if not unmet:
+                yield Paragraph(self.say(_MET.given(standard=standard)), Mark.MET)
+            for each in unmet:
+                words = _NOT_MET.given(standard=standard, requirement=each.requirement, found=each.found)
+                yield Paragraph(self.say(words), Mark.NOT_MET)
+
+    def seen(self) -> Iterator[Block]:
+        rows = tuple(
+            (
+                each.effect.identifier,
+                self.percent(each.visibility.share),
+                self.say(self.smallest(each)),
+                self.say(_LOG_NEEDED) if each.logs else "",
+            )
+            for each in self.planned.seen_effects
+            if each.sight is Sight.VISIBLE
+        )
+        columns = (
+            Column(""),
+            Column(self.say(Words(en="visible", de="sichtbar")), "%", Align.RIGHT),
+            Column(self.say(Words(en="found half of the time from", de="in der Hälfte gefunden ab"))),
+            Column(""),
+        )
+        yield Table("", columns, (RowGroup(rows),))
+        expected, assumed = self.planned.proposal.expected, self.planned.proposal.assumed
+        words = _IF.given(
+            scatter=wording.deviation(self.axis, expected.sigma),
+            assumed=_SCATTER_ASSUMED if "plan.repeatability" in assumed else "",
+            rise=ASSUMPTION.given(rise=expected.temperature_change),
+        )
+        yield Paragraph(self.say(words))
+
+    def hidden(self) -> Iterator[Block]:
+        """Yield what the plan hides, by what to do about it, and what cannot be tried, by what it needs."""
+        blurred: dict[str, list[str]] = {}
+        untestable: dict[str, list[str]] = {}
+        for each in self.planned.seen_effects:
+            name = each.effect.identifier
+            if each.sight is Sight.NOT_TESTABLE:
+                untestable.setdefault(self.say(self.untestable(each)), []).append(name)
+            elif each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}:
+                remedy = self.planned.remedies.get(name)
+                item = f"{name}: {self.say(self.blurred(each, remedy))}"
+                blurred.setdefault(self.say(_what_to_do(remedy)), []).append(item)
+        yield from (Notice(text, tuple(items)) for text, items in blurred.items())
+        yield from (Paragraph(f"{', '.join(names)}: {text}") for text, names in untestable.items())
+
+    def blurred(self, seen: SeenEffect, remedy: Remedy | None) -> Words:
+        """Return what is visible of an effect, and what would be."""
+        words = _SHARE.given(share=self.percent(seen.visibility.share))
+        if remedy and remedy.share is not None:
+            words = _THEN.given(shares=words, share=self.percent(remedy.share))
+        if seen.sight is Sight.TOO_SMALL:
+            words = _HARDLY.given(shares=words, size=self.smallest(seen))
+        return words
+
+    def untestable(self, seen: SeenEffect) -> Words:
+        unexpected = [column for column in seen.logs if column not in self.planned.design.conditions]
+        if unexpected:
+            return _NEEDS_LOG.given(columns=", ".join(unexpected))
+        return seen.visibility.reason or _UNTRIED
+
+    def logs(self) -> Iterator[Block]:
+        timed = [
+            each.effect.identifier
+            for each in self.planned.seen_effects
+            if each.effect.shape is Shape.TIME and each.sight is not Sight.OTHER_AXIS and not each.logs
+        ]
+        by_effects: dict[str, list[str]] = {}
+        for column, identifiers in self.planned.logs.items():
+            by_effects.setdefault(", ".join(identifiers), []).append(column)
+        if timed:
+            yield Paragraph(self.say(_TIME.given(effects=", ".join(timed))))
+        for effects, columns in by_effects.items():
+            yield Paragraph(self.say(_TO_TELL.given(columns=", ".join(columns), effects=effects)))
+
+    def smallest(self, found: SeenEffect) -> Words:
+        """Return the smallest effect that is found half of the time: by its parameter, or by what it does."""
+        seen = found.visibility
+        if seen.smallest is None:
+            return _RMS.given(size=wording.deviation(self.axis, seen.smallest_rms))
+        parameter, value = seen.smallest
+        unit = unit_of(parameter.dimension, self.axis.kind)
+        size = significant_words(value * unit.per_si, 2)
+        return _PARAMETER.given(name=parameter.name, size=size, unit=f" {unit.symbol}".rstrip())
+
+    def percent(self, share: float) -> str:
+        return percentage(share, self.language.decimal_sign)
+
+
+def _what_to_do(remedy: Remedy | None) -> Words:
+    if remedy is None:
+        return _NO_REMEDY
+    return _REMEDY.given(reason=remedy.reason, advice=remedy.advice) if remedy.reason else remedy.advice
+
+
+def _stretches(visits: Sequence[Visit]) -> Iterator[str]:
+    """Yield visits in their order; those that go on in one direction from target to target as one."""
+    start = 0
+    for index in range(1, len(visits) + 1):
+        if index < len(visits) and _goes_on(visits[index - 1], visits[index]):
+            continue
+        first, last = visits[start], visits[index - 1]
+        arrow = first.approach.arrow
+        whole = f"{first.target + 1}{arrow}"
+        yield whole if first is last else f"{whole} … {last.target + 1}{arrow}"
+        start = index
+
+
+def _goes_on(one: Visit, other: Visit) -> bool:
+    step = other.target - one.target
+    return one.run == other.run and one.approach is other.approach and step == int(one.approach)

@@ -1,0 +1,287 @@
+"""What each template is given, one dataclass a template (a test compares the two), and the Jinja environment.
+
+It is sandboxed, every value is escaped, and a missing one is an error.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from dataclasses import dataclass, fields
+from functools import lru_cache
+from typing import ClassVar, TypeAlias
+from xml.etree import ElementTree as ET
+
+from jinja2 import (
+    ChoiceLoader,
+    DictLoader,
+    PackageLoader,
+    PrefixLoader,
+    StrictUndefined,
+    TemplateError,
+)
+from jinja2.sandbox import ImmutableSandboxedEnvironment
+from markupsafe import Markup
+
+from zlmreport.document.blocks import Facts, Notice
+from zlmreport.document.certificate.document import Certificate, Letterhead
+from zlmreport.document.typesetting.overview import (
+    OverviewContext,
+    OverviewLegendContext,
+    OverviewMachinesContext,
+    OverviewSectionContext,
+    OverviewTableContext,
+    OverviewToolsContext,
+    OverviewTrendContext,
+)
+from zlmreport.document.typesetting.resources import PACKAGE
+from zlmreport.errors import InputError, Place
+from zlmreport.language.formatting import Span, held, spans
+
+
+@dataclass(frozen=True, slots=True)
+class CellContext:
+    """A table's cell or heading."""
+
+    content: str  #: Text, or a symbol that is set already.
+    style: str  #: Class names: alignment, distance from the decimal sign, shape of a verdict.
+    unit: str = ""  #: Below a heading; empty elsewhere.
+    note: str = ""  #: Below the content, in small type; empty for most.
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolContext:
+    """A symbol or formula, each stretch with its way of being set."""
+
+    template: ClassVar[str] = "symbol.html"
+    spans: tuple[Span, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RowGroupContext:
+    """Rows under a heading of their own, which may lead to a section; no heading for plain rows."""
+
+    heading: str
+    note: str
+    section: str
+    rows: tuple[tuple[CellContext, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TableContext:
+    """A table."""
+
+    template: ClassVar[str] = "table.html"
+    label: str  #: ``Table 2``.
+    caption: str  #: What it shows.
+    size: str  #: Class name of its type size.
+    whole: bool  #: Whether it is short enough to stay on one page.
+    in_fives: bool  #: Whether its rows are read in fives.
+    widths: tuple[str, ...]  #: Of the columns, in per cent of the page's.
+    headings: tuple[CellContext, ...]  #: One for each column.
+    groups: tuple[RowGroupContext, ...]  #: The rows.
+    page: str  #: Word before the number of a page that the table refers to.
+    is_for_screens: bool = False  #: Whether keys can scroll it.
+    #: What stands above each column, for a screen on which the cells of a row stand below each other; empty
+    #: where they never do.
+    labels: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FormulasContext:
+    """Definitions: symbol and formula, set already, and name of each; the rest as in a table."""
+
+    template: ClassVar[str] = "formulas.html"
+    label: str
+    caption: str
+    whole: bool
+    widths: tuple[str, ...]
+    rows: tuple[tuple[Markup, Markup, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FactsContext:
+    """Groups of names and values, in one column or two."""
+
+    template: ClassVar[str] = "facts.html"
+    columns: tuple[tuple[Facts, ...], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ParagraphContext:
+    """A paragraph of running text, which a verdict may begin."""
+
+    template: ClassVar[str] = "paragraph.html"
+    text: str
+    fine: bool  #: Whether it is in small type.
+    shape: str  #: Class name of the verdict's shape; empty without one.
+    word: str  #: The verdict's word; empty without one.
+
+
+@dataclass(frozen=True, slots=True)
+class GraphContext:
+    """A graph with its caption."""
+
+    template: ClassVar[str] = "graph.html"
+    label: str  #: ``Figure 3``.
+    caption: str  #: Its title.
+    alternative: str  #: What it shows, for those who cannot see it.
+    address: str  #: Where the renderer finds the drawing: ``graph:2``.
+    drawing: Markup  #: The drawing itself as markup; empty where it stands at its address.
+
+
+@dataclass(frozen=True, slots=True)
+class SectionContext:
+    """A section: its anchor, number, title, and its blocks as markup."""
+
+    template: ClassVar[str] = "section.html"
+    key: str
+    number: int
+    title: str
+    new_page: bool
+    blocks: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LinkedContext:
+    """The place of the linked graphs, which a script fills; `values` is what they show, as JSON."""
+
+    template: ClassVar[str] = "linked.html"
+    values: Markup
+
+
+@dataclass(frozen=True, slots=True)
+class LetterheadContext:
+    """Who issues the document; `logo` is the address of the logo, empty without one."""
+
+    template: ClassVar[str] = "letterhead.html"
+    letterhead: Letterhead
+    logo: str
+
+
+@dataclass(frozen=True, slots=True)
+class DocumentContext:
+    """The whole document."""
+
+    template: ClassVar[str] = "document.html"
+    #: What stands beside its blocks: titles, words of the page margins, metadata of the file.
+    certificate: Certificate
+    style: Markup  #: Style sheets in the document's head; empty where the renderer hands them over otherwise.
+    #: policy and script: The only script and the content security policy that names it; empty where nothing
+    #: is run.
+    policy: str
+    script: Markup
+    #: letterhead, cover and sections: Markup, in this order.
+    letterhead: Markup
+    cover: tuple[Markup, ...]
+    sections: tuple[Markup, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WorkbenchContext:
+    """The page of the workbench, which its scripts fill: language, title, and what it says without them."""
+
+    template: ClassVar[str] = "workbench.html"
+    language: str
+    title: str
+    needs_script: str
+
+
+#: What a template is rendered with.
+Context: TypeAlias = (
+    DocumentContext
+    | LetterheadContext
+    | SectionContext
+    | TableContext
+    | FormulasContext
+    | FactsContext
+    | ParagraphContext
+    | Notice
+    | GraphContext
+    | LinkedContext
+    | SymbolContext
+    | OverviewContext
+    | OverviewSectionContext
+    | OverviewTableContext
+    | OverviewToolsContext
+    | OverviewLegendContext
+    | OverviewMachinesContext
+    | OverviewTrendContext
+    | WorkbenchContext
+)
+
+
+#: Blocks of a document that stand in their templates as they are.
+_OF_BLOCKS: dict[type, str] = {Notice: "notice.html"}
+
+
+def template_of(context: type[Context]) -> str:
+    """Return the name of the template that belongs to a kind of context."""
+    return _OF_BLOCKS.get(context) or str(vars(context)["template"])
+
+
+#: Characters that XML 1.0 has no place for, not even escaped.
+_NOT_IN_XML = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
+
+
+#: What stands before the name of a template in its usual form, for one that adds to it.
+_USUAL = "usual"
+_WORDS = re.compile(r"[+−-]?\w+(?:[.,]\w+)*")
+_PICTURES = re.compile(r"<(?:img|svg)\b")
+
+
+def _held(value: object) -> object:
+    """Hold together what belongs together in a text; markup and what was escaped are left as they are."""
+    return held(value) if type(value) is str else value
+
+
+@lru_cache(maxsize=8)
+def environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvironment:
+    """Return the environment; templates are compiled once in a process, those of a laboratory's own first."""
+    usual = PackageLoader(PACKAGE)
+    return ImmutableSandboxedEnvironment(
+        loader=ChoiceLoader([DictLoader(dict(own)), usual, PrefixLoader({_USUAL: usual})]) if own else usual,
+        autoescape=True,
+        finalize=_held,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        auto_reload=False,
+    )
+
+
+def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
+    """Render the template that belongs to a context; characters that XML cannot hold are shown as U+FFFD.
+
+    Raises `InputError` if a template of a laboratory's own is wrong, or leaves out a word that the usual one
+    prints.
+    """
+    values = {field.name: getattr(context, field.name) for field in fields(context)}
+    name = template_of(type(context))
+    text = environment().get_template(name).render(values)
+    if name in dict(own):
+        usual, place = text, Place(name)
+        try:
+            text = environment(own).get_template(name).render(values)
+            ET.fromstring(f"<block>{_NOT_IN_XML.sub(_REPLACEMENT, text)}</block>")  # noqa: S314 - the job's own
+        except (TemplateError, ArithmeticError, RecursionError, TypeError, ET.ParseError) as error:
+            line = getattr(error, "lineno", None) or 0
+            raise InputError.at(Place(name, line), f"this template does not work: {error}") from error
+        if lacking := [*(_shown(usual) - _shown(text))]:
+            raise InputError.at(
+                place, f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
+            )
+    return Markup(_NOT_IN_XML.sub(_REPLACEMENT, text))  # noqa: S704 (the template has escaped every value)
+
+
+def _shown(markup: str) -> Counter[str]:
+    """Return the words and pictures of a block."""
+    text = Markup(markup).striptags()  # noqa: S704 - it is only looked at
+    return Counter([*_WORDS.findall(text), *_PICTURES.findall(markup)])
+
+
+@lru_cache(maxsize=1024)
+def symbol(notation: str) -> Markup:
+    """Set a symbol or a formula; the same few come again and again."""
+    return render(SymbolContext(spans(notation)))

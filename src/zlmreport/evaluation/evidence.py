@@ -1,0 +1,273 @@
+"""What the readings themselves show, held against what the job states of them.
+
+Nothing is changed or set aside for it: the document says what its reader, or an assessor, would see in the
+readings too. Sentences are yielded for what chance hardly makes; each test has its own bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from zlmreport.evaluation.correction.corrections import condition_at_readings
+from zlmreport.job.job import Job
+from zlmreport.language import Words
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray, decimals_of
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.measurement.units import Unit, with_unit
+
+_DRIFTS = Words(
+    en="Run means {lie} {low} {to} {high}; {stated}: U does not hold this drift",
+    de="Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated}: U enthält diese Drift nicht",
+)
+_LIE, _AND = Words(en="lie between", de="liegen zwischen"), Words(en="and", de="und")
+_RISE, _FALL = Words(en="rise from", de="steigen von"), Words(en="fall from", de="fallen von")
+_TO = Words(en="to", de="auf")
+_AT_REST = Words(
+    en="stated at rest are {range}",
+    de="angegeben sind in Ruhe {range}",
+)
+_NEGLECTED = Words(
+    en="drift at rest is declared negligible", de="Drift in Ruhe ist als vernachlässigbar erklärt"
+)
+_NOTHING_STATED = Words(en="nothing is stated of drift at rest", de="zur Drift in Ruhe ist nichts angegeben")
+_OUTLIER = Words(
+    en="The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "
+    "in the "
+    "results (measurement.excluded sets it aside)",
+    de="Der Messwert von Durchlauf {run} bei {target} {arrow} liegt {distance} neben den übrigen und ist "
+    "in den "
+    "Ergebnissen (measurement.excluded legt ihn beiseite)",
+)
+_MORE_OUTLIERS = Words(
+    en="{count} more readings lie as far from the others of their targets",
+    de="{count} weitere Messwerte liegen ebenso weit neben den übrigen ihrer Sollpositionen",
+)
+_IDENTICAL = Words(
+    en="Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter",
+    de="Die Durchläufe {runs} sind in jeder Stelle gleich: Kopien, oder eine Auflösung, die die Streuung "
+    "verbirgt",
+)
+_TOO_SMALL = Words(
+    en="All deviations together span {range} over {length}: read as {unit}; if the file has {other}, state "
+    "measurement.source.units: {{deviation: {other}}}",
+    de="Alle Abweichungen zusammen umfassen {range} auf {length}: als {unit} gelesen; hat die Datei {other}, "
+    "gehört measurement.source.units: {{deviation: {other}}} in den Auftrag",
+)
+_TWO_TEMPERATURES = Words(
+    en="{name}: {stated} °C is stated, and {logged} °C was logged beside the readings",
+    de="{name}: angegeben sind {stated} °C, neben den Messwerten aufgezeichnet wurden {logged} °C",
+)
+_SPAN, _SINGLE = Words("{low} … {high}", "{low} … {high}"), Words("{low}", "{low}")
+_COARSER = Words(
+    en="The resolution is stated as {stated}, and the readings were given in steps of {given}: these are "
+    "counted",
+    de="Als Auflösung sind {stated} angegeben, die Messwerte haben Schritte von {given}: gerechnet wird "
+    "mit diesen",
+)
+
+#: Standard deviations of a run's mean that its range may show by chance.
+_BY_CHANCE = 5.0
+#: Correlation of run means with their order from which they are said to rise or fall.
+_STEADY = 0.9
+_FEWEST_RUNS = 3
+#: Robust standard deviations from the median of its cell at which a reading stands out.
+_OUTLYING = 8.0
+_MOST_NAMED = 3
+#: Positions at which runs must agree for their agreement to say anything.
+_FEWEST_POSITIONS = 3
+#: Spans of all deviations that no machine reaches over so long a way: m over m, rad over rad.
+_SPANS = {AxisKind.LINEAR: (1e-7, 1e-2), AxisKind.ROTARY: (1e-7, 1e-2)}
+_TEMPERATURES_AGREE = 0.5
+_MOST_DECIMALS = 3
+_NORMAL_MAD = 1.4826
+
+
+def evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+    """Return a sentence for each thing that the readings show and the job does not say."""
+    readings = measurements.deviations()
+    if not np.isfinite(readings).any():
+        return ()
+    return (
+        *_drift(job, measurements, readings),
+        *_outliers(measurements, readings),
+        *_identical_runs(measurements, readings),
+        *_other_unit(measurements),
+        *_temperatures(job, measurements),
+        *_resolution(job, measurements),
+    )
+
+
+def _drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield whether whole runs lie farther apart than scatter and the stated drift at rest explain."""
+    count = readings.shape[-1]
+    if count < _FEWEST_RUNS or measurements.reversal_is_relative:
+        return
+    there = np.isfinite(readings)
+    residuals = readings - _mean(readings, axis=-1)[..., np.newaxis]
+    of_runs = _mean(residuals.reshape(-1, count), axis=0)
+    inner = residuals - of_runs
+    numbers = there.reshape(-1, count).sum(axis=0)
+    freedom = int(there.sum()) - int((there.sum(axis=-1) > 0).sum()) - count + 1
+    if freedom < 1 or numbers.min() < 1:
+        return
+    own = np.sqrt(float(np.nansum(inner**2)) / freedom)
+    full_range = float(np.ptp(of_runs))
+    unit = measurements.axis.deviation_unit
+    stated = job.keys.uncertainty.environmental_variation
+    allowed = _BY_CHANCE * own / np.sqrt(float(numbers.min())) + (unit.to_si(stated) if stated else 0.0)
+    order = np.corrcoef(np.arange(count), of_runs)[0, 1] if full_range else 0.0
+    steady = abs(order) > _STEADY
+    if full_range <= allowed or full_range <= unit.to_si(10.0**-_MOST_DECIMALS) or not (stated or steady):
+        return
+    low, high = (_size(measurements, each) for each in (float(of_runs.min()), float(of_runs.max())))
+    lie, to = (_LIE, _AND) if not steady else (_RISE if order > 0 else _FALL, _TO)
+    first, last = (high, low) if lie is _FALL else (low, high)
+    yield _DRIFTS.given(
+        lie=lie,
+        low=first,
+        to=to,
+        high=last,
+        stated=_of_drift(job, unit),
+    )
+
+
+def _of_drift(job: Job, unit: Unit) -> Words:
+    """Return what the job says of the drift at rest."""
+    keys = job.keys.uncertainty
+    if keys.environmental_variation:
+        return _AT_REST.given(range=_with_unit(keys.environmental_variation, unit.symbol))
+    return _NEGLECTED if "environmental_variation" in keys.negligible else _NOTHING_STATED
+
+
+def _outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the readings that lie far from the others of their target and direction."""
+    number = np.isfinite(readings).sum(axis=-1, keepdims=True)
+    if number.max() < _FEWEST_RUNS:
+        return
+    with np.errstate(all="ignore"):
+        median = _median(readings, axis=-1)[..., np.newaxis]
+    distance = np.where(number >= _FEWEST_RUNS, readings - median, np.nan)
+    # Whole runs that lie aside are drift, and not outliers: each reading against those of its own run too.
+    distance -= _median(distance.reshape(-1, distance.shape[-1]), axis=0)
+    known = distance[np.isfinite(distance)]
+    if not known.size:
+        return
+    unit = measurements.axis.deviation_unit
+    step = unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    # Half of the readings of a small cell lie nearer to its median than to its mean.
+    scale = max(_NORMAL_MAD * float(np.median(np.abs(known[known != 0.0]))) if known.any() else 0.0, step)
+    # Of readings that scatter from place to place as they may, a large one among large ones is none.
+    far = [
+        (int(direction), int(position), int(run))
+        for direction, position, run in np.argwhere(np.abs(np.nan_to_num(distance)) > _OUTLYING * scale)
+        if abs(distance[direction, position, run])
+        > _OUTLYING / 2 * _spread_of_others(distance[direction, position], run, scale)
+    ]
+    far.sort(key=lambda at: -abs(distance[at]))
+    for direction, position, run in far[:_MOST_NAMED]:
+        yield _OUTLIER.given(
+            run=int(measurements.runs[run]),
+            target=_with_unit(
+                measurements.axis.position_unit.from_si(float(measurements.target_positions[position])),
+                measurements.axis.position_unit.symbol,
+            ),
+            arrow=tuple(Approach)[direction].arrow,
+            distance=_size(measurements, abs(float(distance[direction, position, run]))),
+        )
+    if len(far) > _MOST_NAMED:
+        yield _MORE_OUTLIERS.given(count=len(far) - _MOST_NAMED)
+
+
+def _spread_of_others(cell: FloatArray, run: int, scale: float) -> float:
+    """Return how far the other readings of a cell lie from its median, at least the usual scatter."""
+    others = np.delete(cell, run)
+    others = others[np.isfinite(others)]
+    return max(scale, float(np.abs(others).max())) if others.size else scale
+
+
+def _identical_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the runs that are copies of each other, digit by digit, wherever both have a reading."""
+    runs = measurements.runs
+    groups: list[list[int]] = []
+    for run in range(readings.shape[-1]):
+        for group in groups:
+            one, other = readings[..., group[0]], readings[..., run]
+            both = np.isfinite(one) & np.isfinite(other)
+            varies = both.any() and bool(np.ptp(one[both]))
+            if both.sum() >= _FEWEST_POSITIONS and varies and np.array_equal(one[both], other[both]):
+                group.append(run)
+                break
+        else:
+            groups.append([run])
+    for group in groups:
+        if len(group) > 1:
+            yield _IDENTICAL.given(runs=", ".join(str(int(runs[each])) for each in group))
+
+
+def _other_unit(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield whether all deviations are so small that they seem to be in millimetres, or in degrees."""
+    axis = measurements.axis
+    known = measurements.deviation[np.isfinite(measurements.deviation)]
+    length = float(measurements.target_positions[-1] - measurements.target_positions[0])
+    span, shortest = _SPANS[axis.kind]
+    full_range = float(np.ptp(known))
+    if axis.measurand.is_position and 0 < full_range < span and length > shortest:
+        yield _TOO_SMALL.given(
+            range=_size(measurements, full_range),
+            length=_with_unit(axis.position_unit.from_si(length), axis.position_unit.symbol),
+            unit=axis.deviation_unit.symbol,
+            other="mm" if axis.kind is AxisKind.LINEAR else "deg",
+        )
+
+
+def _temperatures(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield the temperatures that were logged otherwise than the job states them."""
+    for name, kind in CONDITIONS.items():
+        stated = getattr(job.keys.environment, name, None)
+        logged = condition_at_readings(name, job, measurements) if name in measurements.conditions else None
+        if not name.endswith("temperature") or not isinstance(stated, float) or logged is None:
+            continue
+        low, high = (kind.unit.from_si(float(each)) for each in (logged.min(), logged.max()))
+        if not low - _TEMPERATURES_AGREE <= stated <= high + _TEMPERATURES_AGREE:
+            logged_span = _SPAN if high > low else _SINGLE
+            yield _TWO_TEMPERATURES.given(
+                name=CONDITION_NAMES[name],
+                stated=stated,
+                logged=logged_span.given(low=float(f"{low:.4g}"), high=float(f"{high:.4g}")),
+            )
+
+
+def _resolution(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield whether the readings have coarser steps than the job says."""
+    stated = job.keys.uncertainty.resolution
+    unit = measurements.axis.deviation_unit
+    if not stated or measurements.provenance.corrections:
+        return
+    given = 10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS)
+    if given > stated * (1 + 1e-9):
+        yield _COARSER.given(stated=_with_unit(stated, unit.symbol), given=_with_unit(given, unit.symbol))
+
+
+def _mean(values: FloatArray, axis: int) -> FloatArray:
+    there = np.isfinite(values)
+    return np.asarray(np.where(there, values, 0.0).sum(axis=axis) / np.maximum(there.sum(axis=axis), 1))
+
+
+def _median(values: FloatArray, axis: int) -> FloatArray:
+    """Return medians of what is there; 0 where nothing is."""
+    empty = ~np.isfinite(values).any(axis=axis, keepdims=True)
+    return np.asarray(np.nanmedian(np.where(empty, 0.0, values), axis=axis))
+
+
+def _size(measurements: MeasurementSet, value: float) -> Words:
+    unit = measurements.axis.deviation_unit
+    return _with_unit(float(f"{unit.from_si(value):.3g}"), unit.symbol)
+
+
+def _with_unit(value: float, unit: str) -> Words:
+    phrase = with_unit("{value}", unit)
+    return Words(phrase, phrase).given(value=float(f"{value:.6g}"))

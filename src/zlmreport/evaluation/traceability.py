@@ -1,0 +1,161 @@
+"""Whether the chain of calibrations that a job states holds: dates, certificates, the accredited scope.
+
+A calibration certificate is refused where the chain is broken by the job's own words; what is merely not
+said,
+or old, is marked on its first page, as all of it is in a measuring report.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from zlmreport.errors import Problem
+from zlmreport.evaluation.correction.compensated import compensated_by_instrument
+from zlmreport.evaluation.uncertainty.reasons import is_reference
+from zlmreport.job.contradictions import last_day
+from zlmreport.language import Words, same
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+if TYPE_CHECKING:
+    from zlmreport.job.job import Job
+    from zlmreport.job.measurement_keys import Instrument, SensorKeys
+
+#: Years after which a calibration is called old: intervals of measuring instruments are one to three.
+_OLD = 3
+_DAYS_OF_A_YEAR = 365.25
+
+_NOT_DATED = Words(
+    en="{what}: date of calibration not stated",
+    de="{what}: Datum der Kalibrierung nicht angegeben",
+)
+_OLD_CALIBRATION = Words(
+    en="{what}: calibrated on {date}, {years} years before the measurement",
+    de="{what}: kalibriert am {date}, {years} Jahre vor der Messung",
+)
+_AFTER = Words(
+    en="{what}: calibrated on {date}, after the measurement of {measured}",
+    de="{what}: kalibriert am {date}, nach der Messung vom {measured}",
+)
+_OVERDUE = Words(
+    en="{what}: calibration was due on {date}, before the measurement of {measured}",
+    de="{what}: Kalibrierung war am {date} fällig, vor der Messung vom {measured}",
+)
+_NO_CERTIFICATE = Words(
+    en="{what}: no calibration certificate named, so not shown to be traceable",
+    de="{what}: kein Kalibrierschein genannt, Rückführung nicht belegt",
+)
+_NO_THERMOMETER = Words(
+    en="A temperature enters the results, and no thermometer is named with its calibration",
+    de="Eine Temperatur geht in die Ergebnisse ein, und kein Thermometer ist mit seiner Kalibrierung genannt",
+)
+_OUT_OF_SCOPE = Words(
+    en="Outside the accredited scope: {what}",
+    de="Außerhalb des akkreditierten Bereichs: {what}",
+)
+_OF_KIND = {
+    AxisKind.LINEAR: Words(en="results of a linear axis", de="Ergebnisse einer Linearachse"),
+    AxisKind.ROTARY: Words(en="results of a rotary axis", de="Ergebnisse einer Drehachse"),
+}
+_OF_LENGTH = Words(
+    en="results over {length} {unit} (the scope ends at {most} {unit})",
+    de="Ergebnisse über {length} {unit} (der Bereich endet bei {most} {unit})",
+)
+_OF_STANDARD = Words(en="results by {standard}", de="Ergebnisse nach {standard}")
+_INSTRUMENT = Words(en="Measuring instrument", de="Messgerät")
+
+
+class _Break(NamedTuple):
+    """A place at which the chain does not hold."""
+
+    key: str  #: The job key that would have to be another.
+    words: Words
+    is_broken: bool  #: Whether by the job's own words, so that a calibration certificate is refused.
+
+
+def doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+    """Return a sentence for each place at which the chain does not hold, or is not said to."""
+    found = (*_of_instruments(job), *_of_temperatures(job, measurements))
+    return (*(each.words for each in found), *_scope(job, measurements))
+
+
+def refusals(job: Job) -> Iterator[Problem]:
+    """Yield what breaks the chain of a calibration certificate by the job's own words."""
+    if job.keys.certificate.kind != "certificate":
+        return
+    for each in _of_instruments(job):
+        if each.is_broken:
+            yield Problem(
+                job.place_of(each.key),
+                f"{each.key}: {each.words.en}: a calibration certificate needs a calibration that was "
+                f"valid at "
+                "the measurement (ISO/IEC 17025:2017, 7.8.4.1 c); state the one that was",
+            )
+
+
+def _of_instruments(job: Job) -> Iterator[_Break]:
+    instrument, environment = job.keys.instrument, job.keys.environment
+    if instrument is not None:
+        yield from _calibrated(job, instrument, "instrument", _INSTRUMENT)
+    for number, each in enumerate(environment.thermometers if environment else ()):
+        yield from _calibrated(job, each, f"environment.thermometers.{number}", same(each.name))
+
+
+def _calibrated(job: Job, device: Instrument | SensorKeys, key: str, what: Words) -> Iterator[_Break]:
+    """Yield where the calibration of a device does not cover the day of the measurement."""
+    first, last = job.keys.measurement.date, last_day(job.keys.measurement)
+    is_instrument = key == "instrument"
+    if not is_reference(device.certificate or "") and not is_instrument:
+        yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
+    elif is_instrument and device.certificate and not is_reference(device.certificate):
+        yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=True)
+    day = device.calibrated
+    if day is None:
+        if device.certificate and is_reference(device.certificate):
+            words = _NOT_DATED.given(what=what)
+            yield _Break(f"{key}.calibrated", words, is_broken=False)
+    elif first and day > first:
+        words = _AFTER.given(what=what, date=_written(day), measured=_written(first))
+        yield _Break(f"{key}.calibrated", words, is_broken=True)
+    elif first and (first - day).days > _OLD * _DAYS_OF_A_YEAR:
+        years = int((first - day).days / _DAYS_OF_A_YEAR)
+        words = _OLD_CALIBRATION.given(what=what, date=_written(day), years=years)
+        yield _Break(f"{key}.calibrated", words, is_broken=False)
+    if device.due and last and device.due < last:
+        words = _OVERDUE.given(what=what, date=_written(device.due), measured=_written(last))
+        yield _Break(f"{key}.due", words, is_broken=True)
+
+
+def _written(day: dt.date) -> Words:
+    return Words(en=day.isoformat(), de=f"{day.day:02}.{day.month:02}.{day.year}")
+
+
+def _of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]:
+    """Yield that a temperature enters the results and nobody says by which thermometer it was measured."""
+    environment, corrections = job.keys.environment, job.keys.corrections
+    if job.keys.certificate.kind != "certificate" or (environment and environment.thermometers):
+        return
+    by_program = corrections is not None and (corrections.material or corrections.air)
+    if by_program and not compensated_by_instrument(job, measurements).material:
+        yield _Break("environment.thermometers", _NO_THERMOMETER, is_broken=False)
+
+
+def _scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield which results lie outside the scope for which the laboratory is accredited."""
+    cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
+    if cmc is None:
+        return
+    axis, targets = job.axis, measurements.target_positions
+    if cmc.kind is not None and cmc.kind is not axis.kind:
+        yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
+    length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
+    if cmc.length is not None and length > cmc.length * (1 + 1e-9):
+        unit = axis.position_unit.symbol
+        yield _OUT_OF_SCOPE.given(
+            what=_OF_LENGTH.given(length=float(f"{length:.6g}"), most=cmc.length, unit=unit)
+        )
+    for choice in job.standards:
+        if cmc.standards is not None and choice.identifier not in cmc.standards:
+            yield _OUT_OF_SCOPE.given(what=_OF_STANDARD.given(standard=choice.identifier))

@@ -1,0 +1,155 @@
+"""What the air adds to the uncertainty of lengths that are counted in wavelengths of light.
+
+Of lengths that were corrected for the refractive index the measured state of the air; of those that nobody
+corrected also what the index changed by, as an error of known size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from zlmreport.evaluation.correction.compensated import compensated_by_instrument, is_blind_to_air
+from zlmreport.evaluation.correction.corrections import (
+    condition_at_readings,
+    displacement_in_air,
+    standard_index,
+)
+from zlmreport.evaluation.uncertainty import wording
+from zlmreport.evaluation.uncertainty.budget import Acts, Contribution, Distribution, KnownError, from_range
+from zlmreport.job.job import Job
+from zlmreport.language import Words
+from zlmreport.language.numbers import number_words
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, STATE_OF_AIR, MeasurementSet
+from zlmreport.measurement.refractive_index import (
+    HELIUM_NEON,
+    STANDARD_HUMIDITY,
+    STANDARD_PRESSURE,
+    refractive_index,
+)
+from zlmreport.measurement.units import MICROMETRE, REFERENCE_TEMPERATURE
+
+#: Step of the difference quotients: of each condition a small part, that rounding does not reach.
+_STEP = 1e-4
+#: Range of the equation's own error: over the air of a workshop it agrees with Ciddor's to 2 parts in 10⁸.
+_EQUATION_RANGE = 4e-8
+_EQUATION = Words(en="Equation of the refractive index", de="Gleichung der Brechzahl")
+_EQUATION_STATED = Words(en="R = {range} µm/m", de="R = {range} µm/m")
+_EQUATION_SOURCE = Words(
+    en="updated Edlén equation against Ciddor's", de="aktualisierte Edlén-Gleichung gegen die von Ciddor"
+)
+_SOURCE = Words(
+    en="sensitivity of the updated Edlén equation, {sensitivity} µm/m per {unit}, at L = {length}",
+    de="Empfindlichkeit der aktualisierten Edlén-Gleichung, {sensitivity} µm/m je {unit}, bei L = {length}",
+)
+
+
+#: The state of the air in which an instrument that does not look at it is right.
+_STANDARD_AIR = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
+_UNCOMPENSATED = Words(
+    en="Refractive index of the air, not compensated", de="Brechzahl der Luft, nicht kompensiert"
+)
+_UNCOMPENSATED_STATED = Words(en="Δn·L = {size} µm", de="Δn·L = {size} µm")
+_UNCOMPENSATED_SOURCE = Words(
+    en="of known size: n = {index} by the updated Edlén equation, where the instrument is taken to "
+    "have assumed {assumed} (20 °C, 1013.25 hPa, 50 %); L = {length}",
+    de="der Größe nach bekannt: n = {index} nach der aktualisierten Edlén-Gleichung; angenommen "
+    "ist, dass das Messgerät mit {assumed} rechnete (20 °C, 1013,25 hPa, 50 %); L = {length}",
+)
+
+
+def air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownError]:
+    """Yield the error of lengths whose instrument did not look at the air, where its state is known."""
+    state = _state(job, measurements)
+    if not is_blind_to_air(job) or any(each is None for each in state):
+        return
+    temperature, pressure, humidity = (each for each in state if each is not None)
+    index = refractive_index(temperature, pressure, humidity)
+    assumed = standard_index(HELIUM_NEON)
+    targets, datum = measurements.target_positions, measurements.datum
+    displayed = targets[measurements.target] - (targets[0] if datum is None else datum)
+    correction = read_only_floats(displacement_in_air(displayed, index, assumed) - displayed)
+    length = float(targets[-1] - targets[0])
+    at_end = float(displacement_in_air(np.array(length), np.array(np.mean(index)), assumed)) - length
+    yield KnownError(
+        name=_UNCOMPENSATED,
+        correction=correction,
+        stated=_UNCOMPENSATED_STATED.given(size=float(f"{abs(MICROMETRE.from_si(at_end)):.3g}")),
+        source=_UNCOMPENSATED_SOURCE.given(
+            index=number_words(float(np.mean(index)), 7),
+            assumed=number_words(assumed, 7),
+            length=wording.length(length),
+        ),
+    )
+
+
+def _state(job: Job, measurements: MeasurementSet) -> list[FloatArray | None]:
+    """Return temperature, pressure and humidity of the air at each reading; None for what nobody knows."""
+    return [condition_at_readings(name, job, measurements) for name in STATE_OF_AIR]
+
+
+def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> Iterator[Contribution]:
+    """Yield the contributions of the air.
+
+    None where lengths are not counted in its wavelengths, or where that of the instrument has it in it; of an
+    instrument that compensated the air itself those of the sensors of which a range is stated.
+
+    `length`: L, m.
+    """
+    corrections = job.keys.corrections
+    by_program = corrections is not None and corrections.air is not None
+    is_blind = is_blind_to_air(job)
+    if not (by_program or is_blind or compensated_by_instrument(job, measurements).air):
+        return
+    state = _state(job, measurements)
+    conditions = [
+        usual if known is None else float(np.mean(known))
+        for known, usual in zip(state, _STANDARD_AIR, strict=True)
+    ]
+    for place, name in enumerate(STATE_OF_AIR):
+        stated = getattr(job.keys.uncertainty, name)
+        if stated and not (is_blind and state[place] is None):
+            unit = CONDITIONS[name].unit
+            sensitivity = _sensitivity(conditions, place) * unit.si
+            yield Contribution(
+                name=CONDITION_NAMES[name],
+                standard_uncertainty=from_range(abs(sensitivity) * stated * length, Distribution.RECTANGULAR),
+                acts=Acts.ALONG_THE_LENGTH,
+                distribution=Distribution.RECTANGULAR,
+                stated=wording.full_range("R", stated, _difference_unit(unit.symbol)),
+                source=_SOURCE.given(
+                    sensitivity=float(f"{1e6 * sensitivity:.2g}"),
+                    unit=_difference_unit(unit.symbol),
+                    length=wording.length(length),
+                ),
+                contributor=name,
+            )
+    if not (by_program or is_blind):
+        return
+    yield Contribution(
+        name=_EQUATION,
+        standard_uncertainty=from_range(_EQUATION_RANGE * length, Distribution.RECTANGULAR),
+        acts=Acts.ALONG_THE_LENGTH,
+        distribution=Distribution.RECTANGULAR,
+        stated=_EQUATION_STATED.given(range=1e6 * _EQUATION_RANGE),
+        source=_EQUATION_SOURCE,
+    )
+
+
+def _sensitivity(conditions: list[float], place: int) -> float:
+    """Return ∂n/∂c of one of temperature, pressure and humidity, by a central difference."""
+    step = _STEP * max(conditions[place], 1.0)
+    ends = []
+    for side in (-1, 1):
+        moved = list(conditions)
+        moved[place] += side * step
+        temperature, pressure, humidity = map(np.array, moved)
+        ends.append(float(refractive_index(temperature, pressure, humidity)))
+    return (ends[1] - ends[0]) / (2 * step)
+
+
+def _difference_unit(symbol: str) -> str:
+    """Return the unit of a difference: kelvin for degrees Celsius."""
+    return "K" if symbol == "°C" else symbol

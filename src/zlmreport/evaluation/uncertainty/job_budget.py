@@ -1,0 +1,510 @@
+"""From what a job states of its measuring set-up to the uncertainty budget, and what it leaves out.
+
+A report with an incomplete budget says so wherever it states U; a calibration certificate is refused, with
+what is to be stated and how. So is one of a length whose temperature nobody knows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.errors import InputError, Problem
+from zlmreport.evaluation.correction.compensated import compensated_by_instrument, is_blind_to_air
+from zlmreport.evaluation.correction.corrections import condition_at_readings
+from zlmreport.evaluation.uncertainty import wording
+from zlmreport.evaluation.uncertainty.air import air_contributions, air_error
+from zlmreport.evaluation.uncertainty.budget import (
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    KnownError,
+    NoBudget,
+    expansion_range,
+    from_range,
+    misalignment_range,
+    temperature_range,
+)
+from zlmreport.evaluation.uncertainty.reasons import says_something
+from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, of_the_circle
+from zlmreport.job.evaluation_keys import ContributionKeys
+from zlmreport.job.job import Job
+from zlmreport.language import Words, same
+from zlmreport.measurement.arrays import FloatArray, decimals_of, read_only_floats
+from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
+from zlmreport.measurement.units import (
+    MICROMETRE,
+    MICROMETRE_PER_METRE_KELVIN,
+    MILLIMETRE,
+    Unit,
+    above_reference,
+)
+
+#: Of the uncertainties that a job states as expanded.
+_COVERAGE_FACTOR = 2.0
+#: A step that readings may show is no smaller, µm or ″.
+_MOST_DECIMALS = 3
+#: The temperature that the scale, and with it the measured length, has: the first that is known counts.
+_TEMPERATURES = ("axis_temperature", "material_temperature")
+#: What is printed as 20.0 °C is 20 °C, K.
+_AT_REFERENCE = 0.05
+#: Distance from 20 °C from which an expansion that decides the uncertainty must be corrected, K.
+_FAR_FROM_REFERENCE = 1.0
+#: Distance from 20 °C that no machine has, K: the temperature is in another unit, and the first page says so.
+_IN_NO_HALL = 60.0
+
+
+def budget_of(
+    job: Job, measurements: MeasurementSet, of_the_instrument: tuple[Contribution, ...] = ()
+) -> Budget | NoBudget:
+    """Return the budget of a job's set-up; none where the job gives no number for the instrument.
+
+    `of_the_instrument`: The instrument's own contributions where it is no device of one uncertainty.
+
+    Raises `InputError` if a figure is stated without what its formula needs beside it.
+    """
+    set_up = SetUp.of(job, measurements)
+    keys = job.keys.uncertainty
+    negligible = tuple(each for each in keys.negligible.items() if says_something(each[1]))
+    instrument = of_the_instrument or _instrument(job, set_up)
+    contributions = (
+        *(() if isinstance(instrument, Words) else instrument),
+        *_of_the_length(job, set_up),
+        *of_the_circle(job, measurements),
+        *air_contributions(job, measurements, set_up.length),
+        *_fluctuations(job, measurements),
+        *(each for stated in keys.contributions for each in _other(stated, job.axis.deviation_unit)),
+    )
+    considered = {each.contributor for each in contributions} | {name for name, _ in negligible}
+    if of_the_instrument:
+        considered.add(INSTRUMENT)
+    missing = tuple(name for name in demanded(job) if name not in considered)
+    has_length = (job.axis.has_length or has_radius(job)) and not of_the_instrument
+    expansion = set_up.uncorrected_expansion if has_length else 0.0
+    in_readings = (*_expansion_in(measurements, set_up), *air_error(job, measurements)) if has_length else ()
+    if isinstance(instrument, Words):
+        return NoBudget(instrument, missing, negligible, expansion)
+    problems = sorted(set_up.lacks(job))
+    if problems:
+        raise InputError(problems)
+    usual = not of_the_instrument and keys.instrument_acts is None
+    return Budget(
+        tuple(each for acts in Acts for each in contributions if each.acts is acts),
+        missing,
+        negligible,
+        _COVERAGE_FACTOR * math.fsum(each.standard_uncertainty for each in instrument) if usual else 0.0,
+        _capability(job, set_up),
+        expansion,
+        in_readings,
+        set_up.difference or 0.0,
+    )
+
+
+def _capability(job: Job, set_up: SetUp) -> float:
+    """Return the smallest U that the laboratory's accreditation lets it state, m or rad."""
+    cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
+    if cmc is None:
+        return 0.0
+    return job.axis.deviation_unit.to_si(cmc.constant) + MICROMETRE.to_si(cmc.per_metre) * set_up.length
+
+
+def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
+    """Return the contributions of the instrument that the job names, or why there are none."""
+    instrument = job.keys.instrument
+    if instrument is None:
+        return wording.NO_INSTRUMENT
+    stated = instrument.stated_uncertainty
+    if stated is None:
+        in_words = isinstance(instrument.expanded_uncertainty, str)
+        return wording.INSTRUMENT_IN_WORDS if in_words else wording.NO_INSTRUMENT
+    return tuple(_device(*stated, job, set_up))
+
+
+def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Iterator[Contribution]:
+    """Yield the constant part of an instrument's error, and the one that grows with the length."""
+    unit = job.axis.deviation_unit
+    stated_acts = job.keys.uncertainty.instrument_acts
+    source = wording.calibration(job.keys.instrument.certificate if job.keys.instrument else None)
+    for expanded, name, acts, stated in (
+        (
+            unit.to_si(constant),
+            wording.DEVICE,
+            Acts(stated_acts) if stated_acts else set_up.acts_of_device,
+            wording.expanded(constant, unit.symbol, _COVERAGE_FACTOR),
+        ),
+        (
+            MICROMETRE.to_si(per_metre) * set_up.length,
+            wording.DEVICE_ALONG,
+            set_up.acts_of_length,
+            wording.expanded(per_metre, "µm/m · L", _COVERAGE_FACTOR),
+        ),
+    ):
+        if expanded:
+            yield Contribution(
+                name=name,
+                standard_uncertainty=expanded / _COVERAGE_FACTOR,
+                acts=acts,
+                distribution=Distribution.NORMAL,
+                stated=stated,
+                source=source,
+                contributor=INSTRUMENT,
+            )
+
+
+def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
+    """Yield what is in proportion to the measured length: alignment, temperatures, expansion.
+
+    A range of zero states nothing: there is no error of which nobody could be wrong.
+    """
+    keys = job.keys.uncertainty
+    length, acts = set_up.length, set_up.acts_of_length
+    if not length:
+        return
+    if keys.misalignment:
+        full_range = misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
+        stated = wording.full_range("R", keys.misalignment, "mm")
+        source = wording.MISALIGNED.given(length=wording.length(length))
+        yield _contribution("misalignment", full_range, stated, source, distribution=Distribution.ONE_SIDED)
+    for key, temperature, expansion in (
+        ("machine_temperature", keys.machine_temperature, set_up.of_the_sensor),
+        ("device_temperature", keys.device_temperature, set_up.device_expansion),
+    ):
+        if temperature and expansion is not None:
+            full_range = temperature_range(expansion, length, temperature)
+            source = wording.TEMPERATURE.given(
+                expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.length(length)
+            )
+            stated = wording.full_range("R(θ)", temperature, "K")
+            yield _contribution(key, full_range, stated, source, acts=acts)
+    for key, coefficient in (
+        ("expansion_coefficient", keys.expansion_coefficient),
+        ("device_expansion_coefficient", keys.device_expansion_coefficient),
+    ):
+        if coefficient and set_up.difference is not None:
+            alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
+            full_range = expansion_range(length, set_up.difference, alpha)
+            source = wording.EXPANSION.given(difference=set_up.difference, length=wording.length(length))
+            stated = wording.full_range("R(α)", coefficient, "µm/(m·K)")
+            yield _contribution(key, full_range, stated, source, acts=acts)
+
+
+def _expansion_in(measurements: MeasurementSet, set_up: SetUp) -> Iterator[KnownError]:
+    """Yield the expansion that is in the readings, each by its own temperature: the machine may warm up."""
+    alpha, expansion = set_up.uncorrected_coefficient, set_up.uncorrected_expansion
+    if not (alpha and expansion) or set_up.differences is None:
+        return
+    datum = measurements.datum
+    targets = measurements.target_positions
+    distance = targets[measurements.target] - (targets[0] if datum is None else datum)
+    if measurements.axis.circle is not None:  # its radius expands, whatever the angle
+        distance = np.full_like(distance, set_up.length)
+    yield KnownError(
+        name=wording.UNCORRECTED,
+        correction=read_only_floats(-alpha * set_up.differences * distance),
+        stated=wording.full_range("α·ΔT·L", _shown(MICROMETRE.from_si(expansion)), "µm"),
+        source=wording.UNCORRECTED_SOURCE.given(
+            expansion=_shown(alpha / MICROMETRE_PER_METRE_KELVIN),
+            difference=_shown(set_up.difference or 0.0),
+            length=wording.length(set_up.length),
+        ),
+    )
+
+
+def _shown(value: float) -> float:
+    return float(f"{value:.4g}")
+
+
+def _fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
+    """Yield what each reading has of its own: the drift of the environment, and its last digit.
+
+    Readings that were corrected have digits that the instrument never showed: their resolution is to be
+    stated. It is never smaller than the step in which the readings were given, nor negligible: no result is
+    known better than it was read.
+    """
+    unit = job.axis.deviation_unit
+    keys = job.keys.uncertainty
+    step, source = keys.resolution or None, wording.STATED
+    given = _step_given(measurements, unit)
+    is_asked = not measurements.provenance.corrections or "resolution" in keys.negligible or step is not None
+    if is_asked and given is not None and given > (step or 0.0):
+        step, source = given, wording.LAST_DIGIT
+    for key, full_range, origin, acts in (
+        ("environmental_variation", keys.environmental_variation, wording.DRIFT_AT_REST, Acts.IN_TIME),
+        ("resolution", step, source, Acts.AT_EACH_READING),
+    ):
+        if full_range:
+            stated = wording.full_range("R", full_range, unit.symbol)
+            yield _contribution(key, unit.to_si(full_range), stated, origin, acts=acts)
+
+
+def _step_given(measurements: MeasurementSet, unit: Unit) -> float | None:
+    """Return the step in which the instrument showed the readings, in their unit; None where nobody knows."""
+    provenance = measurements.provenance
+    if provenance.corrections:
+        return None if provenance.step is None else unit.from_si(provenance.step)
+    return _last_digit(unit.from_si(measurements.deviation))
+
+
+def _last_digit(readings: FloatArray) -> float:
+    """Return the step of the last decimal in which readings were given; that of the third one at least."""
+    return float(10.0 ** -decimals_of(readings, _MOST_DECIMALS))
+
+
+def _contribution(  # noqa: PLR0913 - a usual contribution, but for what usually holds
+    key: str,
+    full_range: float,
+    stated: Words,
+    source: Words,
+    *,
+    acts: Acts = Acts.ALONG_THE_LENGTH,
+    distribution: Distribution = Distribution.RECTANGULAR,
+) -> Contribution:
+    return Contribution(
+        name=wording.USUAL[key],
+        standard_uncertainty=from_range(full_range, distribution),
+        acts=acts,
+        distribution=distribution,
+        stated=stated,
+        source=source,
+        contributor=key,
+    )
+
+
+def _other(keys: ContributionKeys, unit: Unit) -> Iterator[Contribution]:
+    """Yield a contribution that has no key of its own; none of no size."""
+    distribution = Distribution(keys.distribution or ("normal" if keys.range is None else "rectangular"))
+    if keys.range is not None:
+        stated = wording.full_range("R", keys.range, unit.symbol)
+        standard_uncertainty = from_range(keys.range, distribution)
+    elif keys.standard_uncertainty is not None:
+        stated = wording.standard(keys.standard_uncertainty, unit)
+        standard_uncertainty = keys.standard_uncertainty
+    else:
+        expanded = keys.expanded_uncertainty or 0.0
+        stated = wording.expanded(expanded, unit.symbol, _COVERAGE_FACTOR)
+        standard_uncertainty = expanded / _COVERAGE_FACTOR
+    if standard_uncertainty:
+        yield Contribution(
+            name=same(keys.name),
+            standard_uncertainty=unit.to_si(standard_uncertainty),
+            acts=Acts(keys.acts),
+            distribution=distribution,
+            stated=stated,
+            source=wording.STATED,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class SetUp:
+    """The circumstances of a test, SI; None for what is not known as a number."""
+
+    #: L, from the first target position to the last, m or rad; of a circle its radius where that counts.
+    length: float
+    expansion: float | None  #: α of the machine, 1/K.
+    device_expansion: float | None  #: α of the measuring device, 1/K.
+    #: (N,): ΔT of the machine from 20 °C at each reading, K; the measuring device lies on the machine and is
+    #: taken to share it.
+    differences: FloatArray | None
+    is_corrected: bool = False  #: Whether the readings are corrected to 20 °C by this program.
+    compensated: float | None = None  #: α by which the instrument has corrected them already, 1/K.
+    is_circle: bool = False  #: Whether two axes ran a circle together.
+
+    @property
+    def acts_of_device(self) -> Acts:
+        """Which readings share the constant part of the instrument's error, where a job does not say."""
+        return Acts.ROUND_THE_CIRCLE if self.is_circle else Acts.AT_EACH_POSITION
+
+    @property
+    def acts_of_length(self) -> Acts:
+        """Which readings share an error of the length: in proportion to the distance, or of a radius all."""
+        return Acts.AT_THE_DATUM if self.is_circle else Acts.ALONG_THE_LENGTH
+
+    @classmethod
+    def of(cls, job: Job, measurements: MeasurementSet) -> SetUp:
+        """Return the circumstances that a job and its readings tell."""
+        targets, circle = measurements.target_positions, job.axis.circle
+        length = float(targets[-1] - targets[0])
+        if circle is not None:
+            length = circle.radius if circle.is_calibrated else 0.0
+        environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
+        material = corrections.material if corrections else None
+        stated = environment.expansion_coefficient if environment else None
+        compensated = compensated_by_instrument(job, measurements).material
+        return cls(
+            length=length,
+            expansion=_coefficient((material and material.expansion_coefficient) or stated),
+            device_expansion=_coefficient(instrument.expansion_coefficient if instrument else None),
+            differences=_differences(job, measurements),
+            is_corrected=material is not None,
+            compensated=compensated,
+            is_circle=circle is not None,
+        )
+
+    @property
+    def difference(self) -> float | None:
+        """ΔT of the largest amount, K, with its sign."""
+        if self.differences is None:
+            return None
+        return float(self.differences[np.argmax(np.abs(self.differences))])
+
+    @property
+    def of_the_sensor(self) -> float | None:
+        """α by which an error of the measured temperature becomes one of the length, 1/K."""
+        return self.expansion if self.compensated is None else self.compensated
+
+    @property
+    def is_at_reference(self) -> bool:
+        """Whether the machine was at 20 °C."""
+        return self.difference is not None and abs(self.difference) < _AT_REFERENCE
+
+    @property
+    def uncorrected_coefficient(self) -> float | None:
+        """α of what is left in the readings, 1/K; None where it is not known.
+
+        Of readings that the instrument corrected only by how far its coefficient is not the machine's.
+        """
+        if self.is_corrected:
+            return 0.0
+        if self.compensated is not None:
+            return 0.0 if self.expansion is None else self.expansion - self.compensated
+        return None if self.expansion is None else self.expansion - (self.device_expansion or 0.0)
+
+    @property
+    def uncorrected_expansion(self) -> float | None:
+        """By how much the measured length was longer than at 20 °C, against the measuring device, m.
+
+        0 where the readings are corrected to 20 °C, or were taken there; None where it is not known.
+        """
+        alpha = self.uncorrected_coefficient
+        if self.is_at_reference or not (alpha is None or alpha):
+            return 0.0
+        return None if self.difference is None or alpha is None else alpha * self.difference * self.length
+
+    def lacks(self, job: Job) -> Iterator[Problem]:
+        """Yield the keys of the budget whose formula needs what is not known."""
+        keys = job.keys.uncertainty
+        temperature = "environment.axis_temperature or environment.material_temperature"
+        machine, device = "environment.expansion_coefficient", "instrument.expansion_coefficient"
+        for key, known, needed in (
+            ("machine_temperature", self.of_the_sensor, machine),
+            ("device_temperature", self.device_expansion, device),
+            ("expansion_coefficient", self.difference, temperature),
+            ("device_expansion_coefficient", self.difference, temperature),
+        ):
+            if getattr(keys, key) and known is None:
+                path = f"uncertainty.{key}"
+                yield Problem(
+                    job.place_of(path),
+                    f"{path}: its part of the uncertainty cannot be computed without a number in {needed}",
+                )
+
+
+def _coefficient(stated: float | str | None) -> float | None:
+    return stated * MICROMETRE_PER_METRE_KELVIN if isinstance(stated, float) else None
+
+
+def _differences(job: Job, measurements: MeasurementSet) -> FloatArray | None:
+    """Return ΔT at each reading, (N,), of the first temperature that was logged, or is stated as a number."""
+    for key in _TEMPERATURES:
+        known = condition_at_readings(key, job, measurements)
+        if known is not None:
+            return above_reference(known)
+    return None
+
+
+INSTRUMENT = "instrument"
+_OF_EVERY_AXIS = ("environmental_variation", "resolution")
+_OF_LENGTHS = (
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+)
+_HOW: dict[str, str] = {
+    **HOW,
+    INSTRUMENT: "state instrument.expanded_uncertainty as a number (µm or ″, k = 2)",
+    "misalignment": "state how far the measuring line departs from the axis over its length, mm",
+    "machine_temperature": "state the range of error of the machine's measured temperature, K, and "
+    "environment.expansion_coefficient",
+    "device_temperature": "state the range of error of the measuring device's temperature, K, and "
+    "instrument.expansion_coefficient",
+    "expansion_coefficient": "state the range of the machine's coefficient, µm/(m·K), and "
+    "environment.axis_temperature",
+    "device_expansion_coefficient": "state the range of the measuring device's coefficient, µm/(m·K), and "
+    "environment.axis_temperature",
+    "air_temperature": "state the range of error of the measured air temperature, K",
+    "air_pressure": "state the range of error of the measured air pressure, hPa",
+    "relative_humidity": "state the range of error of the measured humidity, %",
+    "environmental_variation": "state the range of the readings of the axis at rest over the time of a test",
+    "resolution": "state the smallest step of the readings: corrected ones do not show it",
+}
+
+
+def has_radius(job: Job) -> bool:
+    """Return whether the radius of a circle counts, as its instrument's length is known."""
+    return job.axis.circle is not None and job.axis.circle.is_calibrated
+
+
+def demanded(job: Job) -> tuple[str, ...]:
+    """Return the contributors that a job must state, by axis and set-up."""
+    of_lengths = _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
+    corrections = job.keys.corrections
+    corrects_air = corrections is not None and corrections.air is not None
+    of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else ()
+    return (INSTRUMENT, *of_lengths, *of_air, *_OF_EVERY_AXIS)
+
+
+def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
+    """Yield what a calibration certificate must state of its uncertainty and does not.
+
+    `job`: The job; a report may leave out what it says that it leaves out.
+    """
+    if job.keys.certificate.kind != "certificate":
+        return
+    for name in budget.missing:
+        key = "instrument.expanded_uncertainty" if name == INSTRUMENT else f"uncertainty.{name}"
+        yield Problem(
+            job.place_of(
+                f"uncertainty.negligible.{name}" if name in job.keys.uncertainty.negligible else key
+            ),
+            f"a calibration certificate needs {key}{_found(name, job)}: {_HOW[name]}; or say why it is "
+            f"negligible: uncertainty.negligible: {{{name}: reason}}",
+        )
+    instrument = job.keys.instrument
+    has_compensated = bool(instrument and instrument.compensates and instrument.compensates.material)
+    if isinstance(budget, Budget) and job.axis.has_length and _decides(budget) and not has_compensated:
+        longer = MICROMETRE.from_si(budget.uncorrected_expansion or 0.0)
+        yield Problem(
+            job.place_of("corrections"),
+            f"the measured length was {abs(longer):.3g} µm {'longer' if longer > 0 else 'shorter'} than at "
+            f"20 °C ({budget.difference:+.3g} K), more than all other uncertainty together: correct the "
+            "readings by corrections: {material: {temperature: axis_temperature}}; or state "
+            "instrument.compensates: {material: …} if the instrument has corrected them",
+        )
+    if budget.uncorrected_expansion is None:
+        correct = ", or correct the readings to 20 °C by corrections.material" if job.axis.has_length else ""
+        yield Problem(
+            job.place_of("environment"),
+            "a calibration certificate needs the temperature of the measured length: state environment."
+            f"axis_temperature and environment.expansion_coefficient (the expansion then enters U){correct}",
+        )
+
+
+def _found(name: str, job: Job) -> str:
+    """Return what stands in the place of a statement and is none."""
+    reason = {str(key): said for key, said in job.keys.uncertainty.negligible.items()}.get(name)
+    if reason is not None:
+        return f" ({reason!r} is no reason why it should be negligible)"
+    return " (0 states nothing)" if getattr(job.keys.uncertainty, name, None) == 0 else ""
+
+
+def _decides(budget: Budget) -> bool:
+    """Return whether an expansion that nobody took out of the readings is most of what U states."""
+    expansion = abs(budget.uncorrected_expansion or 0.0)
+    is_far = _FAR_FROM_REFERENCE < abs(budget.difference) < _IN_NO_HALL
+    return is_far and expansion > 2 * budget.standard_uncertainty

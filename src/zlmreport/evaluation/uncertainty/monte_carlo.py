@@ -1,0 +1,380 @@
+"""The budget of the readings carried to every parameter of every standard (JCGM 101:2008).
+
+Each trial adds errors, drawn from the budget, to the readings, and evaluates the test again by the
+standard's own arithmetic. So a standard needs no formula of its own for its uncertainties, whoever wrote it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from statistics import NormalDist
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Least
+from zlmreport.evaluation.statistics import (
+    PositionStatistics,
+    joined_statistics,
+    position_statistics,
+    statistics_of,
+)
+from zlmreport.evaluation.uncertainty.budget import (
+    COVERAGE_FACTOR,
+    COVERAGE_PROBABILITY,
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    effect_along,
+)
+from zlmreport.evaluation.uncertainty.drift import (
+    Drift,
+    drawn_drifts,
+    drift_kinds,
+    drift_range,
+    reading_times,
+)
+from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+#: U then scatters by 1 % at most from one sequence of random numbers to another, which the second digit
+#: hardly shows.
+TRIALS = 10_000
+
+#: Readings that are simulated at once: few enough for a processor's cache.
+_AT_ONCE = 262_144
+#: A standard uncertainty below this part of the budget's is the rounding of doubles: it is none.
+_NOTHING = 1e-9
+#: Digits of U and k that are kept: far more than are known, and so few that no rounding of another
+#: processor shows.
+_DIGITS = 6
+#: Of the errors by which a parameter is asked whether it compares positions, m or rad, at the least.
+_BEND = 1e-6
+
+StandardArithmetic = Callable[[PositionStatistics], Arithmetic]
+
+
+@dataclass(frozen=True, slots=True)
+class Expanded:
+    """Expanded uncertainty of a parameter."""
+
+    uncertainty: float  #: U = k·u + |known error|, m or rad.
+    coverage_factor: float  #: k.
+    least: Least | None = None  #: What U was raised to, where the simulation gave less; else None.
+    #: What the parameter would change by if the known errors were taken out of the readings, m or rad.
+    known_error: float = 0.0
+
+
+def propagate(
+    budget: Budget,
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+    trials: int = TRIALS,
+) -> tuple[Mapping[str, Expanded], ...]:
+    """Return the expanded uncertainty of each parameter by its symbol, for each evaluation of one test.
+
+    Parameters
+    ----------
+    evaluations
+        Of one test, one at least, each with the arithmetic that takes it from statistics to parameters.
+    trials
+        Simulated tests; kinds of drift share them.
+
+    Notes
+    -----
+    U is half the width of the interval y ± U, about the value that the standard gives for the readings, which
+    holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
+    largest value grows when errors are added to the readings, so that its simulated values lie more above y
+    than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
+    drift. It is never less than the budget's bounds. Known errors are taken out of the readings first, errors
+    are drawn about what is left, and U has in it whole what the parameter changes by (JCGM 100, F.2.4.5).
+    """
+    measurements = evaluations[0][0].measurements
+    evaluations, known = _without_known_errors(budget, evaluations)
+    measurements = evaluations[0][0].measurements
+    if not any(np.isfinite(each.deviation).any() for each in measurements.lines):
+        return tuple({} for _ in evaluations)
+    generator = np.random.Generator(np.random.PCG64(seed_of(measurements)))
+    least = _NOTHING * max(each.standard_uncertainty for each in budget.lines)
+    found: list[dict[str, Expanded]] = [{} for _ in evaluations]
+    drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
+    kinds: Sequence[Drift | None] = drift_kinds(measurements) if drifts else (None,)
+    for kind in kinds:
+        distances = _distances(budget, evaluations, kind, trials // len(kinds), generator)
+        for so_far, (evaluation, _), values in zip(found, evaluations, distances, strict=True):
+            symbols = (each.quantity.symbol for each in evaluation.parameters)
+            for symbol, expanded in zip(symbols, _expanded(np.abs(values), least), strict=True):
+                if symbol not in so_far or expanded.uncertainty > so_far[symbol].uncertainty:
+                    so_far[symbol] = expanded
+    return tuple(
+        {
+            symbol: _beside(_bounded(each, budget, of_positions.get(symbol)), changes.get(symbol, 0.0))
+            for symbol, each in so_far.items()
+        }
+        for so_far, of_positions, changes in zip(found, _compares_positions(evaluations), known, strict=True)
+    )
+
+
+def _without_known_errors(
+    budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
+) -> tuple[Sequence[tuple[Evaluation, StandardArithmetic]], Sequence[Mapping[str, float]]]:
+    """Return the evaluations of the test without its known errors, and what each parameter changes by."""
+    if not any(each.known_errors for each in budget.lines):
+        return evaluations, [{} for _ in evaluations]
+    right = _right(evaluations[0][0].measurements, budget)
+    statistics = statistics_of(right)
+    corrected, changes = [], []
+    for evaluation, arithmetic in evaluations:
+        values = arithmetic(statistics).parameters
+        parameters = tuple(
+            replace(each, value=float(values[each.quantity.symbol])) for each in evaluation.parameters
+        )
+        corrected.append((replace(evaluation, measurements=right, parameters=parameters), arithmetic))
+        changes.append(
+            {
+                was.quantity.symbol: shortened(now.value - was.value)
+                for was, now in zip(evaluation.parameters, parameters, strict=True)
+            }
+        )
+    return corrected, changes
+
+
+def _right(measurements: MeasurementSet, budget: Budget) -> MeasurementSet:
+    """Return readings without the known errors of their budget."""
+    if measurements.tests:
+        tests = {name: _right(each, budget.tests[name]) for name, each in measurements.tests.items()}
+        return replace(measurements, tests=tests)
+    if budget.correction is None:
+        return measurements
+    return replace(measurements, deviation=read_only_floats(measurements.deviation + budget.correction))
+
+
+def _beside(expanded: Expanded, known_error: float) -> Expanded:
+    """Add to U, whole, what a parameter changes by if known errors are taken out of the readings."""
+    if not known_error:
+        return expanded
+    return replace(
+        expanded,
+        uncertainty=shortened(expanded.uncertainty + abs(known_error)),
+        known_error=known_error,
+    )
+
+
+def _distances(
+    budget: Budget,
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+    kind: Drift | None,
+    trials: int,
+    generator: np.random.Generator,
+) -> list[FloatArray]:
+    """Return y* − y in simulated tests with one kind of drift, for each evaluation: (parameter, trial)."""
+    distances = [np.empty((len(evaluation.parameters), trials)) for evaluation, _ in evaluations]
+    done = 0
+    for statistics, count in _simulated_statistics(
+        budget, evaluations[0][0].measurements, kind, trials, generator
+    ):
+        chunk = slice(done, done + count)
+        done = chunk.stop
+        for (evaluation, arithmetic), found in zip(evaluations, distances, strict=True):
+            parameters = arithmetic(statistics).parameters
+            for each, of_one in zip(evaluation.parameters, found, strict=True):
+                of_one[chunk] = parameters[each.quantity.symbol] - each.value
+    return distances
+
+
+def _simulated_statistics(
+    budget: Budget,
+    measurements: MeasurementSet,
+    kind: Drift | None,
+    trials: int,
+    generator: np.random.Generator,
+) -> Iterator[tuple[PositionStatistics, int]]:
+    """Yield the statistics of simulated tests, so many at a time, and how many they are.
+
+    Of several measured lines each has errors of its own, drawn from its own budget.
+    """
+    at_once = max(1, _AT_ONCE // sum(each.deviations().size for each in measurements.lines))
+    if not measurements.tests:
+        for tests in _simulated(budget, measurements, kind, trials, generator, at_once):
+            yield position_statistics(tests, measurements.target_positions), len(tests)
+        return
+    lines = measurements.tests
+    for together in zip(
+        *(
+            _simulated(budget.tests[name], each, kind, trials, generator, at_once)
+            for name, each in lines.items()
+        ),
+        strict=True,
+    ):
+        of_each = {
+            name: position_statistics(tests, lines[name].target_positions)
+            for name, tests in zip(lines, together, strict=True)
+        }
+        yield joined_statistics(of_each), len(together[0])
+
+
+def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
+    budget: Budget,
+    measurements: MeasurementSet,
+    kind: Drift | None,
+    trials: int,
+    generator: np.random.Generator,
+    at_once: int,
+) -> Iterator[FloatArray]:
+    """Yield simulated tests, so many at a time: shape (trial, approach, position, run), m or rad."""
+    readings = measurements.deviations()
+    along = stratified_draws(budget.acting(Acts.ALONG_THE_LENGTH), trials, generator)
+    parting = stratified_draws(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
+    alike = stratified_draws(budget.acting(Acts.AT_THE_DATUM), trials, generator)
+    drifting = budget.acting(Acts.IN_TIME)
+    times = reading_times(measurements)
+    effect = effect_along(measurements.target_positions)
+    parted = np.array([float(approach is Approach.NEGATIVE) for approach in Approach])
+    for first in range(0, trials, at_once):
+        count = min(at_once, trials - first)
+        errors = along[first : first + count, np.newaxis] * effect
+        errors += single_draws(budget.acting(Acts.AT_EACH_POSITION), errors.shape, generator)
+        for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
+            curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
+            errors += each.standard_uncertainty * curves
+        own = single_draws(budget.acting(Acts.AT_EACH_READING), (count, *readings.shape), generator)
+        if kind:
+            for each in drifting:
+                drifts = drawn_drifts(kind, times, count, generator)
+                drifts *= drift_range(each)
+                own += drifts
+        trial = slice(first, first + count)
+        common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
+        shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
+        shared += single_draws(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
+        tests = readings + shared[..., np.newaxis]
+        tests += own
+        yield tests
+
+
+def _compares_positions(
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+) -> list[dict[str, bool]]:
+    """Return which parameters an error of position can enter: asked of the standard by large errors.
+
+    One that is no deviation of what was measured, as a slope, is not among them: the bounds of U are no
+    bounds of it.
+    """
+    measurements = evaluations[0][0].measurements
+    if measurements.tests:
+        return [{} for _ in evaluations]
+    readings = measurements.deviations()
+    bend = float(np.nanmax(readings) - np.nanmin(readings) + _BEND) * np.arange(readings.shape[1]) ** 2
+    bent = np.stack([readings + side * bend[:, np.newaxis] for side in (-1.0, 1.0)])
+    statistics = position_statistics(bent, measurements.target_positions)
+    return [
+        {
+            each.quantity.symbol: bool(
+                np.any(np.abs(parameters[each.quantity.symbol] - each.value) > _NOTHING * bend[-1])
+            )
+            for each in evaluation.parameters
+            if each.quantity.unit is None
+        }
+        for evaluation, arithmetic in evaluations
+        for parameters in (arithmetic(statistics).parameters,)
+    ]
+
+
+def seed_of(measurements: MeasurementSet) -> int:
+    """Return a seed that is the readings' own: the same test gives the same uncertainties."""
+    digest = hashlib.sha256()
+    for name, each in measurements.tests.items():
+        digest.update(f"{name} {seed_of(each)};".encode())
+    readings = measurements.deviations()
+    for values in (measurements.target_positions, np.where(np.isnan(readings), np.inf, readings)):
+        digest.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
+    return int.from_bytes(digest.digest())
+
+
+def _expanded(distances: FloatArray, least: float) -> list[Expanded]:
+    """Return the expanded uncertainty of each parameter by its distances, shape (parameter, trial)."""
+    standard = np.sqrt(np.mean(distances**2, axis=-1))
+    rank = math.ceil(COVERAGE_PROBABILITY * distances.shape[-1]) - 1
+    half_width = np.partition(distances, rank, axis=-1)[:, rank]
+    return [
+        Expanded(shortened(half), shortened(half / one)) if one > least else Expanded(0.0, COVERAGE_FACTOR)
+        for half, one in zip(half_width.tolist(), standard.tolist(), strict=True)
+    ]
+
+
+def _bounded(expanded: Expanded, budget: Budget, compares_positions: bool | None) -> Expanded:  # noqa: FBT001 - private
+    """Raise U to what it must at least be; the bounds are stated with k = 2.
+
+    `compares_positions`: Whether the parameter does; None for one to which no bound applies.
+    """
+    if compares_positions is None:
+        return expanded
+    for bound, least in (
+        (budget.of_the_instrument if compares_positions else 0.0, Least.INSTRUMENT),
+        (budget.least, Least.LABORATORY),
+    ):
+        if expanded.uncertainty < bound:
+            expanded = Expanded(shortened(bound), COVERAGE_FACTOR, least)
+    return expanded
+
+
+def shortened(value: float) -> float:
+    """Return a value with the digits that are kept."""
+    return float(f"{value:.{_DIGITS}g}")
+
+
+def stratified_draws(
+    contributions: Sequence[Contribution], count: int, generator: np.random.Generator
+) -> FloatArray:
+    """Return sums of one error of each contribution, spread evenly over the distributions, shape (count,).
+
+    Each contribution takes the middles of `count` equally probable parts of its distribution once each, in
+    an order of its own (Latin hypercube): the tails are as full as they should be, and not as chance has it.
+    """
+    middles = (np.arange(count) + 0.5) / count
+    total = np.zeros(count)
+    for distribution, standard_uncertainty in _combined(contributions):
+        total += standard_uncertainty * generator.permutation(_quantiles(distribution, middles))
+    return total
+
+
+def single_draws(
+    contributions: Sequence[Contribution], shape: tuple[int, ...], generator: np.random.Generator
+) -> FloatArray:
+    """Return sums of one error of each contribution, each element drawn for itself, m or rad."""
+    total = np.zeros(shape)
+    for distribution, standard_uncertainty in _combined(contributions):
+        if distribution is Distribution.NORMAL:
+            errors = generator.standard_normal(shape)
+        else:
+            errors = _quantiles(distribution, generator.random(shape))
+        errors *= standard_uncertainty
+        total += errors
+    return total
+
+
+def _combined(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
+    """Yield distributions with their standard uncertainties; the sum of normal ones is normal."""
+    normal = [each for each in contributions if each.distribution is Distribution.NORMAL]
+    if normal:
+        yield Distribution.NORMAL, math.sqrt(math.fsum(each.standard_uncertainty**2 for each in normal))
+    for each in contributions:
+        if each.distribution is not Distribution.NORMAL:
+            yield each.distribution, each.standard_uncertainty
+
+
+def _quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:
+    """Return the quantiles of a distribution whose root mean square is 1."""
+    full_range = distribution.range_over_standard_uncertainty
+    if distribution is Distribution.NORMAL:
+        return np.array(list(map(NormalDist().inv_cdf, probability.tolist())))
+    if distribution is Distribution.ONE_SIDED:
+        return probability * full_range
+    if distribution is Distribution.RECTANGULAR:
+        return (probability - 0.5) * full_range
+    tail = np.sqrt(np.minimum(probability, 1 - probability) / 2)
+    return np.asarray(np.where(probability < 0.5, tail - 0.5, 0.5 - tail) * full_range)

@@ -1,0 +1,98 @@
+"""A parameter of an axis over the years, in full: its graph, its tests, what changed, effects beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from zlmreport.document.typesetting.overview import (
+    OverviewCellContext,
+    OverviewGroupContext,
+    OverviewTableContext,
+    OverviewTrendContext,
+    drawing,
+)
+from zlmreport.document.typesetting.templates import render
+from zlmreport.fleet import overview_words as words
+from zlmreport.fleet.drifts import Trend
+from zlmreport.fleet.overview_cells import Cells, key_of
+from zlmreport.fleet.trend import Series
+from zlmreport.fleet.trend_graph import LARGE, trend_graph
+
+
+def trend_in_full(trend: Trend, cells: Cells) -> OverviewTrendContext:
+    """Return what is shown of a trend when its small graph is chosen."""
+    series = trend.series
+    key = cells.anchors[key_of(series)]
+    image = trend_graph(trend, cells.period, cells.alternative(trend), cells.language.decimal_sign, LARGE)
+    title = words.TREND.given(axis=series.axis, machine=cells.machine(series))
+    effects = [each for each in cells.effects if each.axis_key == series.axis_key]
+    return OverviewTrendContext(
+        key=key,
+        title=cells.say(title),
+        subtitle=f"{cells.symbols([trend])}, {cells.names.designation(series.standard)}",
+        close=cells.say(words.CLOSE),
+        drawing=drawing(image),
+        facts=tuple(_facts(trend, cells)),
+        tables=tuple(map(render, filter(None, (_tests(key, series, cells), _effects(key, effects, cells))))),
+    )
+
+
+def _facts(trend: Trend, cells: Cells) -> Iterator[tuple[str, str]]:
+    """Yield what the tests say of a change and of a drift, and when the limit is reached."""
+    if trend.step or trend.is_wilder:
+        changed, came_with = cells.change(trend), cells.came_with(trend)
+        yield cells.say(words.CHANGE_FACT), _in_a_line(changed)
+        yield cells.say(words.CAME_WITH), _in_a_line(came_with)
+    yield cells.say(words.DRIFT_FACT), _in_a_line(cells.drift(trend))
+    if trend.drifts:
+        yield cells.say(words.REACHED), _in_a_line(cells.reached(trend))
+
+
+def _in_a_line(cell: OverviewCellContext) -> str:
+    return "; ".join(filter(None, (cell.content, cell.note)))
+
+
+def _tests(key: str, series: Series, cells: Cells) -> OverviewTableContext:
+    """Return every test, the latest first."""
+    rows = []
+    for each in reversed(series.calibrations):
+        alone = Trend(replace(series, calibrations=(each,)))
+        certificate = OverviewCellContext(each.entry.number, links=cells.links(each.entry))
+        instrument = OverviewCellContext(each.entry.instrument or "–")
+        value = (cells.value(alone), cells.limit(alone), cells.state(alone))
+        head = OverviewCellContext(each.measured.isoformat())
+        rows.append(OverviewGroupContext(head, ((*value, certificate, instrument),)))
+    headings = (words.MEASURED_ON, words.VALUE, words.LIMIT, words.STATE, words.CERTIFICATE)
+    return OverviewTableContext(
+        key=f"{key}-tests",
+        style="tests",
+        title=cells.say(words.TESTS),
+        count="",
+        caption=cells.say(words.TESTS_CAPTION),
+        headings=tuple(OverviewCellContext(cells.say(each)) for each in (*headings, words.INSTRUMENT_USED)),
+        groups=tuple(rows),
+    )
+
+
+def _effects(key: str, effects: Sequence[Series], cells: Cells) -> OverviewTableContext | None:
+    """Return the parameters of the error model of an axis; None where it has none."""
+    if not effects:
+        return None
+    rows = []
+    for each in effects:
+        effect, _, name = each.symbol.partition(".")
+        trend = Trend(each)
+        head = OverviewCellContext(effect, note=name.replace("_", " "))
+        rows.append(OverviewGroupContext(head, ((cells.value(trend), cells.course(trend)),)))
+    return OverviewTableContext(
+        key=f"{key}-effects",
+        style="effects",
+        title=cells.say(words.EFFECTS),
+        count="",
+        caption=cells.say(words.EFFECTS_CAPTION),
+        headings=tuple(
+            OverviewCellContext(cells.say(each)) for each in (words.EFFECT, words.VALUE, words.COURSE)
+        ),
+        groups=tuple(rows),
+    )

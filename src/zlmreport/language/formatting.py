@@ -1,0 +1,215 @@
+"""How numbers are written: where a result gets its digits, with its expanded uncertainty or without.
+
+A notation is plain text in which ``_{…}`` marks a subscript: ``x̄_{i}↑ + 2s_{i}↑``. From it follow the
+spans that a renderer sets, and the plain line for terminals and screen readers.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from decimal import ROUND_HALF_EVEN, Context, Decimal
+from enum import StrEnum
+from math import ceil, floor, isfinite, log10
+
+#: The minus sign, U+2212.
+MINUS = "\N{MINUS SIGN}"
+#: A blank at which no line ends.
+HELD = "\N{NO-BREAK SPACE}"
+#: Nobody knows the tails of real scatter better: below, a smaller chance is no stronger evidence.
+LEAST_P = 1e-6
+#: Of an expanded uncertainty.
+_DIGITS = 2
+#: Of a value that is given exactly, or whose uncertainty is unknown.
+_DECIMALS = 3
+#: An uncertainty that would lose more by rounding down is rounded up (EA-4/02 M:2022, 6.3).
+_MOST_LOST = 0.05
+#: Room for every double, the largest too.
+_ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
+
+#: A blank between a number and its unit, and within a coverage factor in brackets.
+_TOGETHER = re.compile(r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))|(?<=\(k) (?== )|(?<=\(k =) (?=\d)")
+
+_SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
+# Fractions count as word characters, but they are numbers.
+_LETTERS = re.compile(r"([^\W\d_¼½¾][\u0300-\u036f]*)+")
+# A sum is an operator and π a constant: upright, as ISO 80000-2 sets them.
+_ONE_LETTER = re.compile(r"[^\W\d_πΣ][\u0300-\u036f]*")
+# A running index, alone, after the letter of a word, or before its number: i, ij, sj, i1.
+_INDEX = re.compile(r"(?P<word>[^\W\d_ij]?)(?P<index>[ij]+)(?P<number>\d*)")
+
+
+class DecimalSign(StrEnum):
+    """The sign between whole and decimal digits."""
+
+    POINT = "."
+    COMMA = ","
+
+
+def fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.POINT) -> str:
+    """Write a value with a fixed number of decimals; negative ones round to tens, hundreds.
+
+    Half to even on the decimal value of the double (JCGM 100 leaves the rule open; this one has no
+    bias); a result that rounds to zero carries no minus sign.
+
+    >>> fixed_number(-0.25, 1), fixed_number(-0.04, 1), fixed_number(1234.5, 2, DecimalSign.COMMA)
+    ('−0.2', '0.0', '1234,50')
+    >>> fixed_number(5678.9, -1)
+    '5680'
+    """
+    rounded = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), context=_ANY_DOUBLE)
+    text = f"{abs(rounded):.{max(decimals, 0)}f}".replace(".", sign)
+    return f"{MINUS}{text}" if rounded < 0 else text
+
+
+def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
+    """Write a value with up to so many significant digits and no trailing zeros.
+
+    >>> general_number(250.0), general_number(-0.0315), general_number(2.5, DecimalSign.COMMA)
+    ('250', '−0.0315', '2,5')
+    """
+    text = f"{value:.{digits}g}"
+    if "e" in text:
+        text = f"{Decimal(text):f}"
+    return text.replace("-", MINUS).replace(".", sign)
+
+
+def held(text: str) -> str:
+    r"""Return a text of a page in which no line parts a number from its unit or sign.
+
+    >>> held("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
+    '2\xa0°C below, 11.5\xa0µm/(m·K), U = 2\xa0µm (k\xa0=\xa02)'
+    """
+    return _TOGETHER.sub(HELD, text)
+
+
+def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:
+    """Write a share or a probability in per cent, without the sign %.
+
+    One that is smaller than the last digit says so: it is small, and not nothing.
+
+    >>> percentage(0.984), percentage(0.004), percentage(0.0), percentage(0.0004, decimals=1)
+    ('98', '< 1', '0', '< 0.1')
+    """
+    if 0 < share < 0.01 * 10.0**-decimals:
+        return f"< {fixed_number(10.0**-decimals, decimals, sign)}"
+    return fixed_number(100 * share, decimals, sign)
+
+
+def p_value(
+    value: float,
+    sign: DecimalSign = DecimalSign.POINT,
+    *,
+    least: float = LEAST_P,
+    is_extrapolated: bool = False,
+) -> str:
+    r"""Write the p-value of a test with as many digits as it is known to; no line ends within it.
+
+    `value`: A probability.
+    `least`: A power of ten: below it, a smaller chance is no stronger evidence.
+    `is_extrapolated`: Whether no simulated test came near it: then it has one digit.
+
+    >>> p_value(0.0123), p_value(3.21e-5, DecimalSign.COMMA), p_value(1e-9)
+    ('p\xa0=\xa00.012', 'p\xa0=\xa00,000032', 'p\xa0<\xa00.000001')
+    >>> p_value(3.21e-5, is_extrapolated=True)
+    'p\xa0≈\xa00.00003'
+    """
+    # Written out: the typeface of the documents has no raised minus.
+    if value < least:
+        return HELD.join(("p", "<", fixed_number(least, -round(log10(least)), sign)))
+    relation, digits = ("≈", 1) if is_extrapolated else ("=", 2)
+    rounded = float(f"{value:.{digits - 1}e}")
+    places = max(3, digits - 1 - floor(log10(rounded)))
+    return HELD.join(("p", relation, fixed_number(value, places, sign)))
+
+
+def rounded_pair(
+    value: float,
+    expanded_uncertainty: float,
+    sign: DecimalSign = DecimalSign.POINT,
+) -> tuple[str, str]:
+    """Write a value and its uncertainty: the uncertainty with two significant digits, the value as far.
+
+    `value`, `expanded_uncertainty`: In the unit that is printed.
+
+    >>> rounded_pair(-4.01187, 0.1319), rounded_pair(12.3456, 0.0996), rounded_pair(5678.9, 432.1)
+    (('−4.01', '0.13'), ('12.35', '0.10'), ('5680', '430'))
+    """
+    decimals = _DECIMALS
+    if isfinite(expanded_uncertainty) and expanded_uncertainty > 0:
+        decimals = _decimals(expanded_uncertainty)
+        # 0.0996 is 0.10 with two digits: rounding may have made one digit more of it.
+        decimals = _decimals(round(expanded_uncertainty, decimals))
+    if not isfinite(expanded_uncertainty):
+        return fixed_number(value, decimals, sign), "∞"
+    return fixed_number(value, decimals, sign), fixed_number(
+        _not_much_less(expanded_uncertainty, decimals), decimals, sign
+    )
+
+
+def _not_much_less(value: float, decimals: int) -> float:
+    """Return an uncertainty that rounding to these decimals makes hardly smaller."""
+    if round(value, decimals) < (1 - _MOST_LOST) * value:
+        return ceil(value * 10.0**decimals) / 10.0**decimals
+    return value
+
+
+def _decimals(value: float) -> int:
+    return _DIGITS - 1 - floor(log10(value))
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A stretch of a symbol that is set alike."""
+
+    text: str  #: What is set.
+    #: True for a quantity's letter and for a running index, as ISO 80000-1 sets them; words such as ``max``
+    #: and operators stay upright.
+    italic: bool
+    subscript: bool  #: True below the line.
+
+
+def spans(notation: str) -> tuple[Span, ...]:
+    """Return the spans of a notation, in reading order.
+
+    Examples
+    --------
+    >>> [(span.text, span.italic, span.subscript) for span in spans("P_{s max}")]
+    [('P', True, False), ('s max', False, True)]
+    """
+    found: list[Span] = []
+    for position, part in enumerate(_SUBSCRIPT.split(notation)):
+        if position % 2:
+            found.extend(_subscript_spans(part))
+        else:
+            found.extend(_base_spans(part))
+    return tuple(found)
+
+
+def plain(notation: str) -> str:
+    """Return a notation as a plain line: ``P_{s max}`` as ``Ps max``."""
+    return _SUBSCRIPT.sub(r"\1", notation)
+
+
+def _subscript_spans(text: str) -> list[Span]:
+    match = _INDEX.fullmatch(text)
+    if match is None:
+        return [Span(text, italic=False, subscript=True)]
+    return [
+        Span(part, italic=name == "index", subscript=True) for name, part in match.groupdict().items() if part
+    ]
+
+
+def _base_spans(text: str) -> list[Span]:
+    found: list[Span] = []
+    end = 0
+    for match in _LETTERS.finditer(text):
+        if not _ONE_LETTER.fullmatch(match[0]):
+            continue
+        if match.start() > end:
+            found.append(Span(text[end : match.start()], italic=False, subscript=False))
+        found.append(Span(match[0], italic=True, subscript=False))
+        end = match.end()
+    if end < len(text):
+        found.append(Span(text[end:], italic=False, subscript=False))
+    return found

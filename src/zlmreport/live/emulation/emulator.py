@@ -1,0 +1,162 @@
+"""Emulated instruments: what they are, the axis before them, and what goes wrong there."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from itertools import accumulate, pairwise
+from random import Random
+from types import MappingProxyType
+from typing import Protocol
+
+from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
+from zlmreport.measurement.units import REFERENCE_TEMPERATURE
+
+#: How finely noise is laid out in time, s: a device that asks twice within it gets the same.
+_NOISE_GRAIN = 1e-4
+
+
+class EmulatedAxis(Protocol):
+    """Where an axis is.
+
+    The emulated devices ask nothing else of it, so that an axis with an error model may take the place of a
+    plain one.
+    """
+
+    def position(self, time: float) -> float:
+        """Return the position that an ideal instrument shows, m, at a time in s from the start."""
+
+
+@dataclass(frozen=True, slots=True)
+class MovingAxis:
+    """An axis that goes to one position after the other, rests, and begins again."""
+
+    course: Sequence[float] = (0.0,)  #: The positions, m; the axis starts at the first.
+    feed: float = 0.05  #: m/s.
+    dwell: float = 3.0  #: How long it rests at each, s.
+    noise: float = 0.0  #: Standard deviation of what shakes it, m; white.
+    drift: float = 0.0  #: By how much everything moves away, m/s.
+    seed: int = 1  #: Of the noise: the same seed gives the same noise at the same time.
+
+    def position(self, time: float) -> float:
+        """Return where the axis is, m, with noise and drift."""
+        return self._on_course(time) + self.drift * time + self._shaken(time)
+
+    def _on_course(self, time: float) -> float:
+        stops = [*self.course, self.course[0]]
+        ways = [abs(there - here) for here, there in pairwise(stops)]
+        leaves = [0.0, *accumulate(self.dwell + way / self.feed for way in ways)]
+        since = math.fmod(max(time, 0.0), leaves[-1])
+        leg = min(bisect_right(leaves, since) - 1, len(ways) - 1)
+        travelled = max(0.0, since - leaves[leg] - self.dwell) * self.feed
+        here, there = stops[leg], stops[leg + 1]
+        return here + math.copysign(min(travelled, ways[leg]), there - here)
+
+    def _shaken(self, time: float) -> float:
+        if not self.noise:
+            return 0.0
+        return Random(f"{self.seed} {round(time / _NOISE_GRAIN)}").gauss(0.0, self.noise)  # noqa: S311 - no secret
+
+
+class Trouble(StrEnum):
+    """A fault that an emulated instrument has on request, as the command line names it."""
+
+    LOST_BEAM = "lost-beam"
+    SKIPPED = "skipped"
+    ERROR = "error"
+    GARBLED = "garbled"
+    UNPLUGGED = "unplugged"
+
+
+#: How long each lasts, s; nobody plugs in again.
+_LASTS = {
+    Trouble.LOST_BEAM: 0.5,
+    Trouble.SKIPPED: 0.05,
+    Trouble.ERROR: 0.5,
+    Trouble.GARBLED: 0.2,
+    Trouble.UNPLUGGED: float("inf"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """A fault that will happen."""
+
+    trouble: Trouble  #: Which.
+    start: float  #: When, s from the start of the emulation.
+
+    def is_on(self, time: float) -> bool:
+        """Return whether it is happening."""
+        return self.start <= time < self.start + _LASTS[self.trouble]
+
+
+@dataclass(frozen=True, slots=True)
+class Troubles:
+    """All faults that will happen."""
+
+    planned: Sequence[Planned] = ()
+
+    def has(self, trouble: Trouble, time: float) -> bool:
+        """Return whether a kind of fault is happening at a time, s from the start."""
+        return any(each.trouble is trouble and each.is_on(time) for each in self.planned)
+
+    def begins(self, trouble: Trouble, before: float, time: float) -> bool:
+        """Return whether a kind of fault has begun after one moment and up to another, s from the start."""
+        return any(each.trouble is trouble and before < each.start <= time for each in self.planned)
+
+
+#: The conditions of a room that is as it should be, SI.
+STANDARD_CONDITIONS: Mapping[str, float] = MappingProxyType(
+    {
+        "air_temperature": REFERENCE_TEMPERATURE,
+        "air_pressure": STANDARD_PRESSURE,
+        "relative_humidity": STANDARD_HUMIDITY,
+        "axis_temperature": REFERENCE_TEMPERATURE,
+    }
+)
+
+
+def standard_conditions(_time: float) -> Mapping[str, float]:
+    """Return `STANDARD_CONDITIONS`, at any time."""
+    return STANDARD_CONDITIONS
+
+
+@dataclass(frozen=True, slots=True)
+class Scene:
+    """What an emulated instrument looks at.
+
+    Attributes
+    ----------
+    axis
+        The axis that it measures.
+    troubles
+        What goes wrong, and when. Whether the line is unplugged or garbled is no matter of the instrument.
+    conditions
+        Returns the conditions at a time in s from the start, SI, by the names in `CONDITION_NAMES`: what the
+        instrument's own sensors measure, and the air that its beam passes. What is not among them is as in
+        `STANDARD_CONDITIONS`.
+    """
+
+    axis: EmulatedAxis = field(default_factory=MovingAxis)
+    troubles: Troubles = field(default_factory=Troubles)
+    conditions: Callable[[float], Mapping[str, float]] = standard_conditions
+
+    def condition(self, name: str, time: float) -> float:
+        """Return a condition at a time in s from the start, SI."""
+        return self.conditions(time).get(name, STANDARD_CONDITIONS[name])
+
+
+class Emulator(Protocol):
+    """An instrument that is not there.
+
+    Times are in seconds from the start of the emulation and never go back.
+    """
+
+    def unasked(self, time: float) -> bytes:
+        """Return what the instrument has sent of its own accord since it was last asked this."""
+
+    def answer(self, data: bytes, time: float) -> bytes:
+        """Return what the instrument answers to bytes from the host; they may be part of a command."""

@@ -1,0 +1,126 @@
+"""What a file that no job describes holds, and the job that reads it as it is."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.plugin.protocols import DataSource, SourceContext, SourceProposal
+from zlmreport.plugin.registry import Registry
+
+#: What stands in YAML without quotation marks.
+_PLAIN = re.compile(r"[^\W\d_][\w ./()+-]*[\w).]|[^\W\d_]")
+_WORDS_OF_YAML = frozenset({"true", "false", "yes", "no", "on", "off", "null", "y", "n"})
+#: Axes that turn, by their letters (ISO 841).
+_TURNING = frozenset("ABC")
+#: How an axis is called that the file does not name.
+_UNNAMED = {AxisKind.LINEAR: "X", AxisKind.ROTARY: "C"}
+
+
+@dataclass(frozen=True, slots=True)
+class Looked:
+    """A file that could be read."""
+
+    source: DataSource  #: By which data source.
+    proposal: SourceProposal  #: With which keys, and what is to be asked.
+    read: MeasurementSet  #: What it holds.
+
+    def block(self, file: str, indent: str = "") -> Iterator[str]:
+        """Yield the lines of the ``source:`` block of a job that names the file so."""
+        keys = {"plugin": self.source.identifier, "file": file, **self.proposal.keys}
+        yield f"{indent}source:"
+        yield from (f"{indent}  {name}: {_in_yaml(value)}" for name, value in keys.items())
+
+
+def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
+    """Return how a file can be read.
+
+    `sheet`: Of a workbook, the sheet that holds the readings; without it the likeliest one.
+
+    Raises `ZlmreportError` if no data source reads it: what the likeliest of them says.
+    """
+    suffix = path.suffix.casefold()
+    sources = sorted(registry.sources, key=lambda each: suffix not in getattr(each, "suffixes", ()))
+    first: ZlmreportError | None = None
+    for source in sources:
+        if "file" not in source.options.model_fields:
+            continue
+        try:
+            for proposal in _proposals(source, path, sheet):
+                for axis in _axes(proposal):
+                    try:
+                        return Looked(source, proposal, _read(source, proposal, path, axis))
+                    except ZlmreportError as error:
+                        first = first or error
+        except ZlmreportError as error:
+            first = first or error
+    raise first or InputError.at(Place(str(path)), "no installed data source reads such a file")
+
+
+def _proposals(source: DataSource, path: Path, sheet: str) -> Iterator[SourceProposal]:
+    """Yield the ways in which a source may read a file, or a sheet of it; the last is without other keys."""
+    proposals = getattr(source, "proposals", None)
+    if proposals:
+        found = [each for each in proposals(path) if not sheet or each.keys.get("sheet", sheet) == sheet]
+        yield from sorted(found, key=lambda each: bool(sheet) and "sheet" not in each.keys)
+    if not sheet or "sheet" in source.options.model_fields:
+        yield SourceProposal({"sheet": sheet} if sheet else {})
+
+
+def _axes(proposal: SourceProposal) -> Iterator[Axis]:
+    """Yield the axes that a file may be of: of the kind first that its letter tells."""
+    kinds = sorted(AxisKind, key=lambda kind: (kind is AxisKind.ROTARY) is not (proposal.axis in _TURNING))
+    return (Axis(proposal.axis or _UNNAMED[kind], kind) for kind in kinds)
+
+
+def _read(source: DataSource, proposal: SourceProposal, path: Path, axis: Axis) -> MeasurementSet:
+    try:
+        options = source.options.model_validate({"file": path, **proposal.keys})
+    except ValidationError as error:
+        raise InputError.at(Place(str(path)), f"{source.identifier} needs more keys: {error}") from error
+    return source.read(options, SourceContext(axis, Place(str(path))))
+
+
+def job_of(looked: Looked, file: Path, directory: Path) -> str:
+    """Return the job in a folder that makes a report of a file; what is to be asked stands in comments."""
+    axis = looked.read.axis
+    first, last = axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
+    name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
+    unnamed = () if looked.proposal.axis else ("# Which axis is it? The file does not name it.",)
+    return "\n".join(
+        [
+            f"# A measuring report of {file.name}. 'zlmreport schema' describes every key.",
+            "schema: zlmreport/job/1",
+            "certificate: {number: REPORT-0001, kind: report}",
+            *unnamed,
+            f"axis: {{name: {axis.name}, kind: {axis.kind.value}, travel: [{first:.9g}, {last:.9g}]}}",
+            "measurement:",
+            *(f"  # {question}" for question in looked.proposal.asks),
+            *looked.block(name, indent="  "),
+            "evaluate:",
+            '  - "iso230-2:2014"',
+            "output: {formats: [pdf, json]}",
+            "",
+        ]
+    )
+
+
+def _in_yaml(value: Any) -> str:
+    """Return a value in YAML, on one line: text without quotation marks where that is safe."""
+    if isinstance(value, Mapping):
+        return f"{{{', '.join(f'{_in_yaml(name)}: {_in_yaml(each)}' for name, each in value.items())}}}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_in_yaml, value))}]"
+    if isinstance(value, str) and _PLAIN.fullmatch(value) and value.casefold() not in _WORDS_OF_YAML:
+        return value
+    return json.dumps(value, ensure_ascii=False)

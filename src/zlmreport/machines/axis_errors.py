@@ -1,0 +1,326 @@
+"""Where the errors of the axes come from: jobs that measured them, certificates of this program, statements.
+
+Each becomes a `Curve`: means with their covariance. What of the uncertainty budget the readings of a test
+share is carried on as shared: along the length, at each position, between the directions.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from zlmreport import pipeline
+from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget
+from zlmreport.files import demanded
+from zlmreport.job.job import Job
+from zlmreport.job.tree import Keys, Scalar
+from zlmreport.machines.curve import Curve, Means, curve_of, measured_curve
+from zlmreport.machines.keys import LineKeys, StatedKeys
+from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Line
+from zlmreport.machines.machine import unit_of
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.error_symbol import symbol_of_positioning
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.units import MILLIMETRE
+from zlmreport.model.diagnosis.study import instrument_error
+from zlmreport.model.fitting.estimate import InstrumentError
+from zlmreport.plugin.registry import Registry
+
+#: Largest certificate that is read, in bytes.
+LARGEST = 256 * 1024 * 1024
+#: Opens a PDF: the results file that it carries, or None if it carries none.
+Opened = Callable[[Path], bytes | None]
+
+#: What of the places of other axes the model of three linear ones knows.
+_PLACES = frozenset({"X", "Y", "Z", "tool"})
+_AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
+
+
+def line_of(at: LineKeys | None) -> Line:
+    """Return where an error was measured."""
+    if at is None:
+        return Line({})
+    places = {"X": at.X, "Y": at.Y, "Z": at.Z}
+    others = {axis: MILLIMETRE.to_si(place) for axis, place in places.items() if place is not None}
+    tool = at.tool or (0.0, 0.0, 0.0)
+    return Line(others, (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3))
+
+
+def error_of(job: Job) -> str:
+    """Return which of the 21 errors a job measured; that of position where it does not say.
+
+    Raises `InputError` if it is none of them.
+    """
+    if job.axis.circle is not None:
+        raise InputError.at(job.place_of("circle"), "it is a circle, which two axes run; name it under tests")
+    name = job.axis.error or symbol_of_positioning(job.axis.name) or job.axis.name
+    if name not in ERRORS:
+        raise InputError.at(
+            job.place_of("measurement.error"),
+            f"{quoted(name)} is none of the 21 errors of three linear axes; {did_you_mean(name, ERRORS)}",
+        )
+    return name
+
+
+def line_of_job(job: Job) -> Line:
+    """Return where the others stood while a job measured."""
+    at = job.keys.measurement.at
+    return line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
+
+
+def curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Curve:
+    """Return the error that a job measured, with what its budget says of it.
+
+    Raises `InputError` if it measured none of the 21, or a squareness error without stating its uncertainty.
+    """
+    name, source = error_of(job), job.keys.certificate.number
+    if name not in SQUARENESS:
+        shared = shared_error(job, measurements, registry)
+        return measured_curve(name, measurements, shared, line_of_job(job), source)
+    evaluated = (each.evaluation for each in pipeline.evaluated(job, measurements, registry))
+    found = [one for each in evaluated for one in each.parameters if one.quantity.symbol == name]
+    u = found[0].standard_uncertainty if found else None
+    if u is None:
+        raise InputError.at(
+            job.place_of("measurement.error"),
+            f"this job states no {name} with its uncertainty; name what enters it under uncertainty and "
+            "instrument, and evaluate iso230-1:2012",
+        )
+    return single_curve(name, found[0].value, u, line_of_job(job), source)
+
+
+def single_curve(name: str, value: float, u: float, line: Line, source: str) -> Curve:
+    """Return a squareness error: one value, rad, with its standard uncertainty."""
+    return Curve(name, np.zeros(1), np.array([value]), np.eye(1) * u, line, source)
+
+
+def shared_error(job: Job, measurements: MeasurementSet, registry: Registry) -> InstrumentError:
+    """Return the uncertainty that the readings of a test share, by its budget or else by its instrument."""
+    length = float(np.ptp(measurements.target_positions)) or 1.0
+    budget = pipeline.budget_of_job(job, measurements, registry)
+    if not isinstance(budget, Budget):
+        return instrument_error(job, length)
+    return _shared(((each.acts, each.standard_uncertainty) for each in budget.contributions), length)
+
+
+def _shared(contributions: Iterable[tuple[Acts, float]], length: float) -> InstrumentError:
+    """Return contributions, standard uncertainties in m or rad, by what shares them."""
+    sums = {"along": 0.0, "at": 0.0, "between": 0.0}
+    for acts, u in contributions:
+        if acts is Acts.ALONG_THE_LENGTH:
+            sums["along"] += (u / length) ** 2
+        elif acts in _AT_POSITIONS:
+            sums["at"] += u**2
+        elif acts is Acts.BETWEEN_DIRECTIONS:
+            sums["between"] += u**2
+    return InstrumentError(
+        proportional=math.sqrt(sums["along"]),
+        at_each_position=math.sqrt(sums["at"]),
+        between_directions=math.sqrt(sums["between"]),
+    )
+
+
+class _Lenient(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="ignore")
+
+
+class _Position(_Lenient):
+    target: float
+    mean_fwd: float | None = None
+    mean_bwd: float | None = None
+    s_fwd: float | None = None
+    s_bwd: float | None = None
+    n_fwd: int = 1
+    n_bwd: int = 1
+
+
+class _Parameter(_Lenient):
+    symbol: str
+    value: float
+    unit: str = ""
+    expanded_uncertainty: float | None = None
+    coverage_factor: float | None = None
+
+
+class _Evaluation(_Lenient):
+    parameters: tuple[_Parameter, ...] = ()
+    positions: tuple[_Position, ...] = ()
+
+
+class _Contribution(_Lenient):
+    acts: Acts
+    standard_uncertainty: float
+
+
+class _Uncertainty(_Lenient):
+    contributions: tuple[_Contribution, ...] = ()
+
+
+class _Measurements(_Lenient):
+    axis: str
+    error: str | None = None
+    at: dict[str, Any] | None = None
+
+
+class _Certificate(_Lenient):
+    number: str
+
+
+class _Results(_Lenient):
+    """A results file as far as a machine needs it."""
+
+    certificate: _Certificate
+    measurements: _Measurements
+    evaluations: tuple[_Evaluation, ...] = Field(min_length=1)
+    uncertainty: _Uncertainty = _Uncertainty()
+
+
+def curve_of_certificate(path: Path, place: Place, opened: Opened) -> Curve:
+    """Return the error that a certificate of this program states, with its uncertainty.
+
+    Raises `InputError` if it is none that can be read.
+    """
+    content = demanded(path, LARGEST)
+    if content.startswith(b"%PDF"):
+        carried = opened(path)
+        if carried is None:
+            raise InputError.at(
+                place, f"{path.name} carries no results file; a certificate of this program does"
+            )
+        content = carried
+    try:
+        found = _Results.model_validate(json.loads(content))
+    except (ValidationError, ValueError) as error:
+        raise InputError.at(
+            place, f"{path.name} is no results file of this program (zlmreport/results/1)"
+        ) from error
+    name = found.measurements.error or f"E{found.measurements.axis}{found.measurements.axis}"
+    if name not in ERRORS:
+        raise InputError.at(
+            place, f"{path.name}: {quoted(name)} is none of the 21 errors of three linear axes"
+        )
+    unit = unit_of(name)
+    line = line_of(LineKeys.model_validate(found.measurements.at or {}))
+    own = next((each for of in found.evaluations for each in of.parameters if each.symbol == name), None)
+    if name in SQUARENESS:
+        if own is None or own.expanded_uncertainty is None:
+            raise InputError.at(place, f"{path.name} states no {name} with its uncertainty")
+        u = unit.to_si(own.expanded_uncertainty / (own.coverage_factor or 2.0))
+        return single_curve(name, unit.to_si(own.value), u, line, found.certificate.number)
+    positions = max((each.positions for each in found.evaluations), key=len)
+    if len(positions) < 2:
+        raise InputError.at(place, f"{path.name} states no deviations by position")
+    return _of_positions(name, positions, found, line)
+
+
+def _of_positions(name: str, positions: tuple[_Position, ...], found: _Results, line: Line) -> Curve:
+    """Return the means of a table by position as a curve."""
+    unit = unit_of(name)
+    nodes = np.array([each.target for each in positions]) / 1e3
+    sides = [
+        side
+        for side in ("fwd", "bwd")
+        if all(getattr(each, f"mean_{side}") is not None for each in positions)
+    ]
+
+    def column(name: str, nothing: float = 0.0) -> FloatArray:
+        return np.array(
+            [[getattr(each, f"{name}_{side}") or nothing for each in positions] for side in sides],
+            dtype=np.float64,
+        )
+
+    count = np.maximum(column("n", 1.0).astype(np.int64), 1)
+    means = Means(nodes, unit.to_si(column("mean")), count, (count - 1) * unit.to_si(column("s")) ** 2)
+    shared = _shared(
+        (
+            (each.acts, float(unit.to_si(each.standard_uncertainty)))
+            for each in found.uncertainty.contributions
+        ),
+        float(np.ptp(nodes)),
+    )
+    return curve_of(means, name, shared, line, found.certificate.number)
+
+
+def curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem]) -> list[Curve]:
+    """Return the errors that an item of the machine file states, each a value or a curve of values."""
+    found = []
+    own = dict(stated.model_extra or {})
+    if not own:
+        problems.append(
+            Problem(node.place, "states no error; write for example {C0Y: 2.5, expanded_uncertainty: 0.6}")
+        )
+    for name, value in own.items():
+        place = node.entries[name].place
+        if name not in ERRORS:
+            problems.append(
+                Problem(place, f"{quoted(name)} is none of the 21 errors; {did_you_mean(name, ERRORS)}")
+            )
+            continue
+        curve = _stated(name, value, stated, problems, node.entries[name].value)
+        if curve:
+            found.append(curve)
+    return found
+
+
+def _stated(name: str, value: Any, stated: StatedKeys, problems: list[Problem], node: Any) -> Curve | None:
+    unit, line = unit_of(name), line_of(stated.at)
+    u = float(unit.to_si(stated.expanded_uncertainty)) / 2.0
+    source = stated.source or "stated"
+    if name in SQUARENESS:
+        number = _number(value)
+        if number is None:
+            problems.append(Problem(node.place, f"{name}: a number is expected, arc seconds, such as 2.5"))
+            return None
+        return Curve(name, np.zeros(1), np.array([unit.to_si(number)]), np.eye(1) * u, line, source)
+    pairs = [(_number(at), _number(each)) for at, each in value.items()] if isinstance(value, Mapping) else []
+    places = [at for at, _ in pairs if at is not None]
+    values = [each for _, each in pairs if each is not None]
+    if (
+        len(places) < 2
+        or len(places) != len(pairs)
+        or len(values) != len(pairs)
+        or sorted(set(places)) != places
+    ):
+        axis = name[2]
+        problems.append(
+            Problem(
+                node.place,
+                f"{name}: values by the position of {axis} are expected, rising, such as "
+                f"{{0: 0, 250: 1.2, 500: 2.0}} (mm: {unit.symbol}); a single number is a squareness error's",
+            )
+        )
+        return None
+    own = np.eye(len(values)) * u
+    return Curve(name, np.array(places) / 1e3, unit.to_si(np.array(values)), own, line, source)
+
+
+def _number(value: Any) -> float | None:
+    """Return a number, or what reads as one."""
+    try:
+        number = float(value.text if isinstance(value, Scalar) else value)
+    except (TypeError, ValueError):
+        return None
+    return number if math.isfinite(number) and abs(number) < 1e9 else None
+
+
+def bounds_of(stated: Mapping[str, float], tree: Keys, problems: list[Problem]) -> dict[str, float]:
+    """Return the bounds of errors that nobody measured, m or rad."""
+    found = {}
+    for name, bound in stated.items():
+        if name in ERRORS:
+            found[name] = float(unit_of(name).to_si(bound))
+        else:
+            problems.append(
+                Problem(
+                    tree.entries[name].place,
+                    f"{quoted(name)} is none of the 21 errors; {did_you_mean(name, ERRORS)}",
+                )
+            )
+    return found

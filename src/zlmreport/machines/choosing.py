@@ -1,0 +1,131 @@
+"""Which form of an effect fits circles best, and its searched values between two of the grid."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from zlmreport.machines.course import Circle
+from zlmreport.machines.forms import Form, form_at, forms_of, whole_form
+from zlmreport.machines.machine import Machine
+from zlmreport.machines.study import Chosen, CircleStudy, bare_study
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.circle_effect import CircleEffect, Searched, SearchedParameter
+
+#: Rounds of the search between two values of a grid, each with so many values.
+_ROUNDS, _VALUES = 3, 9
+#: Of a searched value: the step by which the slope over it is taken.
+_STEP = 1e-4
+#: 2·ln of what each further term of a form must be worth.
+_PRICE_OF_TERM = 2.0
+
+
+def study_of(
+    machine: Machine, circles: Sequence[Circle], effects: Iterable[CircleEffect] = ()
+) -> CircleStudy:
+    """Return the study of circles; effects that search for a value get the one that fits best."""
+    study = bare_study(machine, circles)
+    listed = list(effects)
+    # What nothing is searched for comes first: the rest is searched beside it.
+    for effect in sorted(listed, key=lambda each: bool(each.searched)):
+        study = with_effect(study, effect)
+    order = [each.identifier for each in listed]
+    return CircleStudy(
+        study.design, study.deviation, study.predicted, study.factor, study.shared,
+        tuple(sorted(study.effects, key=lambda each: order.index(each.effect.identifier))),
+    )  # fmt: skip
+
+
+def with_effect(study: CircleStudy, effect: CircleEffect, form: Form | None = None) -> CircleStudy:
+    """Return a study with one effect more, in the form that fits best or in that which is given.
+
+    It comes in with all groups of its terms, unless it is one that has one at a time.
+    """
+    chosen = form or best_form(study, effect)
+    if not effect.is_single:
+        chosen = whole_form(effect, study.design, chosen.searched)
+    return study.having(Chosen(effect, chosen, _tangents(study, effect, chosen)))
+
+
+def with_form(study: CircleStudy, effect: CircleEffect, form: Form) -> CircleStudy:
+    """Return a study with one effect more, in just this form."""
+    return study.having(Chosen(effect, form, _tangents(study, effect, form)))
+
+
+class _Fit:
+    """How well columns explain what a study leaves."""
+
+    def __init__(self, study: CircleStudy) -> None:
+        self._whitened = study.noise.best
+        read = self._whitened.of(study.deviation[:, np.newaxis])
+        self._left = read - self._whitened.taken @ (self._whitened.taken.T @ read)
+        self._variance = study.noise.sigma**2
+
+    def gained(self, form: Form) -> float:
+        """Return 2·ln of the likelihood ratio of a form, less the price of its terms."""
+        columns = self._whitened.of(form.columns)
+        matrix = self._whitened.product(columns, columns)
+        products = (columns.T @ self._left)[:, 0]
+        ratio = float(products @ np.linalg.pinv(matrix, rcond=1e-10) @ products) / self._variance
+        return ratio - _PRICE_OF_TERM * len(form.terms)
+
+
+def best_form(study: CircleStudy, effect: CircleEffect) -> Form:
+    """Return the form of an effect that fits best, its searched values refined."""
+    fit = _Fit(study)
+    forms = [form for form in forms_of(effect, study.design) if form.terms]
+    return refined_form(study, effect, max(forms, key=fit.gained))
+
+
+def refined_form(study: CircleStudy, effect: CircleEffect, form: Form) -> Form:
+    """Return a form with those searched values refined between two of the grid that may be."""
+    fit = _Fit(study)
+    grid = list(effect.grid(study.design.fine))
+    best = form.searched
+
+    def of(searched: Searched) -> Form:
+        return form_at(effect, study.design, searched, form)
+
+    for place in _refined_places(effect):
+        values = sorted({searched[place] for searched in grid})
+        nearest = int(np.argmin(np.abs(np.array(values) - best[place])))
+        low, high = values[max(nearest - 1, 0)], values[min(nearest + 1, len(values) - 1)]
+        for _ in range(_ROUNDS):
+            tried = [_moved(best, place, value) for value in np.linspace(low, high, _VALUES).tolist()]
+            best = max(tried, key=lambda searched: fit.gained(of(searched)))
+            step = (high - low) / (_VALUES - 1)
+            low, high = max(best[place] - step, low), min(best[place] + step, high)
+    return of(best)
+
+
+def _refined_places(effect: CircleEffect) -> list[int]:
+    return [place for place, parameter in enumerate(effect.searched) if parameter.is_refined]
+
+
+def _moved(searched: Searched, place: int, value: float) -> Searched:
+    return tuple(value if index == place else each for index, each in enumerate(searched))
+
+
+def _tangents(
+    study: CircleStudy, effect: CircleEffect, form: Form
+) -> tuple[tuple[SearchedParameter, FloatArray], ...]:
+    """Return by how much Δr changes with each refined parameter, at the coefficients that fit."""
+    places = _refined_places(effect)
+    if not places:
+        return ()
+    base = study.base
+    together = np.column_stack([base, form.columns])
+    weights = np.linalg.lstsq(together, study.deviation, rcond=None)[0][base.shape[1] :]
+    found = []
+    for place in places:
+        step = _STEP * abs(form.searched[place])
+        ends = [
+            form_at(
+                effect, study.design, _moved(form.searched, place, form.searched[place] + way * step), form
+            )
+            for way in (-1.0, 1.0)
+        ]
+        low, high = (each.columns @ weights for each in ends)
+        found.append((effect.searched[place], np.asarray((high - low) / (2.0 * step))))
+    return tuple(found)

@@ -1,0 +1,171 @@
+"""A test of a machine against what axes and effects predict: curves, sizes, numbers, where it fails."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.machines.course import Circle, StraightTest
+from zlmreport.machines.design import side_by_side
+from zlmreport.machines.machine import Machine, Prediction, predict
+from zlmreport.machines.measured_tests import MeasuredCircle
+from zlmreport.machines.residual import (
+    Stretch,
+    centred,
+    root_mean_square,
+    scatter_within,
+    stretches,
+    stretches_of_line,
+)
+from zlmreport.machines.study import CircleStudy
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.plugin.registry import Registry
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """How large a test's deviations are, m: measured, as predicted by the axes, and what is left."""
+
+    measured: float
+    predicted: float
+    left: float
+
+
+@dataclass(frozen=True, slots=True)
+class StandardNumbers:
+    """The parameters of a standard of the measured, the predicted and the remaining deviations."""
+
+    standard: str
+    designation: str
+    measured: tuple[Parameter, ...]
+    predicted: Mapping[str, float]  #: By symbol, m.
+    left: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """A test and its prediction; (N,) of its readings.
+
+    Attributes
+    ----------
+    test
+        The circle or the line.
+    prediction
+        What the axes predict.
+    left
+        What axes, and the effects of a model where there is one, leave of what was measured, m.
+    rms
+        Root mean squares; of circles about the centre of each turn and, unless the bar is calibrated, without
+        the mean radius, of lines without the mean.
+    of_axes, of_effects
+        What each error and each effect makes of the test, RMS, m, by name.
+    numbers
+        Of the standards that the test's job names.
+    fails
+        Where what is left is beyond its band.
+    """
+
+    test: Circle | StraightTest
+    prediction: Prediction
+    left: FloatArray
+    rms: Sizes
+    of_axes: Mapping[str, float]
+    of_effects: Mapping[str, float]
+    numbers: tuple[StandardNumbers, ...]
+    fails: tuple[Stretch, ...]
+
+    @property
+    def name(self) -> str:
+        """The test's name."""
+        return self.test.name
+
+
+def compare_circles(
+    machine: Machine,
+    circles: Sequence[MeasuredCircle],
+    registry: Registry,
+    study: CircleStudy | None = None,
+) -> tuple[Compared, ...]:
+    """Return all circles against their prediction, and against the effects of a model if there is a study."""
+    made = _made_by_effects([each.circle for each in circles], study)
+    return tuple(_circle(machine, each, index, registry, made) for index, each in enumerate(circles))
+
+
+def _circle(
+    machine: Machine,
+    measured: MeasuredCircle,
+    index: int,
+    registry: Registry,
+    made: Sequence[Mapping[str, FloatArray]],
+) -> Compared:
+    circle, effects = measured.circle, made[index]
+    prediction = predict(machine, circle.course())
+    left = circle.deviation - prediction.values - sum(effects.values(), np.zeros(len(circle.angle)))
+    shown = centred(circle, left)
+    standard = np.hypot(prediction.standard_uncertainty, scatter_within(circle, shown))
+    numbers = tuple(
+        StandardNumbers(
+            own.standard,
+            own.designation,
+            own.parameters,
+            {each.quantity.symbol: each.value for each in predicted.parameters},
+            {each.quantity.symbol: each.value for each in rest.parameters},
+        )
+        for own, predicted, rest in zip(
+            *(measured.evaluations(each, registry) for each in (circle.deviation, prediction.values, left)),
+            strict=True,
+        )
+    )
+    sizes = (circle.deviation, prediction.values, left)
+    return Compared(
+        circle,
+        prediction,
+        left,
+        Sizes(*(root_mean_square(centred(circle, each)) for each in sizes)),
+        {name: root_mean_square(centred(circle, each)) for name, each in prediction.shares.items()},
+        {name: root_mean_square(each) for name, each in effects.items()},
+        numbers,
+        stretches(circle, shown, standard),
+    )
+
+
+def _made_by_effects(
+    circles: Sequence[Circle], study: CircleStudy | None
+) -> tuple[dict[str, FloatArray], ...]:
+    """Return what each effect of a study makes of each circle, at all of its readings, m."""
+    found: tuple[dict[str, FloatArray], ...] = tuple({} for _ in circles)
+    if study is None:
+        return found
+    design = side_by_side(circles)
+    for each in study.effects:
+        values = {one.name: one.value for one in study.estimates_of(each.effect.identifier)}
+        fitted = {term.name for term in each.form.terms}
+        terms = each.effect.terms(design, each.form.searched)
+        curve = sum(
+            (values[term.name] * term.column for term in terms if term.name in fitted), np.zeros(design.count)
+        )
+        for index, own in enumerate(found):
+            own[each.effect.identifier] = curve[design.test == index]
+    return found
+
+
+def compare_line(machine: Machine, line: StraightTest) -> Compared:
+    """Return a line against its prediction."""
+    prediction = predict(machine, line.course)
+    left = line.deviation - prediction.values
+    shown = left - left.mean()
+    standard = np.hypot(prediction.standard_uncertainty, line.standard_uncertainty)
+    sizes = (line.deviation, prediction.values, left)
+    return Compared(
+        line,
+        prediction,
+        left,
+        Sizes(*(root_mean_square(each - each.mean()) for each in sizes)),
+        {name: root_mean_square(each - each.mean()) for name, each in prediction.shares.items()},
+        {},
+        (),
+        stretches_of_line(line, shown, standard),
+    )

@@ -1,0 +1,262 @@
+"""The contest: which effect, or which curve without a name, explains best what the model leaves.
+
+Evidence is 2·ln of a Bayes factor against the model alone: the likelihood averaged over the sizes that an
+effect may have, over its forms and searched values, and over the noise. A curve without a name is a random
+curve of one amplitude, and not a series of waves with free coefficients: it then costs no more than the
+readings make it, and a named effect that merely resembles what is there loses to it.
+
+How large evidence becomes by chance is found by simulation: the same contest on deviations that hold nothing
+but the noise that was found. A false alarm is an excess of any candidate over what it usually reaches.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.machines.design import ThinnedDesign
+from zlmreport.machines.forms import Form
+from zlmreport.machines.noise import NoiseFound, NoiseModel, Whitened
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.null_distribution import LEVEL, NullDistribution, PValue, Scores
+from zlmreport.model.effects.circle_design import AXES
+from zlmreport.model.effects.circle_effect import CircleEffect
+
+#: Root mean squares that an effect may have, in units of σ.
+_SIZES = np.array([0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 12.8, 25.6, 100.0])
+#: Simulated tests.
+TRIALS = 200
+#: Of a column's length that the base model must leave, for the column to be seen.
+_LEAST_VISIBLE = 1e-4
+_LEAST = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Nameless:
+    """A random curve without a name, as any cause might make it."""
+
+    shape: Words
+    columns: FloatArray  #: (N, f): Their random combination is the curve, mean variance one.
+
+
+def nameless_curves(design: ThinnedDesign) -> tuple[Nameless, ...]:
+    """Return the curves without names: even, odd, locked to the reversals of each axis, in time."""
+    found = []
+    for length in (40.0, 15.0):
+        smooth = _smooth(design.angle, np.radians(length))
+        found.append(Nameless(_EVEN, smooth))
+        if design.has_both_senses:
+            found.append(Nameless(_ODD, smooth * design.sense[:, np.newaxis]))
+    for axis in design.axes:
+        since = design.since_reversal(axis)
+        known = np.isfinite(since)
+        bumps = _bumps(np.nan_to_num(since)) * known[:, np.newaxis]
+        found.append(Nameless(_REVERSAL.given(axis=AXES[axis]), bumps))
+    travelled = [
+        _smooth_line(design.travelled, 0.5) * (design.turn == turn)[:, np.newaxis] for turn in design.turns
+    ]
+    found.append(Nameless(_TIME, np.concatenate(travelled, axis=1)))
+    return tuple(Nameless(each.shape, _of_one(each.columns)) for each in found)
+
+
+def _of_one(columns: FloatArray) -> FloatArray:
+    return np.asarray(columns / np.sqrt(np.mean(np.sum(columns**2, axis=1))))
+
+
+def _smooth(angle: FloatArray, length: float) -> FloatArray:
+    orders = np.arange(1, 32)
+    size = np.exp(-0.25 * (orders * length) ** 2)
+    kept = size > 1e-2
+    waves = np.outer(angle, orders[kept])
+    return np.concatenate([size[kept] * np.cos(waves), size[kept] * np.sin(waves)], axis=1)
+
+
+def _bumps(since: FloatArray) -> FloatArray:
+    """Return a random shape locked to a reversal, dying away over some 30°."""
+    places = np.radians(np.arange(0.0, 48.0, 3.0))
+    bumps = np.exp(-0.5 * ((since[:, np.newaxis] - places) / np.radians(3.0)) ** 2)
+    return np.asarray(bumps * np.exp(-places / np.radians(20.0)))
+
+
+def _smooth_line(travelled: FloatArray, length: float) -> FloatArray:
+    places = np.arange(0.0, float(travelled.max()) + length, length)
+    return np.asarray(np.exp(-0.5 * ((travelled[:, np.newaxis] - places) / length) ** 2))
+
+
+_EVEN = Words(
+    en="smooth over the angle, alike in both senses", de="glatt über dem Winkel, in beiden Drehsinnen gleich"
+)
+_ODD = Words(
+    en="smooth over the angle, opposite in the two senses",
+    de="glatt über dem Winkel, in den Drehsinnen entgegengesetzt",
+)
+_REVERSAL = Words(en="locked to the reversals of {axis}", de="an die Umkehrpunkte von {axis} gebunden")
+_TIME = Words(
+    en="smooth along the path, each turn in its own way",
+    de="glatt entlang der Bahn, in jedem Umlauf verschieden",
+)
+
+
+class Held(NamedTuple):
+    """What the contest is about."""
+
+    model: NoiseModel  #: The noise under the base model.
+    noise: NoiseFound  #: What of it the readings show.
+    deviation: FloatArray  #: (N,), m.
+
+
+@dataclass(frozen=True, slots=True)
+class Contender:
+    """An effect with the form that fits best."""
+
+    effect: CircleEffect
+    form: Form
+    evidence: float
+    p_value: PValue
+    usual: float
+
+
+@dataclass(frozen=True, slots=True)
+class Contest:
+    """The outcome of a contest."""
+
+    contenders: tuple[Contender, ...]  #: Best first.
+    shape: Words | None  #: The best curve without a name.
+    shape_evidence: float
+    probabilities: tuple[float, ...]  #: Of the contenders, if each cause was as likely before the test.
+    p_value: PValue  #: Of the largest excess of any: that of a false alarm.
+
+
+def contest(
+    held: Held,
+    effects: Sequence[tuple[CircleEffect, tuple[Form, ...]]],
+    nameless: Sequence[Nameless],
+    seed: int = 0,
+) -> Contest:
+    """Hold all effects and curves against what the base model leaves of the deviations."""
+    model, noise, deviation = held
+    random = np.random.default_rng(seed)
+    drawn = random.choice(len(noise.shapes), TRIALS, p=noise.weights)
+    shapes = [noise.shapes[index] for index in drawn.tolist()]
+    simulated = model.noise.simulated(shapes, model.known, random)
+    together = np.column_stack([deviation / noise.sigma, simulated])
+    arenas = [_Arena(each, together) for each in noise.whitened]
+    null = np.array([arena.null for arena in arenas])
+    weight = _shares(null)
+    by_effect, best = [], []
+    for effect, forms in effects:
+        terms = list({id(term): term for form in forms for term in form.terms}.values())
+        place = {id(term): index for index, term in enumerate(terms)}
+        subsets = [[place[id(term)] for term in form.terms] for form in forms]
+        columns = np.column_stack([term.column for term in terms])
+        found = np.array([arena.evidence(columns, subsets) for arena in arenas])
+        by_effect.append(_averaged(found, weight))
+        best.append((effect, forms[int(np.argmax(_averaged_forms(found, weight)[:, 0]))]))
+    by_shape = [
+        _averaged(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
+    ]
+    named = 2.0 * np.array(by_effect).reshape(len(best), -1)
+    curves = 2.0 * np.array(by_shape).reshape(len(nameless), -1)
+    usual, usual_curves = (
+        np.quantile(each[:, 1:], 1 - LEVEL, axis=1) if len(each) else np.zeros(0) for each in (named, curves)
+    )
+    chance = NullDistribution(named[:, 1:], curves[:, 1:], usual, usual_curves, 0.0)
+    own = Scores(named[:, :1], curves[:, :1])
+    contenders = [
+        Contender(
+            effect, form, float(value), chance.p_value_of_effect(index, float(value)), float(usual[index])
+        )
+        for index, ((effect, form), value) in enumerate(zip(best, named[:, 0], strict=True))
+    ]
+    all_of_them = np.concatenate([[0.0], named[:, 0], curves[:, 0]]) / 2.0
+    shares = np.exp(all_of_them - all_of_them.max())
+    shares /= shares.sum()
+    order = np.argsort(-named[:, 0], kind="stable").tolist()
+    leading = int(np.argmax(curves[:, 0])) if len(curves) else None
+    return Contest(
+        tuple(contenders[index] for index in order),
+        None if leading is None else nameless[leading].shape,
+        -np.inf if leading is None else float(curves[leading, 0]),
+        tuple(float(shares[1 + index]) for index in order),
+        chance.p_value(own),
+    )
+
+
+class _Arena:
+    """All deviations under one noise."""
+
+    def __init__(self, whitened: Whitened, together: FloatArray) -> None:
+        self._whitened = whitened
+        own = whitened.of(together)
+        self._left = own - whitened.taken @ (whitened.taken.T @ own)
+        self._squares = np.sum(own * self._left, axis=0)
+        self._freedom = whitened.freedom
+        self.null = -0.5 * whitened.log_determinant - 0.5 * self._freedom * np.log(self._squares)
+
+    def evidence(self, columns: FloatArray, subsets: Sequence[Sequence[int]]) -> list[FloatArray]:
+        """Return ln of the Bayes factor of subsets of columns, their size averaged over."""
+        own = self._whitened.of(columns / np.sqrt(np.mean(columns**2, axis=0)))
+        inside, products = self._whitened.taken.T @ own, own.T @ self._left
+        return [
+            self._of(*_independent(own[:, chosen], inside[:, chosen], products[chosen])) for chosen in subsets
+        ]
+
+    def _of(self, strengths: FloatArray, products: FloatArray) -> FloatArray:
+        if not len(strengths):
+            return np.zeros(len(self._squares))
+        explained = np.sum(products**2 / strengths[:, np.newaxis], axis=0) / self._squares
+        worth = _SIZES**2 * float(strengths.mean())
+        share = worth / (1.0 + worth)
+        inside = 1.0 - np.minimum(explained, 1.0 - _LEAST) * share[:, np.newaxis]
+        logs = -0.5 * len(strengths) * np.log1p(worth)[:, np.newaxis] - 0.5 * self._freedom * np.log(inside)
+        return _log_mean(logs)
+
+    def curve(self, columns: FloatArray) -> FloatArray:
+        """Return the same of a random curve: its coefficients are averaged over, whatever their number."""
+        own = self._whitened.of(columns)
+        strengths, products = _independent(own, self._whitened.taken.T @ own, own.T @ self._left)
+        logs = []
+        for size in _SIZES:
+            shrunk = size**2 / (1.0 + size**2 * strengths)
+            explained = np.sum(products**2 * shrunk[:, np.newaxis], axis=0) / self._squares
+            inside = 1.0 - np.minimum(explained, 1.0 - _LEAST)
+            logs.append(
+                -0.5 * float(np.sum(np.log1p(size**2 * strengths))) - 0.5 * self._freedom * np.log(inside)
+            )
+        return _log_mean(np.array(logs))
+
+
+def _independent(own: FloatArray, inside: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return strengths of independent combinations of columns, and their products with the deviations.
+
+    `own`, (N, k): the whitened columns; `inside`, (r, k): their products with what the base takes out.
+    """
+    strengths, turn = np.linalg.eigh(own.T @ own - inside.T @ inside)
+    kept = strengths > _LEAST_VISIBLE * float(np.sum(own**2, axis=0).max())
+    return strengths[kept], turn[:, kept].T @ products
+
+
+def _shares(null: FloatArray) -> FloatArray:
+    """Return the probability of each noise for each deviation, (noises, B)."""
+    shares = np.exp(null - null.max(axis=0))
+    return np.asarray(shares / shares.sum(axis=0))
+
+
+def _averaged_forms(found: FloatArray, weight: FloatArray) -> FloatArray:
+    """Return ln of the mean Bayes factor over the noises, (forms, B)."""
+    most = found.max(axis=0)
+    return np.asarray(most + np.log(np.sum(weight[:, np.newaxis] * np.exp(found - most), axis=0)))
+
+
+def _averaged(found: FloatArray, weight: FloatArray) -> FloatArray:
+    """Return ln of the mean Bayes factor over noises and forms, (B,)."""
+    return _log_mean(_averaged_forms(found, weight))
+
+
+def _log_mean(logs: FloatArray) -> FloatArray:
+    most = logs.max(axis=0)
+    return np.asarray(most + np.log(np.mean(np.exp(logs - most), axis=0)))

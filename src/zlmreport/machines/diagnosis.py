@@ -1,0 +1,281 @@
+"""Which effect is missing from the model of a machine: found one by one, each with evidence of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from itertools import pairwise
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.machines.choosing import refined_form, with_effect, with_form
+from zlmreport.machines.contest import Contender, Contest, Held, contest, nameless_curves
+from zlmreport.machines.forms import Form, forms_of, parts_of, whole_form
+from zlmreport.machines.noise import Whitened
+from zlmreport.machines.study import CircleStudy, Estimated
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue
+from zlmreport.model.effects.circle_effect import CircleEffect
+
+#: Evidence that a cause after the first must bring more than that, that is worth a mention, and by which a
+#: name must surpass a shape without one.
+FURTHER, MENTION, NAMED = 8.0, 2.0, 2.0
+#: Part of an effect's curve that another must leave for the plan to tell them apart.
+_ALIKE = 0.02
+#: The same, where the readings favour neither of them.
+_SIMILAR = 0.15
+#: Effects behind the best of which a word is worth it.
+_SERIOUS = 0.01
+_MOST_EFFECTS = 6
+
+
+class Verdict(StrEnum):
+    """What became of the model."""
+
+    ADEQUATE = "adequate"
+    MISSING = "missing"
+    UNEXPLAINED = "unexplained"
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An effect that might be missing."""
+
+    effect: CircleEffect
+    form: Form
+    evidence: float
+    probability: float
+    p_value: PValue
+    estimates: tuple[Estimated, ...]
+    rms_after: float  #: m.
+    is_plausible: bool
+    indistinguishable_from: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Remainder:
+    """What is left beside all that is named."""
+
+    rms: float  #: m.
+    shape: Words
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """An effect that came into the model."""
+
+    effect: str
+    before: float  #: RMS of what the model leaves, m.
+    after: float
+    noise: float
+
+
+@dataclass(frozen=True, slots=True)
+class MachineDiagnosis:
+    """The outcome."""
+
+    study: CircleStudy  #: Of the model as it is.
+    complete: CircleStudy  #: With all that was found.
+    verdict: Verdict
+    p_value: PValue
+    candidates: tuple[Candidate, ...]
+    found: tuple[str, ...]  #: What belongs in, first the one to add first; nothing that has an equal.
+    steps: tuple[Step, ...]
+    remainder: Remainder | None
+    not_testable: tuple[str, ...]
+    catalogue: tuple[CircleEffect, ...]  #: All effects that were thought of.
+    is_tied: bool  #: Whether the next effect has an equal that this plan cannot tell from it.
+
+
+def rms_of(study: CircleStudy) -> float:
+    """Return the RMS of what a study leaves, m."""
+    return float(np.sqrt(np.mean(study.residual**2)))
+
+
+@dataclass(frozen=True, slots=True)
+class _Stage:
+    """The model with some effects more, and what the contest says of it."""
+
+    study: CircleStudy
+    outcome: Contest
+    shown: tuple[Candidate, ...]
+    hidden: tuple[str, ...]
+    gathered: float  #: Evidence of all effects that came in, less what each further one must bring.
+
+    @property
+    def is_something_left(self) -> bool:
+        """Whether something is left that chance does not explain."""
+        return self.outcome.p_value.value <= LEVEL
+
+    @property
+    def leader(self) -> Candidate | None:
+        """The first that is possible."""
+        return next((each for each in self.shown if each.is_plausible), None)
+
+    @property
+    def worth(self) -> float:
+        """Evidence of the model so far, with a curve without a name beside it where something is left."""
+        beside = max(self.outcome.shape_evidence, 0.0) if self.is_something_left else 0.0
+        price = FURTHER if self.gathered and beside else 0.0
+        return self.gathered + max(beside - price, 0.0)
+
+
+def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDiagnosis:
+    """Say whether something is missing from a study's model, and what.
+
+    The best effect comes in, then the next beside it, as long as each has evidence of its own. Of all these
+    models, and of a curve without a name in the place of what is left, the one with the most evidence is
+    taken: so two effects are found that together look like neither, and a cause that is in no catalogue gets
+    no name.
+    """
+    stages = _stages(study, catalogue)
+    chosen = max(
+        range(len(stages)), key=lambda index: (round(stages[index].worth - NAMED * (index > 0), 9), -index)
+    )
+    found: list[str] = []
+    steps: list[Step] = []
+    is_tied = False
+    for before, after in pairwise(stages[: chosen + 1]):
+        leader = before.leader
+        if leader is None or leader.indistinguishable_from:
+            is_tied = True
+            break
+        found.append(leader.effect.identifier)
+        steps.append(
+            Step(leader.effect.identifier, rms_of(before.study), rms_of(after.study), after.study.noise.rms)
+        )
+    first, last = stages[0], stages[len(found)]
+    is_left = last.is_something_left and not is_tied
+    remainder = _left(last.study, last.outcome) if is_left else None
+    verdict = Verdict.UNEXPLAINED if remainder else Verdict.ADEQUATE
+    verdict = Verdict.MISSING if found or is_tied else verdict
+    return MachineDiagnosis(
+        study, last.study, verdict, first.outcome.p_value, first.shown, tuple(found), tuple(steps),
+        remainder, first.hidden, tuple(catalogue), is_tied,
+    )  # fmt: skip
+
+
+def _stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[_Stage]:
+    """Return the models that come about when the best effect comes in again and again."""
+    stages: list[_Stage] = []
+    current, gathered = study, 0.0
+    while True:
+        outcome, hidden = _held(current, catalogue, len(stages))
+        stage = _Stage(current, outcome, _candidates(current, outcome), tuple(hidden), gathered)
+        stages.append(stage)
+        leader = stage.leader
+        needed = FURTHER + NAMED if len(stages) > 1 else NAMED
+        if not stage.is_something_left or leader is None or leader.evidence < needed:
+            return stages
+        if len(stages) > _MOST_EFFECTS:
+            return stages
+        gathered += leader.evidence - (FURTHER if len(stages) > 1 else 0.0)
+        current = with_effect(current, leader.effect, leader.form)
+
+
+def _held(study: CircleStudy, catalogue: Sequence[CircleEffect], seed: int) -> tuple[Contest, list[str]]:
+    """Hold all effects that are not in the model against what it leaves."""
+    tried, unseen = [], []
+    for effect in catalogue:
+        if effect.identifier in study.names:
+            continue
+        forms = tuple(form for form in forms_of(effect, study.design) if form.terms and _is_seen(form, study))
+        if forms:
+            tried.append((effect, forms))
+        else:
+            unseen.append(effect.identifier)
+    curves = nameless_curves(study.design)
+    return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
+
+
+def _is_seen(form: Form, study: CircleStudy) -> bool:
+    """Return whether the base model leaves anything of a form."""
+    if not study.base.shape[1]:
+        return True
+    basis, _ = np.linalg.qr(study.base)
+    columns = form.columns
+    left = columns - basis @ (basis.T @ columns)
+    return bool(np.sum(left**2) > 1e-6 * np.sum(columns**2))
+
+
+def _candidates(study: CircleStudy, outcome: Contest) -> tuple[Candidate, ...]:
+    """Return the effects that are worth a word, best first, with their estimates and equals."""
+    most = outcome.contenders[0].evidence if outcome.contenders else 0.0
+    worth = [
+        (each, probability)
+        for each, probability in zip(outcome.contenders, outcome.probabilities, strict=True)
+        if each.evidence > max(most - 60.0, 0.0) or probability > _SERIOUS
+    ][:8]
+    found = [_candidate(study, each, probability) for each, probability in worth]
+    found.sort(key=lambda each: (not each.is_plausible, -each.evidence))
+    plausible = [each for each in found if each.is_plausible]
+    if plausible:
+        tied = [each for each in plausible if each.evidence > plausible[0].evidence - MENTION]
+        plainest = min(tied, key=_strangeness)
+        found.sort(key=lambda each: each is not plainest)
+    curves = [_curve(study, each) for each in found]
+    return tuple(_with_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True))
+
+
+def _candidate(study: CircleStudy, contender: Contender, probability: float) -> Candidate:
+    form = refined_form(study, contender.effect, contender.form)
+    after = with_form(study, contender.effect, form)
+    estimates = after.estimates_of(contender.effect.identifier)
+    return Candidate(
+        contender.effect, form, contender.evidence, probability, contender.p_value, estimates,
+        rms_of(after), all(each.is_possible for each in estimates),
+    )  # fmt: skip
+
+
+def _strangeness(candidate: Candidate) -> float:
+    """Return how far beyond the usual an effect's values are, and how much was searched for it."""
+    beyond = [
+        abs(each.value) / each.term.usual
+        for each in candidate.estimates
+        if each.term is not None and each.term.usual
+    ]
+    return float(np.log(max([*beyond, 1.0]))) + len(candidate.effect.searched)
+
+
+def _curve(study: CircleStudy, candidate: Candidate) -> FloatArray:
+    """Return what an effect makes of the deviations at its estimated values."""
+    parts = (each.value * each.term.column for each in candidate.estimates if each.term is not None)
+    return np.asarray(sum(parts, np.zeros(study.design.count)))
+
+
+def _with_equals(
+    study: CircleStudy, candidate: Candidate, curve: FloatArray, others: Sequence[Candidate]
+) -> Candidate:
+    """Return a candidate with those that the plan cannot tell from it, by columns and evidence."""
+    if not candidate.is_plausible:
+        return candidate
+    under = study.noise.best
+    own = under.of(curve[:, np.newaxis])
+    length = float(under.product(own, own)[0, 0])
+    equals = []
+    for other in others:
+        if other is candidate or not other.is_plausible or length <= 0:
+            continue
+        whole = whole_form(other.effect, study.design, other.form.searched)
+        explained = max(
+            _explained(under, form.columns, own) for form in parts_of(other.effect, whole) if form.terms
+        )
+        apart, nearer = 1.0 - explained / length, abs(other.evidence - candidate.evidence)
+        if (apart < _ALIKE and nearer < FURTHER) or (apart < _SIMILAR and nearer < MENTION):
+            equals.append(other.effect.identifier)
+    return replace(candidate, indistinguishable_from=tuple(equals))
+
+
+def _explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
+    """Return the squared length of what columns make of a whitened curve, (N, 1)."""
+    others = under.of(columns)
+    matrix, products = under.product(others, others), under.product(others, own)
+    return float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
+
+
+def _left(study: CircleStudy, outcome: Contest) -> Remainder:
+    """Return what is left beside all that is named: the residual beyond its noise."""
+    beyond = max(rms_of(study) ** 2 - (study.noise.sigma**2), 0.0)
+    return Remainder(float(np.sqrt(beyond)), outcome.shape or Words(en="of no shape", de="ohne Form"))

@@ -1,0 +1,185 @@
+"""A diagnosis of a machine as plain values for JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from zlmreport.language import Language
+from zlmreport.machines.comparison import Compared
+from zlmreport.machines.course import Circle
+from zlmreport.machines.diagnosis import Candidate, MachineDiagnosis, Verdict, rms_of
+from zlmreport.machines.report import compared_sizes, stretch_values
+from zlmreport.machines.study import CircleStudy, Estimated
+from zlmreport.machines.subjects.findings import absent, findings, remedy, statement
+from zlmreport.machines.subjects.tests import stretch_in_words
+
+SCHEMA, BUILD, CHANGE = "zlmreport/diagnosis/1", "zlmreport/build/1", "zlmreport/machine-change/1"
+_MICRO = 1e6
+_MOST_FAILURES = 3
+
+
+def diagnosis_values(
+    diagnosis: MachineDiagnosis,
+    tests: Sequence[Compared],
+    complete: Sequence[Compared],
+    language: Language = Language.ENGLISH,
+) -> dict[str, Any]:
+    """Return a diagnosis as plain values.
+
+    `tests`: The tests beside the model as it is.
+    `complete`: The same beside the model with all that was found.
+    """
+    noise = diagnosis.complete.noise.rms
+    return {
+        "schema": SCHEMA,
+        "model": model_values(diagnosis.study),
+        "error": study_values(diagnosis.study, noise),
+        "verdict": diagnosis.verdict.value,
+        "statement": statement(diagnosis).in_language(language),
+        "p_value": diagnosis.p_value.value,
+        "set": list(diagnosis.found),
+        "candidates": [candidate_values(each, diagnosis, language) for each in diagnosis.candidates],
+        "remainder": remainder_values(diagnosis, language),
+        "tests": [{**compared_sizes(each), "noise_rms": _MICRO * noise} for each in tests],
+        "complete": {
+            "model": model_values(diagnosis.complete),
+            "error": study_values(diagnosis.complete, noise),
+            "tests": [{**compared_sizes(each), "noise_rms": _MICRO * noise} for each in complete],
+        },
+        "findings": [each.in_language(language) for each in findings(diagnosis.complete)],
+        "beside": [
+            {
+                "effect": each.effect,
+                "parameters": [parameter_values(one) for one in each.estimates],
+                "statements": [sentence.in_language(language) for sentence in each.sentences],
+            }
+            for each in absent(diagnosis.complete, diagnosis.catalogue)
+        ],
+        "not_testable": list(diagnosis.not_testable),
+        "failures": [
+            {
+                "test": each.name,
+                "statement": stretch_in_words(stretch, is_circle=is_circle).in_language(language),
+                **stretch_values(stretch, is_circle=is_circle),
+            }
+            for each in tests
+            for is_circle in (isinstance(each.test, Circle),)
+            for stretch in each.fails[:_MOST_FAILURES]
+        ],
+        "faults": [],
+    }
+
+
+def build_values(diagnosis: MachineDiagnosis, language: Language = Language.ENGLISH) -> dict[str, Any]:
+    """Return the steps by which a model came about."""
+    return {
+        "schema": BUILD,
+        "steps": [
+            {
+                "effect": each.effect,
+                "rms_before": _MICRO * each.before,
+                "rms_after": _MICRO * each.after,
+                "noise_rms": _MICRO * each.noise,
+                "unit": "um",
+            }
+            for each in diagnosis.steps
+        ],
+        "verdict": Verdict.UNEXPLAINED.value if diagnosis.remainder else _after(diagnosis),
+        "remainder": remainder_values(diagnosis, language),
+        "model": model_values(diagnosis.complete),
+        "error": study_values(diagnosis.complete, diagnosis.complete.noise.rms),
+    }
+
+
+def _after(diagnosis: MachineDiagnosis) -> str:
+    """Return the verdict on the model as built: effects that cannot be told apart are still missing."""
+    is_tied = diagnosis.verdict is Verdict.MISSING and diagnosis.is_tied
+    return Verdict.MISSING.value if is_tied else Verdict.ADEQUATE.value
+
+
+def change_values(
+    before: CircleStudy, after: CircleStudy, tests: tuple[Sequence[Compared], Sequence[Compared]]
+) -> dict[str, Any]:
+    """Return what a change of the model did; `tests` are those beside the model before and after it."""
+    noise = after.noise.rms
+    return {
+        "schema": CHANGE,
+        **{
+            name: {
+                "model": model_values(study),
+                "error": study_values(study, noise),
+                "tests": [{**compared_sizes(each), "noise_rms": _MICRO * noise} for each in compared],
+            }
+            for name, study, compared in zip(("before", "after"), (before, after), tests, strict=True)
+        },
+    }
+
+
+def remainder_values(diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any] | None:
+    """Return what is left without a name."""
+    left = diagnosis.remainder
+    if left is None:
+        return None
+    total = rms_of(diagnosis.complete)
+    return {
+        "rms": _MICRO * left.rms,
+        "share": min(1.0, (left.rms / total) ** 2) if total else 0.0,
+        "shape": left.shape.in_language(language),
+        "unit": "um",
+    }
+
+
+def model_values(study: CircleStudy) -> dict[str, Any]:
+    """Return the effects of a model with their parameters."""
+    return {
+        "effects": list(study.names),
+        "parameters": [parameter_values(each) for each in study.estimates],
+    }
+
+
+def parameter_values(found: Estimated) -> dict[str, Any]:
+    """Return a parameter; without U where it was only tried at some values."""
+    unit, u = found.unit, found.expanded_uncertainty
+    values = {
+        "effect": found.effect,
+        "name": found.name,
+        "value": unit.from_si(found.value),
+        "unit": unit.ascii,
+    }
+    return (
+        values if u is None else {**values, "expanded_uncertainty": unit.from_si(u), "coverage_factor": 2.0}
+    )
+
+
+def study_values(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
+    """Return how far circles and model are apart; `noise_rms`, m, of the model that describes them."""
+    left = rms_of(study)
+    return {
+        "rms": _MICRO * left,
+        "noise_rms": _MICRO * noise_rms,
+        "chi2_per_dof": (left / noise_rms) ** 2 if noise_rms else None,
+        "unit": "um",
+    }
+
+
+def candidate_values(candidate: Candidate, diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any]:
+    """Return an effect that might be missing."""
+    by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
+    equals = [by_name[each] for each in candidate.indistinguishable_from]
+    return {
+        "effect": candidate.effect.identifier,
+        "title": candidate.effect.title.in_language(language),
+        "evidence": candidate.evidence,
+        "probability": candidate.probability,
+        "p_value": candidate.p_value.value,
+        "rms_after": _MICRO * candidate.rms_after,
+        "plausible": candidate.is_plausible,
+        "explains": candidate.effect.explains.in_language(language),
+        "parameters": [parameter_values(each) for each in candidate.estimates],
+        "indistinguishable_from": list(candidate.indistinguishable_from),
+        "discriminate_by": (
+            remedy(candidate.effect, equals[0], diagnosis.study).in_language(language) if equals else ""
+        ),
+        "unit": "um",
+    }

@@ -1,0 +1,74 @@
+"""The forms in which an effect of circles is tried: its searched values, groups of its terms."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+
+from zlmreport.machines.design import ThinnedDesign
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.effects.circle_effect import CircleEffect, CircleTerm, Searched
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """One shape of an effect: the values of its searched parameters, and the terms that are fitted."""
+
+    searched: Searched
+    terms: tuple[CircleTerm, ...]
+
+    @property
+    def columns(self) -> FloatArray:
+        """The columns side by side, (N, k)."""
+        return np.column_stack([each.column for each in self.terms])
+
+    @property
+    def groups(self) -> frozenset[str]:
+        """The groups of its terms."""
+        return frozenset(each.group or each.name for each in self.terms)
+
+    def of_groups(self, chosen: frozenset[str]) -> Form:
+        """Return the form with the terms of some groups alone."""
+        return Form(self.searched, tuple(each for each in self.terms if (each.group or each.name) in chosen))
+
+
+def whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searched) -> Form:
+    """Return an effect with all of its terms that a design can show."""
+    terms = effect.terms(design.fine, searched)
+    thin = (replace(each, column=design.thin(each.column)) for each in terms)
+    return Form(searched, tuple(each for each in thin if np.any(each.column)))
+
+
+def form_at(effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: Form) -> Form:
+    """Return the terms of a form at other searched values."""
+    by_name = {each.name: each for each in effect.terms(design.fine, searched)}
+    terms = (by_name[each.name] for each in like.terms)
+    return Form(searched, tuple(replace(each, column=design.thin(each.column)) for each in terms))
+
+
+def plain_form(effect: CircleEffect, design: ThinnedDesign) -> Form:
+    """Return an effect at the first values of its searched parameters; without terms if there are none."""
+    grid = effect.grid(design.fine)
+    return whole_form(effect, design, grid[0]) if grid else Form((), ())
+
+
+def parts_of(effect: CircleEffect, whole: Form) -> tuple[Form, ...]:
+    """Return a form with each group of its terms by itself, and with all of them."""
+    groups = sorted(whole.groups)
+    sizes = {len(groups)} if effect.is_base else {1} if effect.is_single else {1, len(groups)}
+    return tuple(
+        whole.of_groups(frozenset(chosen))
+        for size in sorted(sizes - {0})
+        for chosen in combinations(groups, size)
+    )
+
+
+def forms_of(effect: CircleEffect, design: ThinnedDesign) -> tuple[Form, ...]:
+    """Return the forms that a design can show: for each searched value, each group of terms and all."""
+    return tuple(
+        part
+        for searched in effect.grid(design.fine)
+        for part in parts_of(effect, whole_form(effect, design, searched))
+    )

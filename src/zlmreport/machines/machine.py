@@ -1,0 +1,158 @@
+"""A machine: its chain, what is known of its 21 errors, and the tests that it is held against."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from zlmreport.machines.course import Course
+from zlmreport.machines.curve import Curve
+from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, Line, Point, weights
+from zlmreport.measurement.arrays import BoolArray, FloatArray
+from zlmreport.measurement.units import ARCSECOND, MICROMETRE, Unit
+from zlmreport.model.effects.circle_design import AXES
+
+#: How large an error that nobody measured may be where the file states no bound: half-widths of a range, µm
+#: over the travel or arc seconds. An assumption of this program, of the order of what machine tools have.
+ASSUMED_BOUNDS: Mapping[str, float] = MappingProxyType(
+    {"position": 10.0, "straightness": 5.0, "angle": 6.0, "squareness": 8.0}
+)
+
+
+def kind_of(error: str) -> str:
+    """Return whether an error is one of position, straightness, angle or squareness."""
+    if error in SQUARENESS:
+        return "squareness"
+    if error[1] in "ABC":
+        return "angle"
+    return "position" if error[1] == error[2] else "straightness"
+
+
+def unit_of(error: str) -> Unit:
+    """Return the unit in which an error is read and printed."""
+    return ARCSECOND if kind_of(error) in {"angle", "squareness"} else MICROMETRE
+
+
+@dataclass(frozen=True, slots=True)
+class Unmeasured:
+    """An error that nobody measured, with the bound within which it is taken to lie."""
+
+    name: str
+    bound: float  #: Half the width of its range, m or rad.
+    is_assumed: bool  #: Whether this program assumed the bound, the file stating none.
+
+
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """A machine as its file describes it."""
+
+    chain: Chain
+    tool: Point  #: The tool's offset, m.
+    curves: tuple[Curve, ...]  #: What was measured or stated, in the order of `ERRORS`.
+    unmeasured: tuple[Unmeasured, ...]  #: All others of the 21.
+
+    def curve(self, name: str) -> Curve | None:
+        """Return one of the errors; None if it was not measured."""
+        return next((each for each in self.curves if each.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Prediction:
+    """What the axes of a machine predict along a course.
+
+    Attributes
+    ----------
+    values
+        The deviation in the sensing direction, shape (N,), m.
+    factor
+        Columns whose random combination is its error, shape (N, r): from the covariance of the errors that
+        were measured.
+    shares
+        What each error makes of it, by name, shape (N,).
+    outside
+        Where an error that counts was asked for beyond its measured range, shape (N,).
+    bound
+        Standard deviation of what errors that nobody measured may add, shape (N,); each is taken as
+        anywhere within its bound, independently.
+    """
+
+    values: FloatArray
+    factor: FloatArray
+    shares: Mapping[str, FloatArray]
+    outside: BoolArray
+    bound: FloatArray
+
+    @property
+    def standard_uncertainty(self) -> FloatArray:
+        """Standard deviation of the values from the errors that were measured, (N,), m."""
+        return np.asarray(np.sqrt(np.sum(self.factor**2, axis=1)), dtype=np.float64)
+
+    @property
+    def expanded_uncertainty(self) -> FloatArray:
+        """U of the values from the errors that were measured, k = 2, shape (N,), m."""
+        return 2.0 * self.standard_uncertainty
+
+
+def predict(machine: Machine, course: Course) -> Prediction:
+    """Return what the axes predict along a course, with its covariance."""
+    count = len(course.position)
+    tool = machine.tool if course.tool is None else course.tool
+    values, outside = np.zeros(count), np.zeros(count, dtype=np.bool_)
+    shares: dict[str, FloatArray] = {}
+    factors = [np.zeros((count, 0))]
+    for curve in machine.curves:
+        gain = _gain(curve.name, machine, curve, course, tool)
+        if not np.any(gain):
+            continue
+        index = AXES.index(curve.axis)
+        place = course.position[:, index]
+        reading = curve.reading(place, course.motion[:, index]) * gain[:, np.newaxis]
+        shares[curve.name] = reading @ curve.values
+        values = values + shares[curve.name]
+        factors.append(reading @ curve.factor)
+        outside |= curve.outside(place) & (np.abs(gain) > 0)
+    bound = np.zeros(count)
+    for each in machine.unmeasured:
+        # Uniform over the bound: u = bound/√3 (JCGM 100, 4.3.7); a squareness error grows with its axis.
+        bound += (each.bound * _gain(each.name, machine, None, course, tool)) ** 2 / 3.0
+    return Prediction(
+        values,
+        _compressed(np.concatenate(factors, axis=1)),
+        MappingProxyType(shares),
+        outside,
+        np.sqrt(bound),
+    )
+
+
+def _gain(
+    name: str, machine: Machine, curve: Curve | None, course: Course, tool: FloatArray | Point
+) -> FloatArray:
+    """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
+    line = curve.line if curve else Line({})
+    moved = weights(name, machine.chain, line, course.position, tool)
+    return np.asarray(np.sum(moved * course.sensing, axis=1), dtype=np.float64)
+
+
+def _compressed(factor: FloatArray) -> FloatArray:
+    """Return a factor of fewer columns with the same covariance."""
+    if factor.shape[1] < 2:
+        return factor
+    sizes, turn = np.linalg.eigh(factor.T @ factor)
+    kept = sizes > 1e-12 * sizes[-1]
+    return np.asarray(factor @ turn[:, kept], dtype=np.float64)
+
+
+def missing_errors(curves: Mapping[str, Curve], stated: Mapping[str, float]) -> tuple[Unmeasured, ...]:
+    """Return the errors that nobody measured, each with its bound: as stated, in m or rad, or as assumed."""
+    return tuple(
+        Unmeasured(
+            name,
+            stated.get(name, float(unit_of(name).to_si(ASSUMED_BOUNDS[kind_of(name)]))),
+            name not in stated,
+        )
+        for name in ERRORS
+        if name not in curves
+    )

@@ -1,0 +1,281 @@
+"""What scatters on a circle: along the path, and as irregular geometry that all turns share.
+
+V = σ²·(1 + p·exp(−Δφ/6°) within a turn + g·k(Δθ)·(1 + s·s′) within a plane) + what else is known to be
+uncertain: the errors of the axes, and the angle at which each turn began. White noise alone would take
+correlated readings for evidence: 77 to 82 % of healthy circles would then raise an alarm.
+
+V is never formed. Each turn is whitened by the Cholesky factor of its own part; all that turns share is of
+low rank, and so is what the base model takes out: both together are the mixed-model equations (C. R.
+Henderson, Biometrics 31 (1975) 423), whose solution has the parameters with their covariance, too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.linalg import cholesky
+
+from zlmreport.machines.design import ThinnedDesign
+from zlmreport.measurement.arrays import FloatArray, IntArray
+
+#: Correlation length along the path, and of irregular geometry, rad.
+PATH_LENGTH, GEOMETRY_LENGTH = float(np.radians(6.0)), float(np.radians(10.0))
+#: Variances that are tried, in units of that of a single reading: along the path; irregular geometry that is
+#: alike in both senses, and that is opposite.
+_PATH, _EVEN, _ODD = (0.0, 0.2, 0.6, 1.8), (0.0, 0.05, 0.2, 0.8), (0.0, 0.1)
+#: Share of the probability that the values of the noise which are kept must hold, and the most of them.
+_KEPT, _MOST = 0.98, 6
+_LEAST_VARIANCE = 1e-4
+#: A hair of the diagonal: columns of the base that nearly coincide must not stop the work.
+_HAIR = 1e-12
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseShape:
+    """The variances of a noise relative to that of a single reading."""
+
+    path: float
+    even: float
+    odd: float
+
+    @property
+    def total(self) -> float:
+        """The variance of a reading, all parts together."""
+        return 1.0 + self.path + self.even + self.odd
+
+
+SHAPES = tuple(NoiseShape(*each) for each in product(_PATH, _EVEN, _ODD))
+
+
+def geometry(design: ThinnedDesign) -> tuple[FloatArray, FloatArray]:
+    """Return irregular geometry, even and odd, as columns of random combination: (N, r) each, variance one.
+
+    Waves about the circle, weighted so that their combination is correlated over `GEOMETRY_LENGTH`; each
+    plane, centre and radius has its own.
+    """
+    orders = np.arange(2, 64)
+    spectrum = np.exp(-0.5 * (orders * GEOMETRY_LENGTH) ** 2)
+    orders = orders[spectrum > _LEAST_VARIANCE]
+    size = np.sqrt(spectrum[spectrum > _LEAST_VARIANCE])
+    size /= np.sqrt(np.sum(size**2))
+    waves = np.concatenate(
+        [size * np.cos(np.outer(design.angle, orders)), size * np.sin(np.outer(design.angle, orders))], axis=1
+    )
+    places = [(each.nominal.plane, each.nominal.centre, each.nominal.radius) for each in design.tests]
+    groups = np.array([places.index(places[test]) for test in design.test.tolist()])
+    even = np.concatenate(
+        [waves * (groups == group)[:, np.newaxis] for group in sorted(set(groups.tolist()))], axis=1
+    )
+    return even, even * design.sense[:, np.newaxis]
+
+
+@dataclass(frozen=True, slots=True)
+class Whitening:
+    """The readings of each turn whitened for a noise along the path, with the geometry that they share."""
+
+    turns: tuple[IntArray, ...]
+    factors: tuple[FloatArray, ...]  #: Of each turn, L⁻¹ with L·Lᵀ its covariance over σ².
+    log_determinant: float
+    geometry: FloatArray  #: Even and odd columns, whitened, (N, 2r).
+    gram: FloatArray  #: Their products, (2r, 2r).
+
+    def of(self, columns: FloatArray) -> FloatArray:
+        """Return columns whitened by turn, (N, k)."""
+        found = np.empty_like(columns)
+        for turn, factor in zip(self.turns, self.factors, strict=True):
+            found[turn] = factor @ columns[turn]
+        return found
+
+
+class CircleNoise:
+    """What the noise of a design has in common, whatever the model: each whitening is made once."""
+
+    def __init__(self, design: ThinnedDesign) -> None:
+        self.design = design
+        self.even, self.odd = geometry(design)
+        self._turns = tuple(np.flatnonzero(design.turn == turn) for turn in design.turns)
+        self._by_path: dict[float, Whitening] = {}
+
+    def kernel(self, turn: IntArray) -> FloatArray:
+        """Return exp(−Δφ/6°) within a turn."""
+        travelled = self.design.travelled[turn]
+        return np.asarray(np.exp(-np.abs(travelled[:, np.newaxis] - travelled) / PATH_LENGTH))
+
+    def whitening(self, path: float) -> Whitening:
+        """Return the whitening for a variance along the path."""
+        if path not in self._by_path:
+            lowers = [cholesky(np.eye(len(turn)) + path * self.kernel(turn)) for turn in self._turns]
+            total = 2.0 * sum(float(np.sum(np.log(np.diag(lower)))) for lower in lowers)
+            bare = Whitening(
+                self._turns, tuple(np.linalg.inv(lower) for lower in lowers), total,
+                np.zeros((0, 0)), np.zeros((0, 0)),
+            )  # fmt: skip
+            columns = bare.of(np.concatenate([self.even, self.odd], axis=1))
+            self._by_path[path] = Whitening(self._turns, bare.factors, total, columns, columns.T @ columns)
+        return self._by_path[path]
+
+    def simulated(
+        self, shapes: Sequence[NoiseShape], known: FloatArray, random: np.random.Generator
+    ) -> FloatArray:
+        """Return deviations that hold nothing but noise, σ = 1, one column for each shape."""
+        found = random.standard_normal((self.design.count, len(shapes)))
+        path, even, odd = (
+            np.sqrt(np.array([getattr(each, name) for each in shapes])) for name in ("path", "even", "odd")
+        )
+        for turn in self._turns:
+            lower = cholesky(self.kernel(turn) + 1e-9 * np.eye(len(turn)))
+            found[turn] += path * (lower @ random.standard_normal((len(turn), len(shapes))))
+        for columns, size in ((self.even, even), (self.odd, odd), (known, 1.0)):
+            found += size * (columns @ random.standard_normal((columns.shape[1], len(shapes))))
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Whitened:
+    """The readings under one noise, the base model taken out: products are P-products.
+
+    P = V⁻¹ − V⁻¹X(XᵀV⁻¹X)⁻¹XᵀV⁻¹; a column c stands as (I − UUᵀ)·L⁻¹·c.
+    """
+
+    whitening: Whitening
+    taken: FloatArray  #: U, (N, r), orthonormal but for what the noise's finite parts leave.
+    log_determinant: float  #: ln|V| + ln|XᵀV⁻¹X|.
+    freedom: int  #: Number of readings minus that of the base model's columns.
+
+    def of(self, columns: FloatArray) -> FloatArray:
+        """Return columns whitened by turn, (N, k)."""
+        return self.whitening.of(columns)
+
+    def product(self, one: FloatArray, other: FloatArray) -> FloatArray:
+        """Return oneᵀ·P·other of columns that were whitened by turn."""
+        return np.asarray(one.T @ other - (self.taken.T @ one).T @ (self.taken.T @ other))
+
+
+@dataclass(frozen=True, slots=True)
+class _Equations:
+    """The mixed-model equations of one noise: columns side by side, and the factor of their matrix."""
+
+    lower: FloatArray
+    together: FloatArray  #: (N, r): The base, the geometry that is there, what is known to be uncertain.
+    log_determinant: float
+
+
+class NoiseModel:
+    """The noise of a design beside a model, for any of its shapes."""
+
+    def __init__(self, noise: CircleNoise, base: FloatArray, known: FloatArray) -> None:
+        """Take columns that are free, (N, p), and a factor of what is uncertain by itself, (N, r), in σ."""
+        self.noise = noise
+        self._lengths = np.sqrt(np.maximum(np.sum(base**2, axis=0), 1e-300))
+        self._base, self.known = base / self._lengths, known
+        self._by_path: dict[float, tuple[FloatArray, FloatArray]] = {}
+
+    @property
+    def freedom(self) -> int:
+        """Number of readings minus that of the base model's columns."""
+        return self.noise.design.count - int(self._base.shape[1])
+
+    def under(self, shape: NoiseShape) -> Whitened:
+        """Return the readings under one noise."""
+        own = self._equations(shape)
+        taken = np.asarray(np.linalg.solve(own.lower, own.together.T).T, dtype=np.float64)
+        return Whitened(self.noise.whitening(shape.path), taken, own.log_determinant, self.freedom)
+
+    def log_likelihood(self, shape: NoiseShape, deviation: FloatArray) -> tuple[float, float]:
+        """Return the restricted log-likelihood of deviations, σ maximised, and their P-square."""
+        own, (read, square) = self._equations(shape), self._read(shape.path, deviation)
+        inside = np.linalg.solve(own.lower, own.together.T @ read)
+        left = max(square - float(inside @ inside), 1e-12 * square, 1e-300)
+        return -0.5 * own.log_determinant - 0.5 * self.freedom * float(np.log(left)), left
+
+    def solved(self, shape: NoiseShape, deviation: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the coefficients of the base's columns and their covariance over σ², (p,) and (p, p)."""
+        own, (read, _) = self._equations(shape), self._read(shape.path, deviation)
+        count = self._base.shape[1]
+        half = np.linalg.solve(own.lower, np.eye(len(own.lower))[:, :count])
+        values = half.T @ np.linalg.solve(own.lower, own.together.T @ read)
+        return values / self._lengths, half.T @ half / np.outer(self._lengths, self._lengths)
+
+    def _read(self, path: float, deviation: FloatArray) -> tuple[FloatArray, float]:
+        read = self.noise.whitening(path).of(deviation[:, np.newaxis])[:, 0]
+        return read, float(read @ read)
+
+    def _equations(self, shape: NoiseShape) -> _Equations:
+        columns, gram = self._of_path(shape.path)
+        base, even = self._base.shape[1], self.noise.even.shape[1]
+        sizes = np.concatenate(
+            [
+                np.full(base, np.inf),
+                np.full(even, shape.even),
+                np.full(even, shape.odd),
+                np.ones(self.known.shape[1]),
+            ]
+        )
+        used = sizes > 0
+        inside = gram[np.ix_(used, used)].copy()
+        inside[np.diag_indices_from(inside)] += 1.0 / sizes[used]
+        inside[np.diag_indices_from(inside)] *= 1.0 + _HAIR
+        lower = np.asarray(cholesky(inside), dtype=np.float64)
+        finite = sizes[used][np.isfinite(sizes[used])]
+        log_determinant = (
+            self.noise.whitening(shape.path).log_determinant
+            + 2.0 * float(np.sum(np.log(np.diag(lower))))
+            + float(np.sum(np.log(finite)))
+        )
+        return _Equations(lower, columns[:, used], log_determinant)
+
+    def _of_path(self, path: float) -> tuple[FloatArray, FloatArray]:
+        """Return all columns side by side, whitened, and their products."""
+        if path not in self._by_path:
+            whitening = self.noise.whitening(path)
+            base, known = whitening.of(self._base), whitening.of(self.known)
+            columns = np.concatenate([base, whitening.geometry, known], axis=1)
+            count, shared = base.shape[1], whitening.geometry.shape[1]
+            gram = np.empty((columns.shape[1], columns.shape[1]))
+            inner = slice(count, count + shared)
+            gram[inner, inner] = whitening.gram
+            outer = np.r_[0:count, count + shared : columns.shape[1]]
+            crossed = columns[:, outer].T @ columns
+            gram[outer], gram[:, outer] = crossed, crossed.T
+            self._by_path[path] = columns, gram
+        return self._by_path[path]
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseFound:
+    """The noise that readings show: its likely shapes, with their probabilities."""
+
+    shapes: tuple[NoiseShape, ...]
+    whitened: tuple[Whitened, ...]
+    weights: FloatArray
+    #: Standard deviation of a single white reading, m.
+    sigma: float
+
+    @property
+    def best(self) -> Whitened:
+        """The readings under the likeliest shape."""
+        return self.whitened[int(np.argmax(self.weights))]
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of all that scatters, m."""
+        return self.sigma * float(
+            np.sqrt(sum(w * s.total for w, s in zip(self.weights, self.shapes, strict=True)))
+        )
+
+
+def find_noise(model: NoiseModel, deviation: FloatArray) -> NoiseFound:
+    """Return the noise by restricted likelihood, over a grid of shapes; those are kept that count."""
+    found = np.array([model.log_likelihood(shape, deviation) for shape in SHAPES])
+    weights = np.exp(found[:, 0] - found[:, 0].max())
+    weights /= weights.sum()
+    order = np.argsort(-weights)
+    count = min(int(np.searchsorted(np.cumsum(weights[order]), _KEPT)) + 1, _MOST)
+    kept = order[:count]
+    share = weights[kept] / weights[kept].sum()
+    sigma = float(np.sqrt(share @ found[kept, 1] / model.freedom))
+    shapes = tuple(SHAPES[index] for index in kept.tolist())
+    return NoiseFound(shapes, tuple(model.under(shape) for shape in shapes), share, sigma)

@@ -1,0 +1,199 @@
+"""From a machine file to a machine: its errors, and the tests that it is held against."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from zlmreport import pipeline
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.files import demanded
+from zlmreport.job.extends import MACHINE
+from zlmreport.job.loading import KeysFile, load, read_keys_file
+from zlmreport.job.tree import Items, Keys, found_at
+from zlmreport.machines.axis_errors import (
+    LARGEST,
+    Opened,
+    bounds_of,
+    curve_of_certificate,
+    curve_of_job,
+    curves_of_statement,
+)
+from zlmreport.machines.choosing import study_of
+from zlmreport.machines.course import Circle, StraightTest
+from zlmreport.machines.curve import Curve, without_alignment
+from zlmreport.machines.keys import MachineKeys, StatedKeys
+from zlmreport.machines.kinematics import Chain
+from zlmreport.machines.machine import Machine, missing_errors
+from zlmreport.machines.measured_tests import MeasuredCircle, read_test
+from zlmreport.machines.study import CircleStudy
+from zlmreport.measurement.provenance import SourceFile
+from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.plugin.registry import Registry
+
+_CERTIFICATES = (".pdf", ".json")
+
+
+@dataclass(frozen=True, slots=True)
+class MachineFile:
+    """A machine file that was read, with all that it names."""
+
+    path: Path
+    file: KeysFile[MachineKeys]
+    machine: Machine
+    measured: tuple[MeasuredCircle, ...]  #: The circles, each with its job.
+    lines: tuple[StraightTest, ...]
+    sources: tuple[SourceFile, ...]
+    effects: tuple[CircleEffect, ...]  #: Of its model.
+    catalogue: tuple[CircleEffect, ...]  #: All that are installed.
+
+    @property
+    def circles(self) -> tuple[Circle, ...]:
+        """The circles alone."""
+        return tuple(each.circle for each in self.measured)
+
+    @property
+    def effect_names(self) -> tuple[str, ...]:
+        """The effects of its model, by name."""
+        return tuple(self.file.keys.model.effects)
+
+    def study(self, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
+        """Return the study of its circles with the effects of its model, or with others.
+
+        Raises `InputError` if it names no circle.
+        """
+        if not self.circles:
+            raise InputError.at(
+                self.file.place_of("tests"), "no circle is among the tests; a diagnosis needs one at least"
+            )
+        return study_of(self.machine, self.circles, self.effects if effects is None else effects)
+
+    @property
+    def test_names(self) -> tuple[str, ...]:
+        """The names of its tests."""
+        return (*(each.name for each in self.circles), *(each.name for each in self.lines))
+
+    @property
+    def number(self) -> str:
+        """The number of its document."""
+        return self.file.keys.certificate.number or self.path.stem
+
+
+def no_pdf(_path: Path) -> bytes | None:
+    """Open no PDF."""
+    return None
+
+
+def read_machine(path: Path, registry: Registry, opened: Opened = no_pdf) -> MachineFile:
+    """Read a machine file and all that it names.
+
+    Raises `InputError` with every mistake of the file itself; `AccessError` if a file cannot be read.
+    """
+    file = read_keys_file(path, MachineKeys, MACHINE)
+    problems: list[Problem] = []
+    chain = _chain(file, problems)
+    curves, sources = _curves(file, registry, opened, problems)
+    bounds_node = found_at(file.tree, ("bounds",))
+    bounds = bounds_of(file.keys.bounds, bounds_node, problems) if isinstance(bounds_node, Keys) else {}
+    effects = _effects(file, registry, problems)
+    circles: list[MeasuredCircle] = []
+    lines: list[StraightTest] = []
+    names: set[str] = set()
+    for index, test in enumerate(file.keys.tests):
+        try:
+            found, read = read_test(test, registry)
+        except InputError as error:
+            problems += error.problems
+            continue
+        sources += read
+        if test.stem in names:
+            problems.append(
+                Problem(
+                    file.place_of("tests", index), f"a test is called {test.stem} already; name each once"
+                )
+            )
+        elif isinstance(found, MeasuredCircle):
+            circles.append(found)
+        else:
+            lines.append(found)
+        names.add(test.stem)
+    if problems or chain is None:
+        raise InputError(sorted(set(problems)))
+    tool = file.keys.tool
+    machine = Machine(
+        chain,
+        (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3),
+        tuple(without_alignment(each) for each in curves.values()),
+        missing_errors(curves, bounds),
+    )
+    return MachineFile(
+        path, file, machine, tuple(circles), tuple(lines), (file.file, *file.extended, *sources), effects,
+        registry.circle_effects,
+    )  # fmt: skip
+
+
+def _effects(
+    file: KeysFile[MachineKeys], registry: Registry, problems: list[Problem]
+) -> tuple[CircleEffect, ...]:
+    """Return the effects of the model; one that there is not, or that stands there twice, is a problem."""
+    found: dict[str, CircleEffect] = {}
+    for index, name in enumerate(file.keys.model.effects):
+        place = file.place_of("model", "effects", index)
+        if name in found:
+            problems.append(Problem(place, f"{name} stands in the model already; remove one of them"))
+            continue
+        try:
+            found[name] = registry.circle_effect(name, place)
+        except InputError as error:
+            problems += error.problems
+    return tuple(found.values())
+
+
+def _chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain | None:
+    try:
+        return Chain(file.keys.chain)
+    except ValueError as error:
+        problems.append(Problem(file.place_of("chain"), f"chain: {error}"))
+        return None
+
+
+def _curves(
+    file: KeysFile[MachineKeys], registry: Registry, opened: Opened, problems: list[Problem]
+) -> tuple[dict[str, Curve], list[SourceFile]]:
+    """Return the errors that the file names, by name, and the files that they came from."""
+    found: dict[str, Curve] = {}
+    sources: list[SourceFile] = []
+    node = found_at(file.tree, ("errors",))
+    items = node.items if isinstance(node, Items) else (node,) if node else ()
+    for item, stated in zip(items, file.keys.errors, strict=True):
+        place = item.place
+        try:
+            if isinstance(stated, StatedKeys):
+                curves = curves_of_statement(stated, item, problems) if isinstance(item, Keys) else []
+            else:
+                curve, read = _curve_of_file(stated, place, registry, opened)
+                curves, sources = [curve], sources + read
+        except InputError as error:
+            problems += error.problems
+            continue
+        for each in curves:
+            if each.name in found:
+                problems.append(
+                    Problem(
+                        place, f"{each.name} was named already, by {found[each.name].source}; name it once"
+                    )
+                )
+            found.setdefault(each.name, each)
+    return found, sources
+
+
+def _curve_of_file(
+    path: Path, place: Place, registry: Registry, opened: Opened
+) -> tuple[Curve, list[SourceFile]]:
+    if path.suffix.casefold() in _CERTIFICATES:
+        return curve_of_certificate(path, place, opened), [SourceFile.of(path, demanded(path, LARGEST))]
+    job = load(path, registry)
+    measurements = pipeline.read(job, registry)
+    files = [*job.files, *measurements.provenance.files]
+    return curve_of_job(job, measurements, registry), files

@@ -1,0 +1,163 @@
+"""A machine and its tests as plain values for JSON: millimetres, degrees, micrometres, arc seconds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from zlmreport.machines.comparison import Compared, StandardNumbers
+from zlmreport.machines.course import Circle
+from zlmreport.machines.kinematics import ERRORS
+from zlmreport.machines.machine import Machine, unit_of
+from zlmreport.machines.residual import Stretch
+from zlmreport.machines.volume import Diagonal, VolumeMap
+from zlmreport.model.effects.circle_design import AXES
+
+_MICRO, _MILLI = 1e6, 1e3
+_SENSES = {1: "ccw", -1: "cw"}
+
+
+def error_values(machine: Machine) -> list[dict[str, Any]]:
+    """Return the 21 errors: those that are known with their uncertainty, the others with their bounds."""
+    unmeasured = {each.name: each for each in machine.unmeasured}
+    found: list[dict[str, Any]] = []
+    for name in ERRORS:
+        unit, curve = unit_of(name), machine.curve(name)
+        if curve is None:
+            missing = unmeasured[name]
+            found.append(
+                {
+                    "error": name,
+                    "known": False,
+                    "bound": float(unit.from_si(missing.bound)),
+                    "bound_is_assumed": missing.is_assumed,
+                    "unit": unit.ascii,
+                }
+            )
+            continue
+        found.append(
+            {
+                "error": name,
+                "known": True,
+                "value": float(unit.from_si(curve.values[0] if curve.is_single else curve.span)),
+                "expanded_uncertainty": float(unit.from_si(curve.largest_uncertainty)),
+                "unit": unit.ascii,
+                "range": None if curve.is_single else (curve.nodes[[0, -1]] * _MILLI).tolist(),
+                "at": {axis: place * _MILLI for axis, place in curve.line.others.items()},
+                "tool": [place * _MILLI for place in curve.line.tool],
+                "source": curve.source,
+            }
+        )
+    return found
+
+
+def compared_values(found: Compared) -> dict[str, Any]:
+    """Return a test with all its curves."""
+    prediction, test = found.prediction, found.test
+    if isinstance(test, Circle):
+        nominal = test.nominal
+        where: dict[str, Any] = {
+            "kind": "circle",
+            "plane": nominal.plane,
+            "radius": nominal.radius * _MILLI,
+            "feed": nominal.feed * _MILLI * 60.0,
+            "at": np.degrees(test.angle).tolist(),
+            "at_unit": "deg",
+            "sense": [_SENSES[int(each)] for each in test.sense.tolist()],
+            "run": test.run.tolist(),
+        }
+    else:
+        where = {
+            "kind": "line",
+            "at": (test.at * _MILLI).tolist(),
+            "at_unit": "mm",
+            "direction": [int(each) for each in test.course.motion.sum(axis=1)],
+        }
+    return {
+        "test": found.name,
+        **where,
+        "predicted": (_MICRO * prediction.values).tolist(),
+        "expanded_uncertainty": (_MICRO * prediction.expanded_uncertainty).tolist(),
+        "not_measured": (_MICRO * 2.0 * prediction.bound).tolist(),
+        "outside_measured_range": prediction.outside.tolist(),
+        "measured": (_MICRO * test.deviation).tolist(),
+        "residual": (_MICRO * found.left).tolist(),
+        **compared_sizes(found),
+    }
+
+
+def compared_sizes(found: Compared) -> dict[str, Any]:
+    """Return how large a test is, without its curves."""
+    return {
+        "test": found.name,
+        "rms_measured": _MICRO * found.rms.measured,
+        "rms_predicted": _MICRO * found.rms.predicted,
+        "rms_left": _MICRO * found.rms.left,
+        "numbers": [_standard_values(each) for each in found.numbers],
+        "of_axes": _in_micrometres(found.of_axes),
+        "of_effects": _in_micrometres(found.of_effects),
+        "fails": [stretch_values(each, is_circle=isinstance(found.test, Circle)) for each in found.fails],
+        "unit": "um",
+    }
+
+
+def _in_micrometres(values: Mapping[str, float]) -> dict[str, float]:
+    return {name: _MICRO * value for name, value in values.items()}
+
+
+def _standard_values(numbers: StandardNumbers) -> dict[str, Any]:
+    return {
+        "standard": numbers.standard,
+        "measured": {each.quantity.symbol: _MICRO * each.value for each in numbers.measured},
+        "predicted": _in_micrometres(numbers.predicted),
+        "left": _in_micrometres(numbers.left),
+    }
+
+
+def stretch_values(stretch: Stretch, *, is_circle: bool) -> dict[str, Any]:
+    """Return where a residual leaves its band: over the angle or the line, and on each axis that moves."""
+    begin, end = (
+        float(np.degrees(each)) if is_circle else each * _MILLI for each in (stretch.begin, stretch.end)
+    )
+    return {
+        **({"sense": _SENSES[int(stretch.sense)]} if is_circle else {"direction": int(stretch.sense)}),
+        "from": begin,
+        "to": end,
+        **{axis: [_MILLI * end for end in ends] for axis, ends in stretch.coordinates.items()},
+        "largest": _MICRO * stretch.largest,
+        "unit": "um",
+    }
+
+
+def volume_values(found: VolumeMap) -> dict[str, Any]:
+    """Return the map of the work space."""
+    place = found.largest
+    return {
+        "from": dict(zip(AXES, (found.space.low * _MILLI).tolist(), strict=True)),
+        "to": dict(zip(AXES, (found.space.high * _MILLI).tolist(), strict=True)),
+        "largest": _MICRO * float(found.length[place]),
+        "expanded_uncertainty": _MICRO * float(found.expanded_uncertainty[place]),
+        "not_measured": _MICRO * 2.0 * float(found.bound[place]),
+        "at": {
+            axis: float(grid[index] * _MILLI)
+            for axis, grid, index in zip(AXES, found.grids, place, strict=True)
+        },
+        "relative_to": dict(zip(AXES, (found.space.middle * _MILLI).tolist(), strict=True)),
+        "grid": {axis: (grid * _MILLI).tolist() for axis, grid in zip(AXES, found.grids, strict=True)},
+        "deviation": (_MICRO * found.deviation).tolist(),
+        "unit": "um",
+    }
+
+
+def diagonal_values(diagonal: Diagonal) -> dict[str, Any]:
+    """Return what is predicted of a body diagonal."""
+    return {
+        "diagonal": diagonal.name,
+        "at": (diagonal.at * _MILLI).tolist(),
+        "predicted": (_MICRO * diagonal.deviation).tolist(),
+        "expanded_uncertainty": (_MICRO * diagonal.expanded_uncertainty).tolist(),
+        "E": _MICRO * diagonal.span,
+        "unit": "um",
+    }

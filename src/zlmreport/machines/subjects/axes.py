@@ -1,0 +1,175 @@
+"""The 21 errors of a machine, and what they make of its work space."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
+from zlmreport.document.figures.figure import Curve, Figure, Panel, Role
+from zlmreport.language import Words, same
+from zlmreport.language.formatting import general_number
+from zlmreport.machines.kinematics import ERRORS
+from zlmreport.machines.machine import Machine, unit_of
+from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.machines.volume import VolumeMap, diagonals, measured_space, volume_map
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
+from zlmreport.model.effects.circle_design import AXES
+
+
+def error_section(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
+    """Return the errors that are known, and the others: in one table, or the others in a sentence."""
+    known: list[tuple[Cell, ...]] = []
+    bounded: list[tuple[Cell, ...]] = []
+    named: list[str] = []
+    unmeasured = {each.name: each for each in machine.unmeasured}
+    for name in ERRORS:
+        unit, curve = unit_of(name), machine.curve(name)
+        if curve is None:
+            missing = unmeasured[name]
+            bound = say.quantity(missing.bound, unit)
+            named.append(f"{name} ≤ {bound}")
+            origin = say(_BOUND_ASSUMED if missing.is_assumed else _BOUND)
+            largest = f"≤ {say.general(unit.from_si(missing.bound))}"
+            bounded.append((Symbol(name), largest, unit.symbol, "", "", origin))
+            continue
+        size = float(curve.values[0]) if curve.is_single else curve.span
+        stretch = "" if curve.is_single else say.span(float(curve.nodes[0]), float(curve.nodes[-1]))
+        places = ", ".join(f"{axis} {say.millimetres(place)}" for axis, place in curve.line.others.items())
+        value = say.pair(size, curve.largest_uncertainty, unit)
+        known.append((Symbol(name), value, unit.symbol, stretch, places, curve.source))
+    columns = (
+        Column(say(_ERROR)), right(say(_SIZE)), Column(say(_UNIT)), Column(say(_RANGE), "mm"),
+        Column(say(_LINE), "mm"), Column(say(_FROM)),
+    )  # fmt: skip
+    table = plain_table(say(_ERRORS), columns, (*known, *bounded) if is_full else known)
+    title = say(_KNOWN.given(known=len(known), all=len(ERRORS)))
+    blocks: list[Block] = [replace(table, dense=is_full)] if known or is_full else []
+    if is_full:
+        return Section("errors", say(_ERRORS), (Paragraph(say(_NOTE)), *blocks))
+    if named:
+        blocks.append(Paragraph(say(_NOT_MEASURED.given(errors=", ".join(named)))))
+    assumed = sum(each.is_assumed for each in machine.unmeasured)
+    if assumed:
+        blocks.append(Paragraph(say(_ASSUMED.given(count=assumed))))
+    return Section("errors", title, tuple(blocks))
+
+
+def known_in_words(machine: Machine) -> Words:
+    """Return how many of the 21 errors are known."""
+    return _OF.given(known=len(machine.curves), all=len(ERRORS))
+
+
+def space_section(machine: Machine, say: Sayer) -> Section:
+    """Return the largest error of the work space, slices of it, and the body diagonals."""
+    space = measured_space(machine)
+    if space is None:
+        return Section("work-space", say(_SPACE), (Paragraph(say(_NO_SPACE)),))
+    found = volume_map(machine, space)
+    place = found.largest
+    at = ", ".join(
+        f"{axis} {say.millimetres(float(grid[index]))}"
+        for axis, grid, index in zip(AXES, found.grids, place, strict=True)
+    )
+    size = say.pair(float(found.length[place]), float(found.expanded_uncertainty[place]), MICROMETRE)
+    more = say.number(MICROMETRE.from_si(2.0 * float(found.bound[place])), 1)
+    box = ", ".join(
+        f"{axis} {say.span(float(low), float(high))}"
+        for axis, low, high in zip(AXES, space.low, space.high, strict=True)
+    )
+    rows = (
+        (
+            Symbol(each.name),
+            say.micrometres(each.span),
+            say.micrometres(float(each.expanded_uncertainty.max())),
+        )
+        for each in diagonals(machine, space)
+    )
+    table = plain_table(say(_DIAGONALS), (Column(say(_DIAGONAL)), right("E", "µm"), right("U", "µm")), rows)
+    return Section(
+        "work-space",
+        say(_SPACE),
+        (
+            Paragraph(say(_LARGEST.given(box=box, size=size, at=at, more=more))),
+            Graph(_slices(found)),
+            Paragraph(say(_DIAGONALS_NOTE)),
+            table,
+        ),
+    )
+
+
+def _slices(found: VolumeMap) -> Figure:
+    """Return the length of Δ over X, at the lowest, middle and highest Y, in slices of Z."""
+    size = MICROMETRE.from_si(found.length)
+    x, y, z = (MILLIMETRE.from_si(grid) for grid in found.grids)
+    heights = sorted({0, len(z) // 2, len(z) - 1})
+    rows = sorted({0, len(y) // 2, len(y) - 1})
+    roles = (Role.MEAN_POSITIVE, Role.MEAN_BIDIRECTIONAL, Role.MEAN_NEGATIVE)
+    panels = tuple(
+        Panel(
+            heading=same(f"Z = {general_number(float(z[height]))} mm"),
+            curves=tuple(
+                Curve(f"Y = {general_number(float(y[row]))}", role, x, size[:, row, height])
+                for row, role in zip(rows, roles, strict=False)
+            ),
+        )
+        for height in heights
+    )
+    largest = _SEEN.given(largest=float(np.round(size.max(), 2)))
+    return Figure(
+        "work-space", _SLICES, largest, same("X"), _LENGTH_OF, "mm", "µm", panels,
+        height=40.0 * len(panels) + 20.0,
+    )  # fmt: skip
+
+
+_ERRORS = Words(en="The 21 errors of the axes", de="Die 21 Abweichungen der Achsen")
+_KNOWN = Words(en="{known} of {all} errors are known", de="{known} von {all} Abweichungen sind bekannt")
+_OF = Words(en="{known} of {all}", de="{known} von {all}")
+_NOTE = Words(
+    en="Size is the span of the curve, of a squareness error its value; ± is U, k = 2. An error that nobody "
+    "measured is bounded and never taken as zero.",
+    de="Größe ist die Spanne der Kurve, bei Rechtwinkligkeit der Wert; ± ist U, k = 2. Eine Abweichung, die "
+    "niemand gemessen hat, ist begrenzt und nie null.",
+)
+_NOT_MEASURED = Words(
+    en="not measured, taken as bounded: {errors}", de="nicht gemessen, als begrenzt angenommen: {errors}"
+)
+_ASSUMED = Words(
+    en="{count} of these bounds are assumptions of this program; state your own as bounds:",
+    de="{count} dieser Grenzen sind Annahmen dieses Programms; eigene stehen unter bounds:",
+)
+_ERROR, _SIZE = Words(en="Error", de="Abweichung"), Words(en="Size", de="Größe")
+_UNIT, _RANGE = Words(en="Unit", de="Einheit"), Words(en="Range", de="Bereich")
+_LINE, _FROM = Words(en="Line at", de="Linie bei"), Words(en="From", de="Aus")
+_BOUND = Words(en="not measured, stated bound", de="nicht gemessen, angegebene Grenze")
+_BOUND_ASSUMED = Words(en="not measured, assumed bound", de="nicht gemessen, angenommene Grenze")
+_SPACE = Words(en="Work space", de="Arbeitsraum")
+_NO_SPACE = Words(
+    en="No work space: the errors of no axis were measured over a range.",
+    de="Kein Arbeitsraum: Von keiner Achse wurden Abweichungen über einen Bereich gemessen.",
+)
+_LARGEST = Words(
+    en="In {box} mm the largest error, relative to the middle, is ({size}) µm at {at} mm; errors that "
+    "nobody measured may add ± {more} µm.",
+    de="In {box} mm ist die größte Abweichung, bezogen auf die Mitte, ({size}) µm bei {at} mm; nicht "
+    "gemessene Abweichungen können ± {more} µm hinzufügen.",
+)
+_DIAGONALS = Words(en="Body diagonals, predicted", de="Raumdiagonalen, vorhergesagt")
+_DIAGONAL = Words(en="Diagonal", de="Diagonale")
+_DIAGONALS_NOTE = Words(
+    en="E is the span of what the errors predict along a body diagonal, U its largest uncertainty there. A "
+    "small diagonal error does not mean a small volumetric error: opposite scales cancel.",
+    de="E ist die Spanne dessen, was die Abweichungen entlang einer Raumdiagonale vorhersagen, U die größte "
+    "Unsicherheit dort. Eine kleine Diagonalabweichung heißt nicht eine kleine Abweichung im Raum: "
+    "Entgegengesetzte Maßstäbe heben sich auf.",
+)
+_SLICES = Words(
+    en="Length of the error in slices of the work space",
+    de="Betrag der Abweichung in Schnitten des Arbeitsraums",
+)
+_SEEN = Words(
+    en="Curves over X for three places in Y in each of three slices in Z; the largest value is {largest} µm.",
+    de="Kurven über X für drei Orte in Y in je drei Schnitten in Z; der größte Wert ist {largest} µm.",
+)
+_LENGTH_OF = Words(en="Length of the error", de="Betrag der Abweichung")

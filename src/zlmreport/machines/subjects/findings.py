@@ -1,0 +1,264 @@
+"""A diagnosis of a machine as people read it: verdict, what may be missing, what is not, values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.document.blocks import Block, Cell, Column, Mark, Notice, Paragraph, Section, Table
+from zlmreport.language import Words
+from zlmreport.language.numbers import significant_words
+from zlmreport.machines.choosing import with_form
+from zlmreport.machines.diagnosis import MachineDiagnosis, Verdict
+from zlmreport.machines.forms import plain_form
+from zlmreport.machines.study import CircleStudy, Estimated, said_estimates
+from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.measurement.units import MICROMETRE
+from zlmreport.model.effects.circle_effect import CircleEffect
+
+_MARKS = {Verdict.ADEQUATE: Mark.MET, Verdict.MISSING: Mark.OPEN, Verdict.UNEXPLAINED: Mark.NOT_MET}
+_MOST_CANDIDATES = 5
+
+
+def statement(diagnosis: MachineDiagnosis) -> Words:
+    """Return the verdict in words."""
+    if diagnosis.verdict is Verdict.ADEQUATE:
+        return _ADEQUATE
+    left = diagnosis.remainder
+    if diagnosis.verdict is Verdict.UNEXPLAINED and left:
+        return _UNEXPLAINED.given(shape=left.shape, size=_size(left.rms))
+    if not diagnosis.found:
+        first = diagnosis.candidates[0]
+        equals = [
+            first,
+            *(
+                each
+                for each in diagnosis.candidates
+                if each.effect.identifier in first.indistinguishable_from
+            ),
+        ]
+        how = remedy(equals[0].effect, equals[-1].effect, diagnosis.study)
+        return _TIED.given(effects=_joined([each.effect.title for each in equals], _OR), how=how)
+    by_name = {each.effect.identifier: each.effect for each in diagnosis.complete.effects}
+    named = _MISSING.given(effects=_joined([by_name[each].title for each in diagnosis.found], _AND))
+    if left is None:
+        return named
+    beside = _BESIDE.given(shape=left.shape, size=_size(left.rms))
+    return _TWO.given(one=named, other=beside)
+
+
+def _size(rms: float) -> Words:
+    return significant_words(MICROMETRE.from_si(rms), 2)
+
+
+def _joined(titles: Sequence[Words], words: Words) -> Words:
+    found = titles[0]
+    for each in titles[1:]:
+        found = words.given(one=found, other=each)
+    return found
+
+
+def remedy(one: CircleEffect, other: CircleEffect, study: CircleStudy) -> Words:
+    """Return what tells two effects apart that a plan cannot: a run in which their laws part."""
+    design = study.design
+    if not design.has_both_senses and one.law.parity is not other.law.parity:
+        return _SENSE
+    if len(np.unique(np.round(design.feed, 9))) == 1 and one.law.feed != other.law.feed:
+        return _FEED
+    if len(np.unique(np.round(design.radius, 9))) == 1 and one.law.radius != other.law.radius:
+        return _RADIUS
+    return _REPEAT
+
+
+@dataclass(frozen=True, slots=True)
+class Absent:
+    """An effect of which nothing is found, and how much of it there might be."""
+
+    effect: str
+    estimates: tuple[Estimated, ...]
+    sentences: tuple[Words, ...]
+
+
+def absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[Absent]:
+    """Return what effects that are asked for and not in a model would be beside it."""
+    found = []
+    for effect in catalogue:
+        form = plain_form(effect, study.design)
+        if effect.is_asked_for and effect.identifier not in study.names and form.terms:
+            estimates = with_form(study, effect, form).estimates_of(effect.identifier)
+            terms = tuple(each for each in estimates if each.term is not None)
+            found.append(Absent(effect.identifier, terms, tuple(effect.absence(said_estimates(terms)))))
+    return found
+
+
+def findings(study: CircleStudy) -> list[Words]:
+    """Return what the parameters of a model mean, in sentences of its effects."""
+    return [
+        sentence
+        for each in study.effects
+        for sentence in each.effect.findings(said_estimates(study.estimates_of(each.effect.identifier)))
+    ]
+
+
+def verdict_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
+    """Return the verdict, and what was found, in sentences."""
+    blocks: list[Block] = [Paragraph(say(statement(diagnosis)), _MARKS[diagnosis.verdict])]
+    blocks += [Paragraph(_sentence(say(each))) for each in findings(diagnosis.complete)]
+    return Section("verdict", say(_VERDICT), tuple(blocks))
+
+
+def absence_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+    """Return what was looked for and not found, with what of it there might be; None where nothing was."""
+    sentences = [
+        _sentence(say(one))
+        for each in absent(diagnosis.complete, diagnosis.catalogue)
+        for one in each.sentences
+    ]
+    if not sentences:
+        return None
+    return Section("absence", say(_NOT_FOUND), (Notice(say(_NOT_FOUND), tuple(sentences)),))
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
+
+
+def candidate_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+    """Return the effects that may be missing, best first; None where there is none."""
+    if not diagnosis.candidates:
+        return None
+    rows: list[tuple[Cell, ...]] = []
+    for each in diagnosis.candidates[:_MOST_CANDIDATES]:
+        note = "" if each.is_plausible else say(_IMPOSSIBLE)
+        if each.indistinguishable_from:
+            note = say(_EQUALS.given(effects=", ".join(each.indistinguishable_from)))
+        rows.append(
+            (each.effect.identifier, say.number(each.evidence, 1), say.micrometres(each.rms_after), note)
+        )
+    columns = (
+        Column(say(_EFFECT)), right(say(_EVIDENCE)), right(say(_RMS_AFTER), "µm"), Column(""),
+    )  # fmt: skip
+    blocks: list[Block] = [plain_table(say(_CANDIDATES), columns, rows)]
+    first = diagnosis.candidates[0]
+    blocks.append(parameter_table(first.estimates, say))
+    if first.indistinguishable_from:
+        by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
+        how = remedy(first.effect, by_name[first.indistinguishable_from[0]], diagnosis.study)
+        blocks.append(Paragraph(say(_TELL_APART.given(how=how))))
+    return Section("candidates", say(_CANDIDATES), tuple(blocks))
+
+
+def model_section(study: CircleStudy, say: Sayer) -> Section:
+    """Return the effects of a model with their parameters."""
+    return Section("model", say(_MODEL), (parameter_table(study.estimates, say), Paragraph(say(_COVERAGE))))
+
+
+def parameter_table(estimates: Iterable[Estimated], say: Sayer) -> Table:
+    """Return parameters with their uncertainties; one that was only tried at some values has none."""
+    rows = []
+    for each in estimates:
+        u = each.expanded_uncertainty
+        value = (
+            say.general(each.unit.from_si(each.value)) if u is None else say.pair(each.value, u, each.unit)
+        )
+        rows.append((each.effect, each.name, value, each.unit.symbol))
+    columns = (Column(say(_EFFECT)), Column(say(_PARAMETER)), right(say(_VALUE)), Column(say(_UNIT)))
+    return plain_table(say(_PARAMETERS), columns, rows)
+
+
+def step_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+    """Return how the error fell as the effects came in, one by one; None where none did."""
+    rows = [
+        (each.effect, *map(say.micrometres, (each.before, each.after, each.noise)))
+        for each in diagnosis.steps
+    ]
+    columns = (Column(say(_EFFECT)), *(right(say(each), "µm") for each in (_BEFORE, _AFTER, _NOISE)))
+    table = plain_table(say(_STEPS), columns, rows)
+    return Section("steps", say(_STEPS), (table,)) if rows else None
+
+
+def change_section(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
+    """Return the error before and after a change of the model."""
+    sizes = [
+        significant_words(MICROMETRE.from_si(each), 2)
+        for each in (_rms(before), _rms(after), after.noise.rms)
+    ]
+    names = ", ".join(after.names) or say(_NONE)
+    said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
+    return Section("change", say(_CHANGED), (Paragraph(say(said)),))
+
+
+def _rms(study: CircleStudy) -> float:
+    return float(np.sqrt(np.mean(study.residual**2)))
+
+
+def said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
+    """Yield what is said of a diagnosis, but for its tests."""
+    yield verdict_section(diagnosis, say)
+    for section in (candidate_section(diagnosis, say), absence_section(diagnosis, say)):
+        if section:
+            yield section
+
+
+_VERDICT = Words(en="Verdict", de="Befund")
+_ADEQUATE = Words(
+    en="Axes and effects describe the circles: nothing is left that the scatter does not explain.",
+    de="Achsen und Einflüsse beschreiben die Kreise: Es bleibt nichts übrig, was die Streuung nicht erklärt.",
+)
+_MISSING = Words(en="Missing: {effects}.", de="Es fehlt: {effects}.")
+_TIED = Words(
+    en="Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.",
+    de="Es fehlt: {effects}. Dieser Plan kann sie nicht unterscheiden, deshalb wird keiner benannt: {how}.",
+)
+_UNEXPLAINED = Words(
+    en="Something is left that no effect explains: {shape}, root mean square {size} µm.",
+    de="Es bleibt etwas übrig, das kein Einfluss erklärt: {shape}, quadratischer Mittelwert {size} µm.",
+)
+_BESIDE = Words(
+    en="Beside it something without a name is left: {shape}, root mean square {size} µm.",
+    de="Daneben bleibt etwas ohne Namen: {shape}, quadratischer Mittelwert {size} µm.",
+)
+_TWO = Words(en="{one} {other}", de="{one} {other}")
+_OR = Words(en="{one} or {other}", de="{one} oder {other}")
+_AND = Words(en="{one} and {other}", de="{one} und {other}")
+_SENSE = Words(en="run the circle in the other sense, too", de="den Kreis auch im anderen Drehsinn fahren")
+_FEED = Words(
+    en="run the circle at a quarter or at four times the feed, too",
+    de="den Kreis auch mit einem Viertel oder dem Vierfachen des Vorschubs fahren",
+)
+_RADIUS = Words(
+    en="run the circle with a bar of another length, too",
+    de="den Kreis auch mit einem Stab anderer Länge fahren",
+)
+_REPEAT = Words(
+    en="repeat the run, at another feed and another radius", de="wiederholen, mit anderem Vorschub und Radius"
+)
+_NOT_FOUND = Words(
+    en="Looked for and, beside all that, not found", de="Gesucht und neben alledem nicht gefunden"
+)
+_CANDIDATES = Words(en="What may be missing", de="Was fehlen kann")
+_EFFECT, _PARAMETER = Words(en="Effect", de="Einfluss"), Words(en="Parameter", de="Parameter")
+_EVIDENCE, _RMS_AFTER = Words(en="evidence", de="Evidenz"), Words(en="RMS after", de="RMS danach")
+_IMPOSSIBLE = Words(en="impossible values", de="unmögliche Werte")
+_EQUALS = Words(en="not to be told from {effects}", de="nicht zu unterscheiden von {effects}")
+_TELL_APART = Words(en="To tell them apart: {how}.", de="Um sie zu unterscheiden: {how}.")
+_MODEL = Words(en="Effects of drives and structure", de="Einflüsse von Antrieben und Struktur")
+_PARAMETERS = Words(en="Parameters of the effects", de="Parameter der Einflüsse")
+_VALUE, _UNIT = Words(en="Value", de="Wert"), Words(en="Unit", de="Einheit")
+_COVERAGE = Words(
+    en="± is the expanded uncertainty, k = 2. Each value is that of all tests fitted together.",
+    de="± ist die erweiterte Unsicherheit, k = 2. Jeder Wert ist aus allen Prüfungen gemeinsam geschätzt.",
+)
+_STEPS = Words(en="How the error fell, root mean square", de="Wie der Fehler fiel, quadratischer Mittelwert")
+_BEFORE, _AFTER = Words(en="before", de="vorher"), Words(en="after", de="nachher")
+_NOISE = Words(en="noise", de="Streuung")
+_CHANGED = Words(en="The error before and after", de="Der Fehler vorher und nachher")
+_CHANGE = Words(
+    en="With the effects {effects} the root mean square of all circles goes from {before} µm to {after} µm; "
+    "the noise is {noise} µm.",
+    de="Mit den Einflüssen {effects} geht der quadratische Mittelwert aller Kreise von {before} µm "
+    "auf {after} µm; die Streuung ist {noise} µm.",
+)
+_NONE = Words(en="none", de="keine")

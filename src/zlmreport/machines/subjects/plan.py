@@ -1,0 +1,55 @@
+"""The next run of a ballbar as people read it."""
+
+from __future__ import annotations
+
+from zlmreport.document.blocks import Block, Cell, Column, Paragraph, Section
+from zlmreport.language import Words
+from zlmreport.language.formatting import percentage
+from zlmreport.machines.planning import NextRun
+from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+
+
+def plan_section(found: NextRun, say: Sayer) -> Section:
+    """Return what is to be decided, the runs that do, and what these circles can see."""
+    between = [each.title for each in found.between]
+    heading = _NOTHING
+    if between:
+        listed = between[0]
+        for each in between[1:]:
+            listed = _AND.given(one=listed, other=each)
+        heading = _DECIDE.given(effects=listed)
+    runs: list[tuple[Cell, ...]] = [
+        (
+            say(each.what),
+            say.number(each.minutes, 0),
+            percentage(each.decides, say.language.decimal_sign) if between else "",
+        )
+        for each in found.proposals
+    ]
+    blocks: list[Block] = [Paragraph(say(heading))]
+    columns = (Column(say(_RUN)), right(say(_MINUTES)), right(say(_DECIDES), "%"))
+    blocks.append(plain_table(say(_NEXT), columns, runs))
+    sizes: list[tuple[Cell, ...]] = [
+        (each.effect, each.name, say.general(float(f"{each.unit.from_si(each.size):.2g}")), each.unit.symbol)
+        for each in found.visible
+    ]
+    headings = (Column(say(_EFFECT)), Column(say(_PARAMETER)), right(say(_SIZE)), Column(say(_UNIT)))
+    blocks += [Paragraph(say(_VISIBLE)), plain_table(say(_VISIBLE), headings, sizes)]
+    return Section("plan", say(_NEXT), tuple(blocks))
+
+
+_NEXT = Words(en="The next run", de="Der nächste Lauf")
+_NOTHING = Words(
+    en="Nothing is to be decided; runs that would add to this:",
+    de="Es ist nichts zu entscheiden; Läufe, die etwas hinzufügen würden:",
+)
+_DECIDE = Words(en="To tell {effects} apart:", de="Um {effects} zu unterscheiden:")
+_AND = Words(en="{one} and {other}", de="{one} und {other}")
+_RUN, _MINUTES = Words(en="run", de="Lauf"), Words(en="minutes", de="Minuten")
+_DECIDES = Words(en="decides", de="entscheidet")
+_VISIBLE = Words(
+    en="Smallest size that these circles show half of the time:",
+    de="Kleinste Größe, die diese Kreise in der Hälfte der Fälle zeigen:",
+)
+_EFFECT, _PARAMETER = Words(en="Effect", de="Einfluss"), Words(en="Parameter", de="Parameter")
+_SIZE, _UNIT = Words(en="Size", de="Größe"), Words(en="Unit", de="Einheit")

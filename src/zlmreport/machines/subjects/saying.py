@@ -1,0 +1,63 @@
+"""Words and numbers in one language, in the units that people read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from zlmreport.document.blocks import Align, Cell, Column, RowGroup, Table
+from zlmreport.language import Language, Words
+from zlmreport.language.formatting import fixed_number, general_number, rounded_pair
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE, Unit, behind
+
+#: Digits behind the sign of lengths in µm.
+_DECIMALS = 2
+
+
+@dataclass(frozen=True, slots=True)
+class Sayer:
+    """Says words and numbers in one language."""
+
+    language: Language
+
+    def __call__(self, words: Words) -> str:
+        """Return a phrase."""
+        return words.in_language(self.language)
+
+    def number(self, value: float, decimals: int = _DECIMALS) -> str:
+        """Return a number with fixed decimals."""
+        return fixed_number(value, decimals, self.language.decimal_sign)
+
+    def general(self, value: float) -> str:
+        """Return a number with no needless digits."""
+        return general_number(value, self.language.decimal_sign)
+
+    def micrometres(self, value: float) -> str:
+        """Return a length in m as µm, without the unit."""
+        return self.number(MICROMETRE.from_si(value))
+
+    def millimetres(self, value: float) -> str:
+        """Return a position in m as mm, without the unit."""
+        return self.general(round(MILLIMETRE.from_si(value), 3))
+
+    def span(self, low: float, high: float) -> str:
+        """Return from where to where, m, as mm without the unit."""
+        return f"{self.millimetres(low)}–{self.millimetres(high)}"
+
+    def pair(self, value: float, u: float, unit: Unit) -> str:
+        """Return a value and its uncertainty, SI, in a unit that is not written."""
+        return " ± ".join(rounded_pair(unit.from_si(value), unit.from_si(u), self.language.decimal_sign))
+
+    def quantity(self, value: float, unit: Unit) -> str:
+        """Return a value, SI, with its unit."""
+        return f"{self.general(float(f'{unit.from_si(value):.3g}'))}{behind(unit.symbol)}"
+
+
+def right(heading: str, unit: str = "") -> Column:
+    """Return a column of numbers."""
+    return Column(heading, unit, Align.RIGHT)
+
+
+def plain_table(caption: str, columns: Iterable[Column], rows: Iterable[tuple[Cell, ...]]) -> Table:
+    """Return a table without groups."""
+    return Table(caption, tuple(columns), (RowGroup(tuple(rows)),))

@@ -1,0 +1,297 @@
+"""Tests of a machine beside their prediction: sizes, numbers of standards, where they differ, curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+import numpy as np
+
+from zlmreport.document.blocks import (
+    Block,
+    Cell,
+    Column,
+    Graph,
+    Notice,
+    Paragraph,
+    Section,
+    Symbol,
+    Table,
+)
+from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
+from zlmreport.language import Words
+from zlmreport.machines.comparison import Compared, StandardNumbers
+from zlmreport.machines.course import Circle, StraightTest
+from zlmreport.machines.residual import Stretch, centred
+from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
+
+_MOST_STRETCHES, _MOST_SHARES = 3, 5
+_FEED = 60e3  # mm/min of one m/s
+_ROLES = {1: (Role.MEAN_POSITIVE, Role.MODEL_POSITIVE), -1: (Role.MEAN_NEGATIVE, Role.MODEL_NEGATIVE)}
+_BANDS = {1: Role.UNCERTAINTY_POSITIVE, -1: Role.UNCERTAINTY_NEGATIVE}
+_ARROWS, _WAYS = {1: "↺", -1: "↻"}, {1: "↑", -1: "↓"}
+
+
+def sizes_table(
+    tests: Sequence[Compared], say: Sayer, noise: float | None = None, *, with_numbers: bool = False
+) -> Table:
+    """Return the root mean squares of all tests; with G of both senses, if it is asked for and there."""
+    rows: list[tuple[Cell, ...]] = []
+    for each in tests:
+        sizes = (each.rms.measured, each.rms.predicted, each.rms.left)
+        row: tuple[Cell, ...] = (each.name, *map(say.micrometres, sizes))
+        if noise is not None:
+            row = (*row, say.micrometres(noise))
+        if with_numbers:
+            row = (*row, *_both_senses(each.numbers, say))
+        rows.append(row)
+    headings = [_MEASURED, _PREDICTED, _LEFT, *([_NOISE] if noise is not None else [])]
+    columns = [Column(say(_TEST)), *(right(say(each), "µm") for each in headings)]
+    if with_numbers:
+        columns += [right(f"G(b), {say(each)}", "µm") for each in (_MEASURED, _LEFT)]
+    return plain_table(say(_SIZES), columns, rows)
+
+
+def _both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[str, str]:
+    for each in numbers:
+        for parameter in each.measured:
+            if parameter.quantity.symbol == "G_b":
+                return say.micrometres(parameter.value), say.micrometres(each.left["G_b"])
+    return "", ""
+
+
+def test_section(found: Compared, say: Sayer) -> Section:
+    """Return one test: what it is, sizes and numbers, what explains it, where it fails, its curves."""
+    title = f"{found.name}: {say(title_of(found.test))}"
+    return Section(f"test-{found.name}", title, tuple(_test_blocks(found, say)))
+
+
+def _test_blocks(found: Compared, say: Sayer) -> Iterator[Block]:
+    yield numbers_table(found, say)
+    for words, shares in ((_OF_AXES, found.of_axes), (_OF_EFFECTS, found.of_effects)):
+        listed = _listed(shares, say)
+        if listed:
+            yield Paragraph(say(words.given(shares=listed)))
+    outside = float(np.mean(found.prediction.outside))
+    if outside:
+        yield Notice(say(_OUTSIDE_TITLE), (say(_OUTSIDE.given(share=round(100 * outside))),))
+    notice = failure_notice([found], say)
+    if notice:
+        yield notice
+    yield Graph(circle_figure(found) if isinstance(found.test, Circle) else line_figure(found))
+
+
+def numbers_table(found: Compared, say: Sayer) -> Table:
+    """Return a test's root mean square and the numbers of its standards: measured, predicted, left."""
+    sizes = (found.rms.measured, found.rms.predicted, found.rms.left)
+    rows: list[tuple[Cell, ...]] = [("RMS", *map(say.micrometres, sizes))]
+    for each in found.numbers:
+        for parameter in each.measured:
+            symbol = parameter.quantity.symbol
+            values = (each.predicted.get(symbol, np.nan), each.left.get(symbol, np.nan))
+            rows.append(
+                (
+                    Symbol(parameter.quantity.notation),
+                    say.micrometres(parameter.value),
+                    *(say.micrometres(value) if np.isfinite(value) else "" for value in values),
+                )
+            )
+    columns = [Column(""), *(right(say(each), "µm") for each in (_MEASURED, _PREDICTED, _LEFT))]
+    return plain_table(say(_NUMBERS.given(test=found.name)), columns, rows)
+
+
+def title_of(test: Circle | StraightTest) -> Words:
+    """Return what kind of test it is, with its place."""
+    if isinstance(test, StraightTest):
+        return _LINE.given(count=len(test.at))
+    nominal = test.nominal
+    return _CIRCLE.given(
+        plane=nominal.plane,
+        radius=float(f"{MILLIMETRE.from_si(nominal.radius):.6g}"),
+        feed=float(f"{nominal.feed * _FEED:.6g}"),
+    )
+
+
+def _listed(shares: Mapping[str, float], say: Sayer) -> str:
+    largest = sorted(shares.items(), key=lambda item: -item[1])[:_MOST_SHARES]
+    return ", ".join(f"{name} {say.micrometres(size)}" for name, size in largest)
+
+
+def failure_notice(tests: Sequence[Compared], say: Sayer) -> Notice | None:
+    """Return where tests differ from their prediction; None where none does."""
+    items = tuple(
+        say(_of_test(each, stretch, is_one=len(tests) == 1))
+        for each in tests
+        for stretch in each.fails[:_MOST_STRETCHES]
+    )
+    return Notice(say(_FAILS), items) if items else None
+
+
+def _of_test(found: Compared, stretch: Stretch, *, is_one: bool) -> Words:
+    said = stretch_in_words(stretch, is_circle=isinstance(found.test, Circle))
+    return said if is_one else _NAMED.given(test=found.name, said=said)
+
+
+def stretch_in_words(stretch: Stretch, *, is_circle: bool) -> Words:
+    """Return where a residual leaves its band, and by how much it is off there."""
+    places = ", ".join(
+        f"{axis} {_millimetres(low)}–{_millimetres(high)}"
+        for axis, (low, high) in stretch.coordinates.items()
+    )
+    size = float(f"{MICROMETRE.from_si(stretch.largest):.2g}")
+    if not is_circle:
+        way = _WAYS.get(int(stretch.sense), "")
+        return _OFF_LINE.given(places=places, way=way, size=size)
+    return _OFF_CIRCLE.given(
+        sense=_SENSES[int(stretch.sense)],
+        begin=round(float(np.degrees(stretch.begin))),
+        end=round(float(np.degrees(stretch.end))),
+        places=places,
+        size=size,
+    )
+
+
+def _millimetres(value: float) -> str:
+    return f"{MILLIMETRE.from_si(value):.0f}".replace("-", "−")
+
+
+def circle_figure(found: Compared) -> Figure:
+    """Return a circle: measured and predicted, and beside it what is left, both senses."""
+    circle = found.test
+    assert isinstance(circle, Circle)  # noqa: S101 - who asks has looked
+    measured, predicted, left = (
+        MICROMETRE.from_si(centred(circle, each))
+        for each in (circle.deviation, found.prediction.values, found.left)
+    )
+    shown: list[Curve] = []
+    rest: list[Curve] = []
+    for way, (role, of_prediction) in _ROLES.items():
+        own = np.flatnonzero(circle.sense == way)
+        if not len(own):
+            continue
+        first = own[circle.run[own] == circle.run[own].min()]
+        angle = np.degrees(circle.angle[first]) % 360.0
+        arrow = _ARROWS[way]
+        shown += [
+            Curve(arrow, role, angle, measured[first]),
+            Curve(f"{arrow} ∑", of_prediction, angle, predicted[first]),
+        ]
+        rest.append(Curve(arrow, role, angle, left[first]))
+    directions = tuple(
+        (turn, f"{sign}{axis}")
+        for turn, sign, axis in (
+            (0.0, "+", circle.nominal.axes[0]), (90.0, "+", circle.nominal.axes[1]),
+            (180.0, "−", circle.nominal.axes[0]), (270.0, "−", circle.nominal.axes[1]),
+        )
+    )  # fmt: skip
+    spans = {
+        name: float(f"{np.ptp(each):.3g}")
+        for name, each in (("measured", measured), ("predicted", predicted), ("left", left))
+    }
+    return Figure(
+        f"circle-{found.name}",
+        _CIRCLE_TITLE.given(test=found.name, what=title_of(circle)),
+        _CIRCLE_SEEN.given(**spans), _ANGLE, _RADIAL, "°", "µm",
+        (
+            Panel(
+                heading=_BOTH, curves=tuple(shown), projection="polar", directions=directions,
+            ),
+            Panel(heading=_WHAT_IS_LEFT, curves=tuple(rest), projection="polar", directions=directions),
+        ),
+        spans_are_alike=False, is_wide=True,
+    )  # fmt: skip
+
+
+def line_figure(found: Compared) -> Figure:
+    """Return a line: measured, and predicted with its band; below it what is left."""
+    line = found.test
+    assert isinstance(line, StraightTest)  # noqa: S101 - who asks has looked
+    direction = np.sign(line.course.motion.sum(axis=1))
+    shown: list[Curve] = []
+    bands: list[Band] = []
+    rest: list[Curve] = []
+    measured, predicted, left = (
+        MICROMETRE.from_si(each - each.mean())
+        for each in (line.deviation, found.prediction.values, found.left)
+    )
+    u = MICROMETRE.from_si(found.prediction.expanded_uncertainty)
+    for way, (role, of_prediction) in _ROLES.items():
+        own = np.flatnonzero(direction == way)
+        if not len(own):
+            continue
+        own = own[np.argsort(line.at[own])]
+        at = MILLIMETRE.from_si(line.at[own])
+        shown += [
+            Curve(_WAYS[way], role, at, measured[own]),
+            Curve(f"{_WAYS[way]} ∑", of_prediction, at, predicted[own]),
+        ]
+        bands.append(Band("U", _BANDS[way], at, predicted[own] - u[own], predicted[own] + u[own]))
+        rest.append(Curve(_WAYS[way], role, at, left[own]))
+    spans = {
+        name: float(f"{np.ptp(each):.3g}")
+        for name, each in (("measured", measured), ("predicted", predicted), ("left", left))
+    }
+    return Figure(
+        f"line-{found.name}",
+        _CIRCLE_TITLE.given(test=found.name, what=title_of(line)),
+        _CIRCLE_SEEN.given(**spans), _PLACE, _DEVIATION, "mm", "µm",
+        (
+            Panel(heading=_BOTH, curves=tuple(shown), bands=tuple(bands)),
+            Panel(heading=_WHAT_IS_LEFT, curves=tuple(rest)),
+        ),
+    )  # fmt: skip
+
+
+_SIZES = Words(
+    en="Root mean square of the tests: measured, predicted by the axes, and what is left",
+    de="Quadratischer Mittelwert der Prüfungen: gemessen, von den Achsen vorhergesagt, und was übrig ist",
+)
+_TEST = Words(en="Test", de="Prüfung")
+_MEASURED, _PREDICTED = Words(en="measured", de="gemessen"), Words(en="predicted", de="vorhergesagt")
+_LEFT, _NOISE = Words(en="left", de="übrig"), Words(en="noise", de="Streuung")
+_NUMBERS = Words(en="{test}, measured and predicted", de="{test}, gemessen und vorhergesagt")
+_LINE = Words(en="line of {count} points", de="Linie mit {count} Punkten")
+_CIRCLE = Words(
+    en="circle {plane}, R {radius} mm, {feed} mm/min", de="Kreis {plane}, R {radius} mm, {feed} mm/min"
+)
+_OF_AXES = Words(
+    en="Of the prediction, root mean square: {shares} µm.",
+    de="Anteile der Vorhersage, quadratischer Mittelwert: {shares} µm.",
+)
+_OF_EFFECTS = Words(
+    en="Of the effects, root mean square: {shares} µm.",
+    de="Anteile der Einflüsse, quadratischer Mittelwert: {shares} µm.",
+)
+_OUTSIDE_TITLE = Words(en="Outside of what was measured", de="Außerhalb des Gemessenen")
+_OUTSIDE = Words(
+    en="{share} % of it lies beyond what was measured of the axes; the end values stand there, and nothing "
+    "is extrapolated",
+    de="{share} % davon liegen jenseits dessen, was von den Achsen gemessen wurde; dort stehen die Endwerte, "
+    "und nichts wird extrapoliert",
+)
+_FAILS = Words(en="Where it differs from the prediction", de="Wo es von der Vorhersage abweicht")
+_NAMED = Words(en="{test}: {said}", de="{test}: {said}")
+_SENSES = {
+    1: Words(en="counter-clockwise", de="gegen den Uhrzeigersinn"),
+    -1: Words(en="clockwise", de="im Uhrzeigersinn"),
+}
+_OFF_CIRCLE = Words(
+    en="{sense} from {begin}° to {end}° ({places} mm): {size} µm",
+    de="{sense} von {begin}° bis {end}° ({places} mm): {size} µm",
+)
+_OFF_LINE = Words(en="{way} {places} mm: {size} µm", de="{way} {places} mm: {size} µm")
+_CIRCLE_TITLE = Words(
+    en="{test}: {what}; dashed, with ∑: what the axes predict",
+    de="{test}: {what}; gestrichelt, mit ∑: was die Achsen vorhersagen",
+)
+_CIRCLE_SEEN = Words(
+    en="Range measured {measured} µm, predicted {predicted} µm, left {left} µm.",
+    de="Spanne gemessen {measured} µm, vorhergesagt {predicted} µm, übrig {left} µm.",
+)
+_ANGLE, _RADIAL = Words(en="Angle", de="Winkel"), Words(en="Radial deviation", de="Radialabweichung")
+_PLACE, _DEVIATION = (
+    Words(en="Place on the line", de="Ort auf der Linie"),
+    Words(en="Deviation", de="Abweichung"),
+)
+_BOTH = Words(en="measured and predicted", de="gemessen und vorhergesagt")
+_WHAT_IS_LEFT = Words(en="left", de="übrig")

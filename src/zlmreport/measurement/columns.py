@@ -1,0 +1,414 @@
+"""From the header of a table to columns that have a meaning and a unit, and their cells."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import ClassVar, Protocol, TypeVar
+
+from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
+from zlmreport.language.formatting import DecimalSign
+from zlmreport.measurement.collect import is_run, no_run
+from zlmreport.measurement.table import THOUSANDS, UNITS, Row, Table
+from zlmreport.measurement.text_file import parse_number
+from zlmreport.measurement.units import DEGREE, Scale, Unit, unit_named
+
+_ONE_SIGN = re.compile(r"[+\-−]?([0-9]*)([.,])([0-9]*)([eE][+-]?[0-9]+)?")
+#: A number, and what may be its unit.
+_MEASURED = re.compile(r"([+\-−]?[0-9.,][0-9.,'’ \u00a0\u202f]*(?:[eE][+-]?[0-9]+)?)\s*([^0-9.,\s].*)")
+_GROUPS = re.compile(r"([+\-−]?[0-9]{1,3})((?:([.,'’ \u00a0\u202f])[0-9]{3})(?:\3[0-9]{3})*)([.,][0-9]*)?")
+_SEXAGESIMAL = re.compile(r"([+\-−]?)([0-9]+)\s*°\s*([0-9]+)\s*['′’]\s*(?:([0-9.,]+)\s*(?:\"|″|''|′′|”))?")
+
+
+_BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
+#: A unit that stands behind the name in other ways: ``Soll / mm``, ``Soll in mm``, ``Soll, mm``, ``soll_mm``.
+_BEHIND = re.compile(r"(.*?\w[.]?)(?:\s*/\s*|\s+in\s+|,\s*|[\s_]+)([^\s_,/]+(?:/m)?)")
+_NUMBER = re.compile(r"[+-]?[0-9]*[.,]?[0-9]+")
+#: Columns of a file that a message lists.
+_MOST_NAMED = 20
+_T = TypeVar("_T")
+
+
+class NamedColumns(Protocol):
+    """What a job says of the columns of a table, and which of them the data source knows."""
+
+    column_names: ClassVar[tuple[str, ...]]  #: The columns that have a meaning, folded.
+    header_example: ClassVar[str]  #: What the header of a table may be, for messages.
+
+    @property
+    def columns(self) -> Mapping[str, str]:
+        """The file's own names by those of the data source."""
+
+    @property
+    def ignore(self) -> Sequence[str]:
+        """Columns of the file that are not read, by name."""
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """Spellings of units, by column."""
+
+
+def folded(name: str) -> str:
+    """Return a name without what people do not mind: case, and blanks, hyphens or underscores.
+
+    >>> folded(" Air Temperature ")
+    'air_temperature'
+    """
+    return re.sub(r"[\s_-]+", "_", name.strip().casefold())
+
+
+def decimal_sign(table: Table, indices: Sequence[int], thousands: str = "") -> DecimalSign:
+    """Return the decimal sign in which the cells of some columns are written.
+
+    ``12,5`` has a decimal comma; ``1,234`` may as well have a thousands separator. A point is taken for a
+    decimal point wherever nothing speaks against it; a comma only where a cell proves it. Cells that are no
+    numbers tell nothing, nor do those that are numbers in a workbook: they have a point.
+
+    `thousands`: What parts groups of three digits, as the job states it.
+
+    Raises `InputError` if the cells leave it open, or speak for both: the job must say it.
+    """
+    proof: dict[str, tuple[str, Place]] = {}
+    doubt: dict[str, tuple[str, Place]] = {}
+    for row in table.rows:
+        for index in indices:
+            match = _ONE_SIGN.fullmatch(_without_unit(row.cells[index], thousands))
+            if match and not (table.source.of_cells and match[2] == DecimalSign.POINT):
+                whole, sign, decimals, exponent = match.groups()
+                groups = 1 <= len(whole) <= 3 and whole[0] != "0" and len(decimals) == 3 and not exponent
+                told = doubt if groups else proof
+                if sign not in told:
+                    told[sign] = (match[0], table.place(row, index))
+    if len(proof) == 2:
+        (point, point_place), (comma, comma_place) = proof["."], proof[","]
+        later, earlier = sorted([point_place, comma_place], reverse=True)
+        raise InputError.at(
+            later,
+            f"both decimal signs occur, {quoted(point)} and {quoted(comma)}, one here and one in line "
+            f"{earlier.line}; correct the file, or say 'decimal: point' or 'decimal: comma' in the job",
+        )
+    if proof:
+        return DecimalSign(next(iter(proof)))
+    if DecimalSign.COMMA in doubt:
+        text, place = doubt[DecimalSign.COMMA]
+        raise InputError.at(
+            place,
+            f"{quoted(text)} may have a decimal comma or a thousands separator, and no other number tells; "
+            "say 'decimal: comma' or 'decimal: point' in the job",
+        )
+    return DecimalSign.POINT
+
+
+def _without_unit(cell: str, thousands: str) -> str:
+    match = _MEASURED.fullmatch(cell) if cell and not cell[-1].isdecimal() else None
+    number = match[1].rstrip() if match else cell
+    return without_thousands(number, thousands) if thousands else number
+
+
+def without_thousands(number: str, signs: str) -> str:
+    """Return a number without what parts its groups of three digits; as it is if that is none of the signs.
+
+    >>> without_thousands("1 250,5", " "), without_thousands("1.250", "'")
+    ('1250,5', '1.250')
+    """
+    match = _GROUPS.fullmatch(number)
+    if match is None or match[3] not in signs or (match[4] and match[4][0] == match[3]):
+        return number
+    return f"{match[1]}{match[2].replace(match[3], '')}{match[4] or ''}"
+
+
+@dataclass(frozen=True, slots=True)
+class Cells:
+    """Reads the cells of a table."""
+
+    table: Table
+    sign: DecimalSign  #: Its decimal sign.
+    thousands: str = ""  #: What parts groups of three digits.
+    missing: frozenset[str] = frozenset()  #: What stands for a missing reading, in lower case.
+    #: What was found wrong so far. A method that returns None has noted why.
+    problems: list[Problem] = field(default_factory=list)
+
+    def number(self, row: Row, column: Column) -> float | None:
+        """Return a number, in SI if the column has a unit; NaN for an empty cell."""
+        text = row.cells[column.index]
+        if not text or (self.missing and text.casefold() in self.missing):
+            return math.nan
+        try:
+            value = parse_number(text, self._sign_of(text))
+        except ValueError as error:
+            return self._written_otherwise(row, column, str(error))
+        return column.unit.to_si(value) if column.unit else value
+
+    def _sign_of(self, text: str) -> DecimalSign:
+        """Return the decimal sign of a number: in a workbook, what is stored as a number has a point."""
+        return DecimalSign.POINT if self.table.source.of_cells and "," not in text else self.sign
+
+    def _written_otherwise(self, row: Row, column: Column, complaint: str) -> float | None:
+        """Return a number with its unit, with thousands, or in degrees, minutes and seconds."""
+        text = row.cells[column.index]
+        if DEGREE.symbol in column.units and (angle := self._sexagesimal(text)) is not None:
+            return DEGREE.to_si(angle)
+        match = _MEASURED.fullmatch(text)
+        unit = column.units.get(match[2].strip().casefold()) if match else None
+        number = match[1].rstrip() if match and unit else text
+        try:
+            value = parse_number(without_thousands(number, self.thousands), self._sign_of(number))
+        except ValueError:
+            groups = _GROUPS.fullmatch(number)
+            is_sure = groups and (groups[4] or groups[3] not in ".," or len(groups[2]) > len(".000"))
+            if groups and is_sure and not self.thousands:
+                named = next(name for name, signs in THOUSANDS.items() if groups[3] in signs)
+                complaint = f"{quoted(text)} has thousands separators; say 'thousands: {named}' in the job"
+            self.note(row, column, complaint)
+            return None
+        unit = unit or column.unit
+        return unit.to_si(value) if unit else value
+
+    def _sexagesimal(self, text: str) -> float | None:
+        """Return degrees, minutes and seconds as degrees; None if the text is none."""
+        match = _SEXAGESIMAL.fullmatch(text)
+        if match is None:
+            return None
+        negative, degrees, minutes, seconds = match.groups()
+        try:
+            size = float(degrees) + float(minutes) / 60 + parse_number(seconds or "0", self.sign) / 3600
+        except ValueError:
+            return None
+        return -size if negative in {"-", "−"} else size
+
+    def demanded_number(self, row: Row, column: Column) -> float | None:
+        """Return a number that must be there."""
+        return None if self._is_left_out(row, column) else self.number(row, column)
+
+    def run(self, row: Row, column: Column) -> float | None:
+        """Return the number of a run."""
+        run = self.demanded_number(row, column)
+        if run is None or is_run(run):
+            return run
+        self.note(row, column, no_run(run))
+        return None
+
+    def word(self, row: Row, column: Column, read: Callable[[str], _T]) -> _T | None:
+        """Return what a word stands for, that must be there; `read` raises `ValueError` for another one."""
+        if self._is_left_out(row, column):
+            return None
+        try:
+            return read(row.cells[column.index])
+        except ValueError as error:
+            self.note(row, column, str(error))
+            return None
+
+    def _is_left_out(self, row: Row, column: Column) -> bool:
+        if row.cells[column.index]:
+            return False
+        self.note(row, column, f"there is no {column.name}; only a reading may be missing")
+        return True
+
+    def note(self, row: Row, column: Column, message: str) -> None:
+        """Note what is wrong with a cell."""
+        self.problems.append(Problem(self.table.place(row, column.index), message))
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """A name in the header."""
+
+    index: int  #: Of the column, from 0.
+    text: str  #: As the file writes it.
+    name: str  #: Without a unit in brackets.
+    bracket: str | None  #: What stands in brackets at its end; None without.
+
+    def is_called(self, name: str) -> bool:
+        """Whether a name, with or without the unit, means this heading."""
+        return folded(name) in {folded(self.text), folded(self.name)}
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A column that is read."""
+
+    index: int  #: Of the column, from 0.
+    text: str  #: Its heading in the file.
+    name: str  #: What it is: one that the data source knows, or its own heading for any other condition.
+    #: Of its numbers; None for what has none, and for conditions that are kept as found.
+    unit: Unit | Scale | None
+    #: Those that may stand behind its numbers, by their spellings.
+    units: Mapping[str, Unit | Scale] = field(default_factory=dict, compare=False)
+
+
+def _never(_text: str) -> bool:
+    return False
+
+
+def _headings(table: Table, is_no_unit: Callable[[str], bool]) -> tuple[Heading, ...]:
+    """Return the names in a header, their units taken off, or taken from the row of units."""
+    units = table.units.cells if table.units else ()
+    return tuple(
+        _with_unit_below(heading_of(text, index, is_no_unit), units[index] if index < len(units) else "")
+        for index, text in enumerate(table.header.cells)
+    )
+
+
+def heading_of(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = _never) -> Heading:
+    """Return a name in a header, its unit taken off.
+
+    `is_no_unit`: Whether what stands in brackets is no unit, but belongs to the name.
+
+    >>> [heading_of(text).bracket for text in ("Soll [mm]", "Soll / mm", "Soll in mm", "soll_mm", "Run")]
+    ['mm', 'mm', 'mm', 'mm', None]
+    """
+    match = _BRACKETED.fullmatch(text)
+    if match is not None:
+        if is_no_unit(match[2]):
+            return Heading(index, text, f"{match[1]} {match[2]}", None)
+        return Heading(index, text, match[1], match[2])
+    match = _BEHIND.fullmatch(text)
+    if match is not None and len(match[2]) > 1 and match[2].casefold() in UNITS:
+        return Heading(index, text, match[1], match[2])
+    return Heading(index, text, text, None)
+
+
+def _with_unit_below(heading: Heading, unit: str) -> Heading:
+    """Return a heading with the unit that stands below it, if it has none itself."""
+    unit = unit.strip("()[] ")
+    has_own = heading.bracket is not None and heading.bracket.casefold() in UNITS
+    return heading if has_own or unit in {"", "-", "–", "—"} else replace(heading, bracket=unit)
+
+
+def read_headings(
+    table: Table, options: NamedColumns, is_no_unit: Callable[[str], bool] = _never
+) -> tuple[Heading, ...]:
+    """Return the headings of the columns that are to be read; `is_no_unit` as of `heading_of`.
+
+    Raises `InputError` if the header holds numbers, a name twice, or none where there are readings, or if the
+    job speaks of columns that there are not.
+    """
+    found = _headings(table, is_no_unit)
+    if any(_NUMBER.fullmatch(heading.text) for heading in found) and not any(
+        folded(heading.name) in options.column_names for heading in found
+    ):
+        raise InputError.at(
+            table.place(table.header, 0),
+            "the table begins with numbers; its first row names the columns, as in "
+            f"{options.header_example}, or the job does: 'header: [target, …]'",
+        )
+    problems = [*_unnamed(table, found), *_not_there(table, found, options)]
+    if problems:
+        raise InputError(problems)
+    return tuple(
+        heading
+        for heading in found
+        if heading.text and not any(heading.is_called(name) for name in options.ignore)
+    )
+
+
+def find_heading(name: str, among: Sequence[Heading], table: Table, options: NamedColumns) -> Heading | None:
+    """Return the heading of a known column: the one that the job maps to it, or the one of its name.
+
+    Raises `InputError` if there are several.
+    """
+    mapped = [file_name for key, file_name in options.columns.items() if folded(key) == name]
+    others = [file_name for key, file_name in options.columns.items() if folded(key) != name]
+    candidates = [
+        heading
+        for heading in among
+        if any(heading.is_called(file_name) for file_name in mapped)
+        or (folded(heading.name) == name and not any(heading.is_called(other) for other in others))
+    ]
+    if len(candidates) > 1:
+        first, second = candidates[:2]
+        raise InputError.at(
+            table.place(table.header, second.index),
+            f"both {quoted(first.text)} and {quoted(second.text)} are the column {name!r}; "
+            "name one of them in the job under 'ignore'",
+        )
+    return candidates[0] if candidates else None
+
+
+def missing_column(name: str, among: Sequence[Heading], table: Table, options: NamedColumns) -> Problem:
+    """Return the problem that a column is not there, with the nearest name of those that mean nothing yet."""
+    known = options.column_names
+    free = {folded(heading.name): heading for heading in among if folded(heading.name) not in known}
+    nearest = difflib.get_close_matches(name, free, n=1)
+    guess = free[nearest[0]].text if nearest else None
+    return Problem(
+        table.place(table.header, 0),
+        f"there is no column {name!r}{f', but {quoted(guess)}' if guess else ''}; name it in the job, as in "
+        f"'columns: {{{name}: {guess or '…'}}}' "
+        f"(the file has {', '.join(map(quoted, _names(among)))})",
+    )
+
+
+def column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
+    name: str,
+    heading: Heading,
+    options: NamedColumns,
+    units: tuple[Mapping[str, Unit | Scale], Unit | Scale] | None,
+    stated_at: Place,
+    table: Table,
+) -> Column:
+    """Return a known column with its unit: the job's, else the one in brackets, else the usual one.
+
+    `units`: Those that it may have by their spellings, and the usual one; None for what has none.
+    `stated_at`: Where the job states units.
+
+    Raises `InputError` if the unit is none of the column's quantity.
+    """
+    if units is None:
+        return Column(heading.index, heading.text, name, None)
+    stated = options.units.get(name)
+    spelling = stated if stated is not None else heading.bracket
+    known, usual = units
+    try:
+        unit = unit_named(spelling, known) if spelling else usual
+    except ValueError as error:
+        place = stated_at if stated is not None else _place_of_unit(heading, table)
+        raise InputError.at(place, f"column {quoted(heading.text)}: {error}") from error
+    return Column(heading.index, heading.text, name, unit, known)
+
+
+def _place_of_unit(heading: Heading, table: Table) -> Place:
+    is_above = table.units is None or not heading.bracket or heading.bracket in heading.text
+    return table.place(table.header if is_above or table.units is None else table.units, heading.index)
+
+
+def _names(among: Sequence[Heading]) -> list[str]:
+    """Return the names that there are, as many as a message can hold."""
+    return [heading.text for heading in among if heading.text][:_MOST_NAMED]
+
+
+def _unnamed(table: Table, found: Sequence[Heading]) -> Iterator[Problem]:
+    """Yield the columns that have cells and no name, or the name of another."""
+    first: dict[str, Heading] = {}
+    for heading in found:
+        same = first.setdefault(folded(heading.text), heading)
+        if heading.text and same is not heading:
+            yield Problem(
+                table.place(table.header, heading.index),
+                f"column {heading.index + 1} is called {quoted(heading.text)}, as is column {same.index + 1}",
+            )
+        elif not heading.text:
+            filled = (
+                row for row in table.rows if heading.index < len(row.cells) and row.cells[heading.index]
+            )
+            row = next(filled, None)
+            if row is not None:
+                yield Problem(
+                    table.place(row, heading.index), f"column {heading.index + 1} has no name in the header"
+                )
+
+
+def _not_there(table: Table, found: Sequence[Heading], options: NamedColumns) -> Iterator[Problem]:
+    """Yield the names that the job speaks of and the file does not have."""
+    spoken = {**{name: f"columns: {{{key}: …}}" for key, name in options.columns.items()}}
+    spoken |= dict.fromkeys(options.ignore, "ignore")
+    for name, key in spoken.items():
+        if not any(heading.is_called(name) for heading in found):
+            yield Problem(
+                table.place(table.header, 0),
+                f"the job names a column {quoted(name)} ('{key}'), and there is none; "
+                f"{did_you_mean(name, _names(found))}",
+            )

@@ -1,0 +1,253 @@
+"""What was measured: a deviation over one coordinate, and what tells one kind of deviation from another.
+
+Everything that holds for positions along a length only (compensation, expansion, a forecast) asks the
+measurand, and is refused with its reason where it does not hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from types import MappingProxyType
+from typing import Any
+
+from zlmreport.language import Words
+from zlmreport.measurement.units import (
+    ANGLE_UNITS,
+    ANGLES,
+    ARCSECOND,
+    DEGREE,
+    HOUR,
+    LENGTH_UNITS,
+    MICROMETRE,
+    MILLIMETRE,
+    TIMES,
+    Unit,
+)
+
+
+class Coordinate(StrEnum):
+    """What a deviation is measured over."""
+
+    LENGTH = "length"
+    ANGLE = "angle"
+    TIME = "time"
+
+    @property
+    def unit(self) -> Unit:
+        """The unit in which it is read and printed."""
+        return _UNITS[self]
+
+    @property
+    def units(self) -> Mapping[str, Unit]:
+        """The units in which files may give it, by their spellings."""
+        return _SPELLINGS[self]
+
+
+_UNITS = {Coordinate.LENGTH: MILLIMETRE, Coordinate.ANGLE: DEGREE, Coordinate.TIME: HOUR}
+_SPELLINGS = {Coordinate.LENGTH: LENGTH_UNITS, Coordinate.ANGLE: ANGLE_UNITS, Coordinate.TIME: TIMES}
+
+_NAME_WITH_SYMBOL = Words("{name} {symbol}", "{name} {symbol}")
+_OF_AXIS = Words("{name} of axis {axis}", "{name} der Achse {axis}")
+_AXIS = Words(en="Axis {axis}", de="Achse {axis}")
+_TARGET = Words(en="Target position", de="Sollposition")
+_ACTUAL = Words(en="actual − target position", de="Istposition − Sollposition")
+_REVERSAL = Words(en="reversal value", de="Umkehrspanne")
+_SENSES = (
+    Words(en="positive direction ↑", de="positive Richtung ↑"),
+    Words(en="negative direction ↓", de="negative Richtung ↓"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Measurand:
+    """A kind of deviation.
+
+    Attributes
+    ----------
+    identifier
+        As standards, effects and jobs name it: ``straightness``.
+    title
+        What a document on it is about, as it stands before ``of axis X``.
+    definition
+        What one reading is, in a sentence.
+    unit
+        In which deviations are read and printed.
+    coordinate
+        What the deviation is measured over.
+    is_closed
+        Whether the end of the coordinate is its beginning, as of a full circle.
+    is_position
+        Whether a deviation is actual − target of the coordinate itself: only then it can be compensated
+        along the axis, and expands with it.
+    sign
+        When a deviation is positive; ``{letter}`` stands for the direction that the error's symbol names.
+    reversal
+        What the difference of both directions is called.
+    joins_tests
+        Whether it is evaluated from several measured lines and has no readings of its own.
+    of_lines
+        What each of the measured lines is a measurement of, where its error does not say; None for
+        positioning.
+    contributors
+        What its uncertainty has besides what that of every test has, by the keys of a job's ``uncertainty``:
+        what is neither stated nor declared negligible is missing.
+    subject
+        What a document is about: ``{name}`` of what ``{axis}`` names.
+    bearer
+        What ``{axis}`` names, as headings begin: ``Axis X``.
+    target
+        What a value of the coordinate is called at which readings are taken.
+    senses
+        What the two senses of motion are called: of the `Approach` that is positive, and of the negative one.
+    is_continuous
+        Whether it is read while the machine moves, or over time, without targets at which an axis stops:
+        documents then show curves and carry the values, and print no table of them.
+    """
+
+    identifier: str
+    title: Words
+    definition: Words
+    unit: Unit = MICROMETRE
+    coordinate: Coordinate = Coordinate.LENGTH
+    is_closed: bool = False
+    is_position: bool = False
+    sign: Words = _ACTUAL
+    reversal: Words = _REVERSAL
+    joins_tests: bool = False
+    of_lines: Measurand | None = None
+    contributors: tuple[str, ...] = ()
+    subject: Words = _OF_AXIS
+    bearer: Words = _AXIS
+    target: Words = _TARGET
+    senses: tuple[Words, Words] = _SENSES
+    is_continuous: bool = False
+
+    @property
+    def units(self) -> Mapping[str, Unit]:
+        """The units in which deviations may be given, by their spellings."""
+        return ANGLE_UNITS if self.unit in ANGLES else LENGTH_UNITS
+
+    @property
+    def is_length_along_the_axis(self) -> bool:
+        """Whether it is a position that is a length: it has a temperature, an expansion and a wavelength."""
+        return self.is_position and self.coordinate is Coordinate.LENGTH
+
+    def named(self, axis: str, symbol: str | Words = "") -> Words:
+        """Return what a document is about: ``Straightness EYX of axis X``."""
+        name = _NAME_WITH_SYMBOL.given(name=self.title, symbol=symbol) if symbol else self.title
+        return self.subject.given(name=name, axis=axis)
+
+    def sign_of(self, letter: str) -> Words:
+        """Return when a deviation is positive, for an error in the direction of an axis."""
+        return self.sign.given(letter=letter)
+
+
+#: How far an axis stands from where it was told to stand.
+POSITIONING = Measurand(
+    identifier="positioning",
+    title=Words(en="Positioning accuracy", de="Positioniergenauigkeit"),
+    definition=Words(
+        en="the actual position minus the target position",
+        de="die Istposition minus der Sollposition",
+    ),
+    is_position=True,
+)
+#: The same of a rotary axis.
+ROTARY_POSITIONING = Measurand(
+    identifier=POSITIONING.identifier,
+    title=POSITIONING.title,
+    definition=POSITIONING.definition,
+    unit=ARCSECOND,
+    coordinate=Coordinate.ANGLE,
+    is_position=True,
+)
+#: How far a motion strays across its direction.
+STRAIGHTNESS = Measurand(
+    identifier="straightness",
+    title=Words(en="Straightness error", de="Geradheitsabweichung"),
+    definition=Words(
+        en="the displacement perpendicular to the motion, in one of the two directions across it",
+        de="die Verlagerung quer zur Bewegung, in einer der beiden Richtungen quer zu ihr",
+    ),
+    sign=Words(
+        en="displacement across the motion, positive in the positive direction of {letter}",
+        de="Verlagerung quer zur Bewegung, positiv in der positiven Richtung von {letter}",
+    ),
+)
+#: How far a moving component turns: roll, pitch or yaw.
+ANGLE = Measurand(
+    identifier="angle",
+    title=Words(en="Angular error", de="Winkelabweichung"),
+    definition=Words(
+        en="the rotation of the moving component about one of the three directions",
+        de="die Drehung der bewegten Baugruppe um eine der drei Richtungen",
+    ),
+    unit=ARCSECOND,
+    sign=Words(
+        en="rotation about {letter}, positive in the positive sense of ISO 841 (right-hand rule)",
+        de="Drehung um {letter}, positiv im positiven Sinn nach ISO 841 (Rechte-Hand-Regel)",
+    ),
+)
+#: How far two axes are from a right angle.
+SQUARENESS = Measurand(
+    identifier="squareness",
+    title=Words(en="Squareness error", de="Rechtwinkligkeitsabweichung"),
+    definition=Words(
+        en="the angle between the reference straight lines of two axes, minus 90°",
+        de="der Winkel zwischen den Bezugsgeraden zweier Achsen, minus 90°",
+    ),
+    unit=ARCSECOND,
+    sign=Words(
+        en="turn of axis {letter} against its reference axis from the right angle, positive by the "
+        "right-hand rule (this program's reading of ISO 230-1)",
+        de="Drehung der Achse {letter} gegen ihre Bezugsachse aus dem rechten Winkel, positiv nach der "
+        "Rechte-Hand-Regel (nach dem Verständnis dieses Programms von ISO 230-1)",
+    ),
+    joins_tests=True,
+)
+
+CIRCLE = Measurand(
+    identifier="circle",
+    title=Words(en="Circular accuracy", de="Kreisgenauigkeit"),
+    definition=Words(
+        en="the distance of the actual path from its centre minus the nominal radius",
+        de="der Abstand der Istbahn von ihrem Mittelpunkt minus dem Sollradius",
+    ),
+    coordinate=Coordinate.ANGLE,
+    is_closed=True,
+    sign=Words(
+        en="actual − nominal radius, positive outwards",
+        de="Istradius − Sollradius, positiv nach außen",
+    ),
+    subject=Words("{name} in the plane {axis}", "{name} in der Ebene {axis}"),
+    bearer=Words(en="Plane {axis}", de="Ebene {axis}"),
+    target=Words(en="Angle", de="Winkel"),
+    senses=(
+        Words(en="counter-clockwise", de="Gegenuhrzeigersinn"),
+        Words(en="clockwise", de="Uhrzeigersinn"),
+    ),
+    is_continuous=True,
+)
+
+#: What ISO 230-1's symbols name, by identifier.
+OF_SYMBOLS: Mapping[str, Measurand] = MappingProxyType(
+    {each.identifier: each for each in (POSITIONING, STRAIGHTNESS, ANGLE, SQUARENESS)}
+)
+
+
+def measurands_of(plugin: Any) -> tuple[Measurand, ...]:
+    """Return what a standard evaluates or an effect describes: positioning where it does not say."""
+    found: tuple[Measurand, ...] = getattr(plugin, "measurands", (POSITIONING,))
+    return found
+
+
+def is_for(plugin: Any, measurand: Measurand) -> bool:
+    """Return whether a standard or an effect is for what was measured."""
+    return measurand.identifier in {each.identifier for each in measurands_of(plugin)}
+
+
+def listed(measurands: Iterable[Measurand]) -> str:
+    """Return measurands by their identifiers, for messages."""
+    return ", ".join(dict.fromkeys(each.identifier for each in measurands))

@@ -1,0 +1,92 @@
+"""Times as tables write them: seconds, ISO 8601, a day as in 18.11.2026, a time of day alone."""
+
+from __future__ import annotations
+
+import datetime as dt
+import math
+import re
+from collections.abc import Callable
+
+from zlmreport.errors import quoted
+from zlmreport.measurement.columns import Cells, Column
+from zlmreport.measurement.table import Row
+from zlmreport.measurement.text_file import parse_number
+
+#: Reads the time of a row; None if it noted why it cannot.
+ReadTime = Callable[[Row], float | None]
+
+#: Year of the moments that a time of day without a date stands for.
+_NO_DATE = 1900
+#: Times without a date that fall by so much have passed midnight, s.
+_HALF_A_DAY = 43_200.0
+_DAY = 86_400.0
+_LAST_HOUR, _LAST_MINUTE = 23, 59
+_CLOCK = re.compile(r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,]([0-9]{1,6}))?)?")
+_GERMAN_DAY = re.compile(r"([0-9]{1,2})\.([0-9]{1,2})\.([0-9]{4}|[0-9]{2})(?:,?\s+(.+?)(?:\s*Uhr)?)?")
+
+
+def time_reader(cells: Cells, column: Column | None) -> ReadTime:
+    """Return what reads the time of a row, NaN for an empty cell; the first time tells the kind of all."""
+    if column is None:
+        return lambda _row: math.nan
+    index = column.index
+    first = next((row.cells[index] for row in cells.table.rows if row.cells[index]), "")
+    beginning = moment(first)
+    if beginning is None or _is_number(first, cells):
+        return lambda row: cells.number(row, column)
+    days, before = 0.0, 0.0
+
+    def seconds(row: Row) -> float | None:
+        nonlocal days, before
+        text = row.cells[index]
+        if not text:
+            return math.nan
+        found = moment(text)
+        if found is None or _kind(found) != _kind(beginning):
+            like = quoted(first)
+            cells.note(row, column, f"{quoted(text)} is no time written like the first one, {like}")
+            return None
+        time = (found - beginning).total_seconds() + days
+        if beginning.year == _NO_DATE and before - time > _HALF_A_DAY:
+            days, time = days + _DAY, time + _DAY
+        before = time
+        return time
+
+    return seconds
+
+
+def moment(text: str) -> dt.datetime | None:
+    """Return a time as ISO 8601 writes it, of the day alone, or as in ``18.11.2026 8:15``; None for others.
+
+    >>> moment("18.11.2026 8:15") == moment("2026-11-18T08:15")
+    True
+    """
+    try:
+        return dt.datetime.fromisoformat(text)
+    except ValueError:
+        day = _GERMAN_DAY.fullmatch(text)
+    clock = _CLOCK.fullmatch((day[4] or "0:00") if day else text)
+    if clock is None:
+        return None
+    year, month, date = (_NO_DATE, 1, 1) if day is None else (int(day[3]), int(day[2]), int(day[1]))
+    hour, minute, second, fraction = clock.groups()
+    try:
+        found = dt.datetime.fromisoformat(f"{year + 2000 if year < 100 else year:04}-{month:02}-{date:02}")
+    except ValueError:
+        return None
+    seconds = float(f"{second or 0}.{fraction or 0}")
+    if int(hour) > _LAST_HOUR or int(minute) > _LAST_MINUTE or seconds > _LAST_MINUTE + 1:
+        return None
+    return found + dt.timedelta(hours=int(hour), minutes=int(minute), seconds=seconds)
+
+
+def _kind(found: dt.datetime) -> tuple[bool, bool]:
+    return found.tzinfo is None, found.year == _NO_DATE
+
+
+def _is_number(text: str, cells: Cells) -> bool:
+    try:
+        parse_number(text, cells.sign)
+    except ValueError:
+        return False
+    return True

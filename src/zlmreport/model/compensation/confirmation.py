@@ -1,0 +1,112 @@
+"""Whether a second test shows what the table of the first one promised, and if not, what went wrong."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.compensation.basis import Basis
+from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
+
+#: A part of the table that was applied is taken for 1, ½ or −1 within this.
+_NEAR = 0.2
+#: Of the deviations before, what may be left beside the scatter of the means.
+_MAY_BE_LEFT = 0.05
+#: By how much a shift must make the rest smaller to be the reason.
+_FAR_SMALLER = 3.0
+_SHIFTS = np.linspace(-3, 3, 121)
+
+
+class ConfirmationVerdict(StrEnum):
+    """What became of a table."""
+
+    HELD = "held"
+    WRONG_SIGN = "wrong-sign"
+    HALF = "half"
+    SHIFTED = "shifted"
+    OTHER = "other"
+
+
+@dataclass(frozen=True, slots=True)
+class Confirmation:
+    """How a second test stands to the forecast."""
+
+    verdict: ConfirmationVerdict  #: What became of the table.
+    ratio: float  #: E after over E before.
+    applied: float  #: What part of the table the second test shows to have been applied.
+    shift: float = 0.0  #: By how much the table seems shifted, m or rad; 0 unless that is the verdict.
+
+
+def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
+    """Hold a second test against the table that the first one gave.
+
+    `basis`: What is known of the axis from the first test; between its targets, too.
+
+    Raises `InputError` if the two tests have no common length.
+    """
+    before = basis.curve
+    inside = (after.positions >= before.positions[0] - 1e-9) & (
+        after.positions <= before.positions[-1] + 1e-9
+    )
+    positions = after.positions[inside]
+    if len(positions) < 2:
+        raise InputError.at(place, "has no two targets within the length of the test before")
+    was = basis.known(positions)
+    is_now = np.stack([after.forward, after.reverse])[:, inside]
+    removed = was - is_now  # but for a constant: each test has its own zero
+    ratio = float(np.ptp(is_now) / np.ptp(was)) if np.ptp(was) else 1.0
+    applied = _part(removed, table.at(positions))
+    left = _rms(_centred(removed - table.at(positions)))
+    allowed = _allowed(before, after) + _MAY_BE_LEFT * _rms(was - was.mean())
+    if abs(applied - 1) < _NEAR and left <= allowed:
+        return Confirmation(ConfirmationVerdict.HELD, ratio, applied)
+    for part, verdict in ((-1.0, ConfirmationVerdict.WRONG_SIGN), (0.5, ConfirmationVerdict.HALF)):
+        if (
+            abs(applied - part) < _NEAR
+            and _rms(_centred(removed - part * table.at(positions))) <= 2 * allowed
+        ):
+            return Confirmation(verdict, ratio, applied)
+    shift, rest = _shifted(removed, positions, table)
+    if rest * _FAR_SMALLER < _rms(_centred(removed - table.at(positions))):
+        return Confirmation(ConfirmationVerdict.SHIFTED, ratio, applied, shift)
+    return Confirmation(ConfirmationVerdict.OTHER, ratio, applied)
+
+
+def _part(removed: FloatArray, table: FloatArray) -> float:
+    """Return what part of a table was removed, by least squares, the zero of each test left open."""
+    x, y = _centred(table).ravel(), _centred(removed).ravel()
+    return float(x @ y / (x @ x)) if x @ x else 0.0
+
+
+def _shifted(removed: FloatArray, positions: FloatArray, table: CompensationTable) -> tuple[float, float]:
+    """Return the shift of the table that explains most, and what it leaves."""
+    step = float(np.median(np.diff(table.positions)))
+    left = [
+        (_rms(_centred(removed - table.at(positions - part * step))), part * step)
+        for part in _SHIFTS.tolist()
+    ]
+    rest, shift = min(left)
+    return shift, rest
+
+
+def _allowed(before: ErrorCurve, after: ErrorCurve) -> float:
+    """Return twice the standard deviation of a difference of two means, by the scatter of both tests."""
+    parts = [
+        float(np.nanmean(each.spread**2)) / max(1, each.runs)
+        for each in (before, after)
+        if np.isfinite(each.spread).any()
+    ]
+    return 2 * float(np.sqrt(sum(parts)))
+
+
+def _centred(values: FloatArray) -> FloatArray:
+    centred: FloatArray = values - values.mean()
+    return centred
+
+
+def _rms(values: FloatArray) -> float:
+    return float(np.sqrt(np.mean(values**2)))

@@ -1,0 +1,182 @@
+"""A table in the words of a control: where it has its rows, and why there; with its forecast.
+
+Without a stated step the rule is: no more rows than the targets support, no fewer than keep what the lines
+between them miss below the uncertainty of a mean, and never more than the control takes. Targets show waves
+that are two of their distances long or longer (the sampling theorem), and a wave needs `ROWS_A_PERIOD` rows:
+so a grid has at most twice as many intervals as the targets. Rows at the targets themselves come first, where
+a control takes rows that are unequally far apart.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any, Protocol
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place
+from zlmreport.evaluation.uncertainty.budget import Budget
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.compensation.basis import Basis
+from zlmreport.model.compensation.curve import CompensationTable, table_of
+from zlmreport.model.compensation.forecast import TableForecast, forecast
+
+#: Places between two rows of the finest grid at which a grid is looked at, and grids that are.
+_BETWEEN, _MOST_GRIDS = 8, 20
+#: What the lines between rows miss by rounding alone, m or rad.
+_NOTHING = 1e-12
+
+
+class GridReason(StrEnum):
+    """Why a table has the rows that it has."""
+
+    STATED = "stated"
+    TARGETS = "targets"
+    UNCERTAINTY = "uncertainty"
+    CONTROL = "control"
+    SUPPORT = "support"
+
+
+@dataclass(frozen=True, slots=True)
+class Grid:
+    """The rows of a table."""
+
+    rows: FloatArray  #: (g,): Rising, m or rad.
+    #: Why these: as stated; the targets; the fewest that keep within the uncertainty; or fewer than that
+    #: needs, for the control takes no more or the targets support no more.
+    reason: GridReason
+    added: float  #: What the lines between the rows miss at most of what the table is to take away, m or rad.
+    #: U of a mean deviation by the scatter of the readings (k = 2), m or rad; 0 if the test cannot tell.
+    allowed: float
+
+
+def grid_of(
+    basis: Basis,
+    place: Place,
+    *,
+    step: float | None = None,
+    is_equidistant: bool = False,
+    most_rows: int | None = None,
+) -> Grid:
+    """Return the grid of a table.
+
+    `step`: Distance of the rows, m or rad; None for the rule.
+
+    Raises `InputError` if the step does not divide the measured length into at least one interval.
+    """
+    targets = basis.curve.positions
+    first, last, count = float(targets[0]), float(targets[-1]), len(targets)
+    places = np.union1d(np.linspace(first, last, 2 * _BETWEEN * count), targets)
+    allowed = basis.expanded_uncertainty
+
+    def judged(rows: FloatArray, reason: GridReason) -> Grid:
+        wanted = basis.wanted(rows)
+        lines = np.stack([np.interp(places, rows, each) for each in wanted(rows)])
+        inside = places <= rows[-1] + _NOTHING
+        missed = float(np.abs(wanted(places) - lines)[:, inside].max())
+        return Grid(read_only_floats(rows), reason, missed if missed > _NOTHING else 0.0, allowed)
+
+    if step is not None:
+        intervals = (last - first) / step
+        if intervals < 1:
+            raise InputError.at(place, "the step is longer than the measured length; state a shorter one")
+        stated = first + step * np.arange(int(intervals + 1e-9) + 1)
+        return judged(read_only_floats(stated), GridReason.STATED)
+    most = most_rows or 2 * count
+    grids = [judged(targets, GridReason.TARGETS)] if not is_equidistant and count <= most else []
+    numbers = np.unique(np.linspace(min(count, most), min(2 * count - 1, most), _MOST_GRIDS).astype(int))
+    grids += [
+        judged(read_only_floats(np.linspace(first, last, number)), GridReason.UNCERTAINTY)
+        for number in numbers.tolist()
+    ]
+    best = min(grids, key=lambda grid: (len(basis.left_out(grid.rows)), max(grid.added, allowed)))
+    if best.added > max(allowed, _NOTHING):
+        reason = GridReason.CONTROL if most < 2 * count - 1 else GridReason.SUPPORT
+        return Grid(best.rows, reason, best.added, allowed)
+    return best
+
+
+class TableWriter(Protocol):
+    """What making a table needs of a control (`zlmreport.plugin.Controller`)."""
+
+    identifier: str
+    title: Words
+    confidence: str
+    is_equidistant: bool
+    notes: tuple[Words, ...]
+
+    def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
+        """Return its files."""
+
+    def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:
+        """Return what the control makes of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A table, with all that it was made from and into."""
+
+    controller: TableWriter  #: The control.
+    basis: Basis  #: What is known of the axis.
+    grid: Grid  #: Where the table has its rows, and why.
+    #: Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
+    left_out: tuple[tuple[str, float], ...]
+    #: meant and decoded: The table, and what the control makes of its files.
+    meant: CompensationTable
+    decoded: CompensationTable
+    #: The table that was active during the test, and is replaced; None for none.
+    active: CompensationTable | None
+    files: Mapping[str, str]  #: Texts by the ends of their names.
+    forecast: TableForecast  #: What the table leaves.
+
+
+def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
+    basis: Basis,
+    axis: Axis,
+    number: str,
+    place: Place,
+    controller: TableWriter,
+    own: Any,
+    *,
+    step: float | None = None,
+    budget: Budget | None = None,
+) -> Made:
+    """Make a table.
+
+    `axis`, `number`, `place`: The axis with the table that was active; the name of the job; where the table
+        is asked for.
+    `step`: Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
+    `budget`: Of the measuring set-up; None where nothing is known of it.
+
+    Raises `InputError` if the control would refuse the table, or cut it off.
+    """
+    most = getattr(controller, "most_rows", None)
+    grid = grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
+    rows, left_out = grid.rows, basis.left_out(grid.rows)
+    meant = table_of(basis.wanted(rows)(rows), rows, axis, number, place)
+    files = controller.files(meant, own)
+    decoded = controller.read(files, meant, own)
+    old = axis.compensation_table
+    active = None
+    if old is not None:
+        active = replace(
+            meant,
+            positions=read_only_floats(old.positions),
+            forward=read_only_floats(old.values),
+            reverse=read_only_floats(old.reverse or old.values),
+        )
+    return Made(
+        controller,
+        basis,
+        grid,
+        tuple(left_out.items()),
+        meant,
+        decoded,
+        active,
+        files,
+        forecast(basis, meant, decoded, active, budget),
+    )

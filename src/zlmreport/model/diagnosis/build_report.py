@@ -1,0 +1,34 @@
+"""A build as the results file of `zlmreport model build --json`: full precision, micrometres or ″."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from zlmreport.model.diagnosis.building import Built
+from zlmreport.model.diagnosis.report import report_error, report_model, report_remainder
+
+SCHEMA = "zlmreport/build/1"
+
+
+def build_values(built: Built) -> dict[str, Any]:
+    """Return a build as plain values for a JSON file."""
+    last = built.last
+    axis = last.fit.design.axis
+    return {
+        "schema": SCHEMA,
+        "steps": [
+            {
+                "effect": each.identifier,
+                "settings": each.effect.settings.model_dump(mode="json"),
+                **({"removed": True} if each.is_removed else {}),
+                "rms_before": axis.deviation_unit.from_si(each.before.rms),
+                "rms_after": axis.deviation_unit.from_si(each.after.rms),
+                "noise_rms": report_error(each.after, axis)["noise_rms"],
+            }
+            for each in built.steps
+        ],
+        "verdict": last.verdict.value,
+        "remainder": report_remainder(last.remainder, axis),
+        "model": report_model(last.fit),
+        "error": report_error(last.error, axis),
+    }

@@ -1,0 +1,113 @@
+"""Building a model: diagnosis after diagnosis, each effect that has evidence of its own added, in one go.
+
+What a person would do who follows the advice: add what is named, look again, take out what has proved a
+makeshift, and stop where nothing is left that has a name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, Verdict, error_numbers
+from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.fitting.fit import fit
+
+#: Diagnoses of one build: each adds a whole set, so a second mostly finds nothing more.
+_MOST_ROUNDS = 6
+
+#: Diagnoses a model, the effects that may be taken out of it named; told how far it is.
+Diagnosing: TypeAlias = Callable[[AxisModel, frozenset[str], Told], Diagnosis]
+
+
+@dataclass(frozen=True, slots=True)
+class BuildStep:
+    """An effect that comes into a model, or goes out of it."""
+
+    effect: Effect  #: In the form that fits best.
+    before: ErrorNumbers  #: How far the model is from the readings without this step.
+    after: ErrorNumbers  #: The same with it.
+    is_removed: bool = False  #: Whether the effect goes out again.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+        return self.effect.identifier
+
+
+@dataclass(frozen=True, slots=True)
+class Built:
+    """A model that was built."""
+
+    first: Diagnosis  #: Of the model with which it began.
+    steps: tuple[BuildStep, ...]  #: What came in and went out, in order.
+    last: Diagnosis  #: Of the model that came of it.
+    model: AxisModel  #: That model.
+
+    @property
+    def removed(self) -> tuple[str, ...]:
+        """Effects of the first model that do not stand in the last."""
+        kept = self.model.identifiers
+        return tuple(each for each in self.first.fit.model.identifiers if each not in kept)
+
+    @property
+    def added(self) -> tuple[Effect, ...]:
+        """Effects of the last model that did not stand in the first in this form."""
+        before = {(each.effect.identifier, each.effect.settings) for each in self.first.fit.model.terms}
+        return tuple(
+            each.effect
+            for each in self.model.terms
+            if (each.effect.identifier, each.effect.settings) not in before
+        )
+
+
+def build(model: AxisModel, diagnosing: Diagnosing, told: Told = untold) -> Built:
+    """Build a model, from the one that there is.
+
+    `diagnosing`: Holds a model against the readings of the test.
+
+    Raises `ModelError` as a diagnosis does.
+    """
+    own = frozenset(model.identifiers)
+    found = [diagnosing(model, frozenset(), _part(told, 0))]
+    steps: list[BuildStep] = []
+    while len(found) <= _MOST_ROUNDS and found[-1].verdict is Verdict.MISSING:
+        extended, taken = _extended(model, found[-1])
+        if not taken:
+            break
+        model = extended
+        steps += taken
+        may_go = frozenset(each.identifier for each in steps) - own
+        found.append(diagnosing(model, may_go, _part(told, len(found))))
+    return Built(found[0], tuple(steps), found[-1], model)
+
+
+def _part(told: Told, rounds: int) -> Told:
+    """Return what tells the progress of one diagnosis among those of a build: half of what is left."""
+    done = 1.0 - 0.5**rounds
+    return lambda share: told(done + (1.0 - done) * 0.5 * share)
+
+
+def _extended(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, list[BuildStep]]:
+    """Return the model with the set of a diagnosis, and the steps to it; what cannot be fitted ends it."""
+    fitted, error = diagnosis.fit, diagnosis.error
+    changes = [(each, False) for each in diagnosis.together]
+    changes += [(term.effect, True) for term in model.terms if term.effect.identifier in diagnosis.makeshift]
+    steps: list[BuildStep] = []
+    for effect, is_removed in changes:
+        changed = model.without(effect.identifier) if is_removed else model.with_effect(effect)
+        try:
+            fitted = fit(changed, fitted.design, fitted.deviation, diagnosis.fit.assumptions)
+        except ModelError:
+            break
+        model, before, error = changed, error, error_numbers(fitted)
+        steps.append(BuildStep(effect, before, error, is_removed))
+    return model, steps
+
+
+def names_of(steps: Sequence[BuildStep]) -> tuple[str, ...]:
+    """Return the effects of steps, those that go out with a minus."""
+    return tuple(f"− {each.identifier}" if each.is_removed else f"+ {each.identifier}" for each in steps)

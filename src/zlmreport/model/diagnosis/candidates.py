@@ -1,0 +1,78 @@
+"""Which effects can be tried beside a model, and why others cannot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from zlmreport.language import Words
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, refuse_collisions
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
+
+_IMITATED = Words(
+    en="at these targets {effect} imitates it entirely",
+    de="an diesen Zielpositionen ahmt {effect} ihn vollständig nach",
+)
+_THE_MODEL = Words(en="the model", de="das Modell")
+_SHOWN_BY = Words(
+    en="{imitated}; what would show it: {measurement}", de="{imitated}; was ihn zeigen würde: {measurement}"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class NotTestable:
+    """An effect that the test cannot show."""
+
+    effect: str  #: Its identifier.
+    reason: Words  #: What it needs, or that the model imitates it.
+
+
+@dataclass(frozen=True, slots=True)
+class EffectsToTry:
+    """The effects that can be tried beside a model."""
+
+    forms: tuple[Effect, ...]  #: Every form of every effect.
+    not_testable: tuple[NotTestable, ...]  #: Effects that the test cannot show in any form.
+
+
+def effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) -> EffectsToTry:
+    """Return the effects that can be tried beside a model.
+
+    An effect that is in the model already enters only with forms that have more parameters: a polynomial
+    of higher order.
+    """
+    present = {term.effect.identifier: len(term.effect.linear) for term in model.terms}
+    forms: list[Effect] = []
+    not_testable = []
+    for effect in map(model.next_of, effects):
+        least = present.get(effect.identifier, 0)
+        further = effect.further_forms() if least else ()
+        listed = [form for form in (*effect.forms(), *further) if len(form.linear) > least]
+        reasons = [form.untestable(design) or _collision(model, design, form) for form in listed]
+        forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
+        if listed and None not in reasons:
+            not_testable.append(NotTestable(effect.identifier, reasons[0] or _imitated(model, effect)))
+    return EffectsToTry(tuple(forms), tuple(not_testable))
+
+
+def _collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
+    """Return that the model would not be determined with the effect in it; None if it is."""
+    extended = model.with_effect(effect)
+    columns = [term.columns(design, term.grid(design)[0])[0] for term in extended.terms]
+    try:
+        refuse_collisions(extended, columns)
+    except ModelError:
+        return _imitated(model, effect)
+    return None
+
+
+def _imitated(model: AxisModel, effect: Effect) -> Words:
+    """Return what imitates an effect entirely, and the measurement that would show it."""
+    for term in model.terms:
+        if effect.identifier in term.effect.contains:
+            return _IMITATED.given(effect=term.effect.identifier)
+    alike = [each for each in effect.confusions if each.effect in model.identifiers]
+    words = _IMITATED.given(effect=alike[0].effect if alike else _THE_MODEL)
+    known = (*alike, *effect.confusions)
+    return _SHOWN_BY.given(imitated=words, measurement=known[0].told_apart_by) if known else words

@@ -1,0 +1,161 @@
+"""Columns over the readings of a test, and their products under a covariance: what a contest works with.
+
+Every column stands as error contrasts: whatever the job's model can imitate is taken out of it. Products of
+columns are computed once and kept; a set of effects beside any amplitudes of what has no name is then a
+matter of small matrices, however many readings there are. The largest part of the covariance, what is
+irregular from position to position, has one column for each target and is eliminated first (M. A. Woodbury).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
+from zlmreport.model.fitting.contrasts import Contrasts
+
+_FIRST_ROOM = 256
+
+
+@dataclass(frozen=True, slots=True)
+class _Eliminated:
+    """Irregular shares of given amplitudes, eliminated: products a·b become a·b − (Mᵀa)ᵀ·K·(Mᵀb)."""
+
+    log_determinant: float
+    kernel: FloatArray  #: K, (r, r).
+    core: FloatArray  #: Products of the core with all kept columns.
+    rows: dict[int, FloatArray] = field(default_factory=dict)  #: The same of another column.
+    squares: dict[int, FloatArray] = field(default_factory=dict)  #: Of blocks of one width among themselves.
+
+
+class Columns:
+    """A table of columns that grows.
+
+    Attributes
+    ----------
+    space
+        The contrasts of the job's model.
+    """
+
+    def __init__(self, space: Contrasts, irregular: Sequence[FloatArray]) -> None:
+        """Begin a table.
+
+        `irregular`: Factors (N, m) of what is irregular from position to position.
+        """
+        self.space = space
+        readings = len(space.scale)
+        self._factor = np.concatenate([np.empty((readings, 0)), *irregular], axis=1)
+        self._widths = [each.shape[1] for each in irregular]
+        contrasts = space.of(self._factor)
+        self._gram = contrasts.T @ contrasts
+        self._factor = space.single.whitened(self._factor)
+        self._values = np.empty((readings, _FIRST_ROOM))
+        self._sums = np.empty((self._factor.shape[1], _FIRST_ROOM))
+        self._count = self._core = self._kept = 0
+        self._plain = np.empty((0, 0))
+        self._eliminated: dict[tuple[float, ...], _Eliminated] = {}
+
+    def add(self, contrasts: FloatArray) -> IntArray:
+        """Take columns in, contrasts of shape (N, k); return their places."""
+        first, self._count = self._count, self._count + contrasts.shape[1]
+        while self._count > self._values.shape[1]:
+            self._values = np.concatenate([self._values, np.empty_like(self._values)], axis=1)
+            self._sums = np.concatenate([self._sums, np.empty_like(self._sums)], axis=1)
+        self._values[:, first : self._count] = contrasts
+        # Contrasts are at right angles to the model: the factor itself does for its contrasts.
+        self._sums[:, first : self._count] = self._factor.T @ contrasts
+        return read_only_integers(np.arange(first, self._count))
+
+    def keep(self, core: int) -> None:
+        """Say that products of the columns so far will be asked for again and again, most of all of a core.
+
+        `core`: How many of the first columns are the core.
+        """
+        self._core, self._kept = core, self._count
+        self._plain = self._values[:, :core].T @ self._values[:, : self._count]
+
+    def values(self, places: IntArray) -> FloatArray:
+        """Return columns, shape (N, k)."""
+        return self._values[:, places]
+
+    def log_determinant(self, ratios: tuple[float, ...]) -> float:
+        """Return ln|V| of the irregular shares alone, within the space of contrasts."""
+        return self._of(ratios).log_determinant
+
+    def products(self, ratios: tuple[float, ...], one: IntArray, other: IntArray) -> FloatArray:
+        """Return products of columns under irregular shares, shape (k, l)."""
+        known = self._of(ratios)
+        if (one < self._core).all() and (other < self._kept).all():
+            return known.core[np.ix_(one, other)]
+        if (other < self._kept).all():
+            return np.array([self._row(known, each)[other] for each in one.tolist()])
+        if (one < self._kept).all():
+            return self.products(ratios, other, one).T
+        found = np.empty((len(one), len(other)))
+        left, right = one < self._kept, other < self._kept
+        found[:, right] = self.products(ratios, one, other[right])
+        found[np.ix_(left, ~right)] = self.products(ratios, other[~right], one[left]).T
+        found[np.ix_(~left, ~right)] = self._between(known, one[~left], self.values(other[~right]))
+        return found
+
+    def products_with(self, ratios: tuple[float, ...], one: IntArray, contrasts: FloatArray) -> FloatArray:
+        """Return products of columns with contrasts that are not in the table, shape (k, l)."""
+        return self._between(self._of(ratios), one, contrasts)
+
+    def squares(self, ratios: tuple[float, ...], width: int, blocks: IntArray) -> FloatArray:
+        """Return products of the columns of each block among themselves, shape (g, k, k).
+
+        `blocks`, (g, k): Always the same ones for a width.
+        """
+        known = self._of(ratios)
+        if width not in known.squares:
+            known.squares[width] = self._within(known, self._values[:, blocks])
+        return known.squares[width]
+
+    def squares_of(self, ratios: tuple[float, ...], blocks: FloatArray) -> FloatArray:
+        """Return the same of contrasts that are not in the table, (N, g, k)."""
+        return self._within(self._of(ratios), blocks)
+
+    def _within(self, known: _Eliminated, blocks: FloatArray) -> FloatArray:
+        flat = blocks.reshape(len(blocks), -1)
+        sums = self._factor.T @ flat
+        turned = (known.kernel @ sums).reshape(len(sums), *blocks.shape[1:])
+        sums = sums.reshape(turned.shape)
+        return np.asarray(
+            np.einsum("ngi,ngj->gij", blocks, blocks) - np.einsum("rgi,rgj->gij", sums, turned),
+            dtype=np.float64,
+        )
+
+    def _row(self, known: _Eliminated, place: int) -> FloatArray:
+        """Return the products of a column with all that are kept."""
+        if place < self._core:
+            return np.asarray(known.core[place])
+        if place not in known.rows:
+            own = self._values[:, place]
+            less = (known.kernel @ self._sums[:, place]) @ self._sums[:, : self._kept]
+            known.rows[place] = own @ self._values[:, : self._kept] - less
+        return known.rows[place]
+
+    def _between(self, known: _Eliminated, places: IntArray, contrasts: FloatArray) -> FloatArray:
+        sums = known.kernel @ (self._factor.T @ contrasts)
+        return np.asarray(self.values(places).T @ contrasts - self._sums[:, places].T @ sums)
+
+    def _of(self, ratios: tuple[float, ...]) -> _Eliminated:
+        if ratios not in self._eliminated:
+            self._eliminated[ratios] = self._eliminate(ratios)
+        return self._eliminated[ratios]
+
+    def _eliminate(self, ratios: tuple[float, ...]) -> _Eliminated:
+        spread = np.repeat(np.array(ratios), self._widths)
+        active = np.flatnonzero(spread)
+        roots = np.sqrt(spread[active])
+        inner = roots[:, np.newaxis] * self._gram[np.ix_(active, active)] * roots
+        factor = np.linalg.cholesky(np.eye(len(active)) + inner)
+        root = np.linalg.inv(factor) * roots
+        kernel = np.zeros_like(self._gram)
+        kernel[np.ix_(active, active)] = root.T @ root
+        core = self._sums[:, : self._core]
+        products = self._plain - (kernel @ core).T @ self._sums[:, : self._kept]
+        return _Eliminated(2.0 * float(np.log(np.diagonal(factor)).sum()), kernel, products)

@@ -1,0 +1,435 @@
+"""What a diagnosis says: how well the model describes the readings, where it fails, and what it lacks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.language.numbers import number_words, significant_words
+from zlmreport.measurement.arrays import IntArray
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import behind
+from zlmreport.model.diagnosis.candidates import NotTestable, effects_to_try
+from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.diagnosis.faults import Fault, FaultKind, faults_of, gaps
+from zlmreport.model.diagnosis.finding import Finding, Named, Rival, find, with_member
+from zlmreport.model.diagnosis.remainder import Remainder, irregular_remainder, remainder_of_run
+from zlmreport.model.diagnosis.residual_tests import failures, flagged, residual_tests
+from zlmreport.model.diagnosis.residuals import Failure, residuals_of
+from zlmreport.model.diagnosis.single_run import single_run
+from zlmreport.model.diagnosis.visibility import Visibility
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.axis_model import AxisModel, ModelError
+from zlmreport.model.effects.effect import Effect, is_of_another_axis, unit_of
+from zlmreport.model.fitting.blunders import Outliers, outliers
+from zlmreport.model.fitting.distributions import f_tail
+from zlmreport.model.fitting.estimate import Estimate, Plausibility
+from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validated_rms, fit
+from zlmreport.model.fitting.observations import Observations, thinned
+from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.repeats import noise_floor, repeats
+
+#: Share of the misfit from which on an effect explains it, and does not only contribute.
+EXPLAINS = 0.75
+#: Readings that are compared at most, and what each takes: 20 s and 0.45 GB were measured for 2,100.
+_MOST_READINGS = 20_000
+_MINUTES_EACH, _GIGABYTES_EACH = 20 / 60 / 2100, 0.45 / 2100
+#: Degrees of freedom that a comparison needs to tell anything from noise.
+_FEWEST_DEGREES = 6
+#: χ²/ν up to which what is left is called noise: irregular shares that are noise make it larger than one.
+LARGEST_RATIO = 1.4
+#: Chance of a larger χ²/ν below which it is no noise.
+_IMPROBABLE = 1e-3
+
+_EXPLAINS = Words(
+    en="explains {share} % of what the noise leaves open",
+    de="erklärt {share} % dessen, was das Rauschen offen lässt",
+)
+_CONTRIBUTES = Words(
+    en="contributes {share} % of what the noise leaves open; {left} remain",
+    de="trägt {share} % zu dem bei, was das Rauschen offen lässt; es bleiben {left}",
+)
+_LOOKS_WRONG = Words(
+    en="The data look wrong: {statement}. Remedy: {remedy}.",
+    de="Die Daten sehen falsch aus: {statement}. Abhilfe: {remedy}.",
+)
+_NO_FLOOR = Words(
+    en="takes the error from {before} to {after}", de="senkt die Abweichung von {before} auf {after}"
+)
+_IS_IT_SO = Words(
+    en="{parameter} of {value}{unit} is beyond what is usual: measured so, and in the right unit?",
+    de="{parameter} von {value}{unit} ist mehr als üblich: so gemessen, und in der richtigen Einheit?",
+)
+_AND = Words(en="{first}; {second}", de="{first}; {second}")
+
+
+class Verdict(StrEnum):
+    """What a diagnosis comes to.
+
+    `ADEQUATE`: nothing is left that the noise does not explain. `MISSING`: at least one installed effect has
+    evidence of its own, also where something unknown is left beside it. `UNEXPLAINED`: something is left, and
+    no installed effect has.
+    """
+
+    ADEQUATE = "adequate"
+    MISSING = "missing"
+    UNEXPLAINED = "unexplained"
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorNumbers:
+    """How far readings and model are apart."""
+
+    rms: float  #: √(RSS/(N − q)), m or rad.
+    noise_rms: float | None  #: The noise floor σ_f, m or rad; None without repeats.
+    chi2_per_dof: float | None  #: RSS/((N − q)·σ_f²); None without a noise floor.
+    cross_validated_rms: float | None  #: Of runs predicted from the others, m or rad; None with a single run.
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An effect that the model may lack."""
+
+    effect: Effect  #: In the form that fits best.
+    p_value: float  #: Chance of so high a likelihood ratio without the effect, its own search allowed for.
+    p_value_is_extrapolated: bool  #: Whether it lies beyond what was simulated.
+    #: That it is there, beside the others of its set and what has no name, and none of its equals instead.
+    probability: float
+    evidence: float  #: 2·ln of the odds for it against nothing in its place.
+    error: ErrorNumbers  #: After adding it alone.
+    estimates: tuple[Estimate, ...]  #: Its own parameters after adding it alone.
+    #: Of what the noise leaves unexplained, explained by it: 0 to 1; None without a noise floor.
+    share: float | None
+    explains: Words  #: The same in words.
+    equals: tuple[str, ...]  #: Effects that the readings cannot tell from it.
+    #: The measurement that would tell them; None where there is nothing to tell apart.
+    discriminate_by: Words | None
+    is_plausible: bool = True  #: Whether physics allows it.
+    is_large: bool = False  #: Whether a parameter lies beyond what is usual.
+    question: Words | None = None  #: What is asked of one that does; None of a candidate that is not large.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+        return self.effect.identifier
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """A model held against the readings of a test."""
+
+    fit: Fit  #: The model as it is.
+    error: ErrorNumbers  #: How far it is from the readings.
+    verdict: Verdict  #: What the diagnosis comes to.
+    p_value: float  #: Chance of such a contest where nothing is missing.
+    tests: tuple[Failure, ...]  #: All tests of the residuals.
+    failures: tuple[Failure, ...]  #: Those that they did not pass, and flagged readings.
+    #: Effects that may be missing: those of the set in the order in which to add them, each followed by its
+    #: equals. Where none has evidence of its own, those that explain most; none where the model is adequate.
+    candidates: tuple[Candidate, ...]
+    together: tuple[Effect, ...]  #: The set: effects that belong in, first the one to add first.
+    #: The error once the whole set is in the model; that of the model as it is without a set.
+    error_after: ErrorNumbers
+    makeshift: tuple[str, ...]  #: Effects of the model that others take the place of.
+    remainder: Remainder | None  #: What is left beside the set without a name; None where it is noise.
+    not_testable: tuple[NotTestable, ...]  #: Effects that the test cannot show, and what they need.
+    not_excluded: tuple[str, ...]  #: Those among them that would look like the first candidate.
+    visibility: tuple[Visibility, ...]  #: How much of each effect this plan can see.
+    outliers: IntArray  #: (k,) integer: Readings set aside, by their places in the measurement set.
+    remarks: tuple[Words, ...]  #: What was assumed, and what was left out.
+    faults: tuple[Fault, ...] = ()  #: What looks wrong in the data.
+
+    @property
+    def leaves_noise(self) -> bool:
+        """Whether nothing but noise is left once the whole set is in the model."""
+        ratio = self.error_after.chi2_per_dof
+        return self.remainder is None and (ratio is None or ratio <= LARGEST_RATIO)
+
+    @property
+    def further(self) -> tuple[str, ...]:
+        """Effects that are missing beside the first of the set."""
+        return tuple(each.identifier for each in self.together[1:])
+
+
+def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
+    model: AxisModel,
+    observed: Observations,
+    effects: Sequence[Effect],
+    assumptions: Assumptions | None = None,
+    expected: Expected | None = None,
+    *,
+    may_go: frozenset[str] = frozenset(),
+    told: Told = untold,
+) -> Diagnosis:
+    """Hold a model against the readings of a test, and try every effect that might be missing.
+
+    `may_go`: Effects of the model that were added on the way to it, and go out where others take their place.
+
+    Raises `ModelError` if the model makes no sense on these readings, or they are too few to tell anything.
+    """
+    observed = thinned(observed)
+    count = len(observed.deviation)
+    if count > _MOST_READINGS:
+        sentence = (
+            f"the model would be compared with {count} readings, which takes at least "
+            f"{_MINUTES_EACH * count:.0f} min and {_GIGABYTES_EACH * count:.0f} GB; diagnose fewer runs: at "
+            f"most {_MOST_READINGS} readings"
+        )
+        raise ModelError([sentence])
+    asked = _Asked(model, observed, effects, assumptions, expected, may_go)
+    aside = outliers(observed.design, observed.deviation)
+    held = _held(asked, aside, told)
+    judged = held.judged()
+    if not np.array_equal(judged.readings, aside.readings) and not held.is_quiet:
+        # What the leading model explains is no blunder, and what it leaves far off is one.
+        aside, held = judged, _held(asked, judged, told)
+    return _told(asked, aside, held)
+
+
+@dataclass(frozen=True, slots=True)
+class _Asked:
+    """What a diagnosis is asked."""
+
+    model: AxisModel
+    observed: Observations
+    effects: Sequence[Effect]
+    assumptions: Assumptions | None
+    expected: Expected | None
+    may_go: frozenset[str]
+
+
+@dataclass(frozen=True, slots=True)
+class _Held:
+    """A model held against the readings that were not set aside."""
+
+    observed: Observations  #: All readings.
+    fit: Fit
+    error: ErrorNumbers
+    finding: Finding
+    complete: Fit  #: With the whole set that was found.
+    left: Remainder | None
+
+    @property
+    def is_quiet(self) -> bool:
+        """Whether nothing was found."""
+        return self.complete is self.fit and self.left is None
+
+    def judged(self) -> Outliers:
+        """Return the readings that stand off from what the complete model says of all of them."""
+        design = self.observed.design
+        return outliers(design, self.observed.deviation - self.complete.value_at(design))
+
+
+def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
+    kept = asked.observed.without(aside.readings)
+    fitted = fit(asked.model, kept.design, kept.deviation, asked.assumptions)
+    if fitted.degrees < _FEWEST_DEGREES:
+        readings = len(kept.deviation)
+        sentence = (
+            f"the test has {readings} readings and the model {readings - fitted.degrees} parameters; "
+            f"a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
+        )
+        raise ModelError([sentence])
+    error = error_numbers(fitted)
+    run = single_run(fitted.design, fitted.residual, error.noise_rms or 0.0)
+    is_left = run is not None or not _may_be_noise(error, fitted)
+    finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
+    left = finding.remainder
+    if is_left and left is None and not finding.named:
+        left = remainder_of_run(fitted, run) if run else irregular_remainder(fitted, error.noise_rms or 0.0)
+    complete = _complete(fitted, finding.named, finding.makeshift)
+    return _Held(asked.observed, fitted, error, finding, complete, left)
+
+
+def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
+    """Return what a diagnosis says of what was found; faults of the data come first."""
+    observed, fitted, finding = asked.observed, held.fit, held.finding
+    together = tuple(each.leading.member.effect for each in finding.named)
+    complete, candidates = held.complete, tuple(_candidates(finding, held.error))
+    faults = faults_of(observed, fitted, complete, asked.effects, is_something_missing=bool(together))
+    if any(each.comes_first for each in faults):
+        together, candidates, complete = (), (), fitted
+    tests = residual_tests(residuals_of(fitted, finding.noise))
+    stand_off = flagged(observed.design, aside)
+    not_testable = effects_to_try(asked.model, fitted.design, asked.effects).not_testable
+    return Diagnosis(
+        fit=fitted,
+        error=held.error,
+        verdict=_verdict(held.left, together, faults),
+        p_value=finding.p_value.value,
+        tests=tests,
+        failures=failures(tests) + ((stand_off,) if stand_off else ()),
+        candidates=candidates,
+        together=together,
+        error_after=held.error if complete is fitted else error_numbers(complete),
+        makeshift=finding.makeshift if together else (),
+        remainder=held.left,
+        not_testable=not_testable,
+        not_excluded=_not_excluded(candidates, not_testable),
+        visibility=finding.visible,
+        outliers=_of_the_set(observed.reading[aside.readings]),
+        remarks=(
+            *observed.remarks,
+            *gaps(observed.design),
+            *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
+        ),
+        faults=faults,
+    )
+
+
+def _of_the_set(readings: IntArray) -> IntArray:
+    """Return the places of readings without those of other sessions."""
+    return readings[readings >= 0]
+
+
+def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterable[Fault]) -> Verdict:
+    if together:
+        return Verdict.MISSING
+    if left is not None or any(each.comes_first or each.kind is FaultKind.WRONG_UNIT for each in faults):
+        return Verdict.UNEXPLAINED
+    return Verdict.ADEQUATE
+
+
+def _may_be_noise(error: ErrorNumbers, fitted: Fit) -> bool:
+    """Return whether the repeats scatter so much that the error may be their scatter alone."""
+    ratio, within = error.chi2_per_dof, repeats(fitted.design, fitted.residual)
+    if ratio is None or ratio <= LARGEST_RATIO:
+        return True
+    return f_tail(ratio, fitted.degrees, within.degrees) > _IMPROBABLE
+
+
+def _complete(fitted: Fit, named: Iterable[Named], makeshift: Iterable[str]) -> Fit:
+    """Return the model with a whole set in it; as much of it as the readings determine."""
+    found = fitted
+    for each in named:
+        try:
+            found = with_member(found, each.leading.member)
+        except ModelError:
+            break
+    for name in makeshift:
+        model = found.model.without(name)
+        if model.terms != found.model.terms:
+            found = fit(model, found.design, found.deviation, found.assumptions)
+    return found
+
+
+def error_numbers(fitted: Fit) -> ErrorNumbers:
+    """Return how far a fitted model is from the readings."""
+    floor = noise_floor(fitted.design, fitted.deviation)
+    return ErrorNumbers(
+        fitted.rms,
+        floor,
+        (fitted.rms / floor) ** 2 if floor else None,
+        cross_validated_rms(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
+    )
+
+
+def _candidates(finding: Finding, before: ErrorNumbers) -> Iterator[Candidate]:
+    """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
+    seen: set[str] = set()
+    for each in finding.named:
+        group = (each.leading, *each.equals)
+        for one in group:
+            if one.identifier not in seen:
+                seen.add(one.identifier)
+                rest = [other for other in group if other is not one]
+                yield from _candidate(finding.fit, one, rest, before)
+    for each in finding.named:
+        for other in each.behind:
+            if other.identifier not in seen:
+                seen.add(other.identifier)
+                yield from _candidate(finding.fit, other, (), before)
+    for other in finding.others:
+        yield from _candidate(finding.fit, other, (), before)
+
+
+def _candidate(base: Fit, rival: Rival, equals: Sequence[Rival], before: ErrorNumbers) -> Iterator[Candidate]:
+    """Yield an effect as a candidate, if the readings determine it beside the job's model."""
+    try:
+        after = with_member(base, rival.member)
+    except ModelError:
+        return
+    share = _share(base, after, before.noise_rms)
+    estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
+    large = [each for each in estimates if _is_large(each, counted=base.design.time_is_counted)]
+    yield Candidate(
+        effect=rival.member.effect,
+        p_value=rival.p_value.value,
+        p_value_is_extrapolated=rival.p_value.is_extrapolated,
+        probability=rival.probability,
+        evidence=rival.evidence,
+        error=error_numbers(after),
+        estimates=estimates,
+        share=share,
+        explains=_explains(base, after, share),
+        equals=tuple(each.identifier for each in equals),
+        discriminate_by=discriminate_by(rival.member.effect, [each.member.effect for each in equals]),
+        is_large=bool(large),
+        question=_question(large[0], base.design.axis) if large else None,
+    )
+
+
+def _is_large(estimate: Estimate, *, counted: bool) -> bool:
+    return estimate.plausibility(time_is_counted=counted) is Plausibility.IMPLAUSIBLE
+
+
+def _question(estimate: Estimate, axis: Axis) -> Words:
+    """Return what is asked of a parameter that is beyond what is usual."""
+    unit = unit_of(estimate.parameter.dimension, axis.kind)
+    value = significant_words(unit.from_si(estimate.value), 2)
+    return _IS_IT_SO.given(parameter=estimate.parameter.name, value=value, unit=behind(unit.symbol))
+
+
+def discriminate_by(effect: Effect, equals: Sequence[Effect]) -> Words | None:
+    """Return the measurements that would tell an effect from its equals, as the effects' pages name them."""
+    found: dict[str, Words] = {}
+    for other in equals:
+        words = _told_apart(effect, other) or _told_apart(other, effect)
+        if words is not None:
+            found.setdefault(other.identifier, words)
+    if not found:
+        return None
+    phrases = list({words.en: words for words in found.values()}.values())
+    together = phrases[0]
+    for words in phrases[1:]:
+        together = _AND.given(first=together, second=words)
+    return together
+
+
+def _told_apart(one: Effect, other: Effect) -> Words | None:
+    return next((each.told_apart_by for each in one.confusions if each.effect == other.identifier), None)
+
+
+def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
+    """Return the share of the misfit beyond the noise floor that an effect explains."""
+    if floor is None:
+        return None
+    open_before = float(np.sum(before.residual**2)) - before.degrees * floor**2
+    open_after = max(0.0, float(np.sum(after.residual**2)) - after.degrees * floor**2)
+    return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
+
+
+def _explains(before: Fit, after: Fit, share: float | None) -> Words:
+    axis = before.design.axis
+    if share is None:
+        return _NO_FLOOR.given(
+            before=wording.deviation(axis, before.rms), after=wording.deviation(axis, after.rms)
+        )
+    percent = number_words(100 * share, 0)
+    if share >= EXPLAINS:
+        return _EXPLAINS.given(share=percent)
+    return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
+
+
+def _not_excluded(candidates: Sequence[Candidate], not_testable: Sequence[NotTestable]) -> tuple[str, ...]:
+    """Return effects that could not be tried and would look like the first candidate."""
+    if not candidates:
+        return ()
+    alike = {confusion.effect for confusion in candidates[0].effect.confusions}
+    return tuple(
+        each.effect for each in not_testable if each.effect in alike and not is_of_another_axis(each.reason)
+    )

@@ -1,0 +1,169 @@
+"""What contends for a place in a set: installed effects and forms without a name, each with all its values.
+
+What they could add depends on the plan of the test and on the model, not on what was measured; so it is made
+once, and every set of deviations, measured or simulated, is held against the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.diagnosis.columns import Columns
+from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Dimension, Effect
+from zlmreport.model.fitting.contrasts import Contrasts
+from zlmreport.model.fitting.repeats import cells
+
+#: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there.
+PRICE = 6.0
+#: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
+_LEAST_OWN = 0.01
+#: Values of a form that are held against installed effects, and the share by which these must have it.
+_SAMPLES, _THE_SAME = 5, 0.9
+
+#: A form of an effect, and the values of its searched parameters that are tried, shape (g, s).
+Entry: TypeAlias = tuple[Effect, FloatArray]
+
+
+@dataclass(frozen=True, slots=True)
+class Family:
+    """A form of an effect with every value of its searched parameters at which the plan can see it."""
+
+    effect: Effect  #: The effect, in this form.
+    thetas: FloatArray  #: (g, s): Values of the searched parameters, one row for each block of columns.
+    blocks: IntArray  #: (g, k) integer: The places of each block's columns: orthonormal contrasts, or zero.
+    ranks: IntArray  #: (g,) integer: Columns of each block that are not zero.
+    log_weights: FloatArray  #: (g,): ln of the prior probability of each value.
+    price: float  #: 2·ln of the odds against this form.
+    is_named: bool  #: Whether it is an installed effect.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name the effect."""
+        return self.effect.identifier
+
+
+def families_of(
+    design: Design,
+    columns: Columns,
+    entries: Iterable[Entry],
+    least_visible: float,
+    *,
+    is_named: bool = True,
+) -> tuple[tuple[Family, ...], tuple[Effect, ...]]:
+    """Return the families that a plan can see, and the effects of which it sees nothing.
+
+    `entries`: Forms of effects that can be tested on the design, and the values that are tried.
+    `least_visible`: Share of a block's length below which nothing is left of it but rounding.
+    """
+    listed = list(entries)
+    count = {effect.identifier: 0 for effect, _ in listed}
+    for effect, _ in listed:
+        count[effect.identifier] += 1
+    found, unseen = [], {}
+    for effect, thetas in listed:
+        blocks, ranks, seen = orthonormal(columns.space, design, effect, thetas, least_visible)
+        if not len(seen):
+            unseen[effect.identifier] = effect
+            continue
+        width = blocks.shape[2]
+        places = columns.add(np.ascontiguousarray(blocks.reshape(len(blocks), -1)))
+        price = (PRICE if is_named else NAMELESS_PRICE) + 2.0 * float(np.log(count[effect.identifier]))
+        found.append(
+            Family(
+                effect,
+                thetas[seen],
+                places.reshape(len(seen), width),
+                ranks,
+                _log_weights(design, effect, thetas[seen]),
+                price,
+                is_named,
+            )
+        )
+    known = {each.identifier for each in found}
+    return tuple(found), tuple(each for name, each in unseen.items() if name not in known)
+
+
+def orthonormal(
+    space: Contrasts, design: Design, effect: Effect, thetas: FloatArray, least: float
+) -> tuple[FloatArray, IntArray, IntArray]:
+    """Return what of an effect is seen beside the model, for each of some values of its parameters.
+
+    Returns
+    -------
+    (N, g, k) array
+        Orthonormal contrasts, zero where columns depend on each other.
+    (g,) integer array
+        Columns that are not zero.
+    (g,) integer array
+        Which of the values are seen at all.
+    """
+    blocks = np.stack([effect.columns(design, theta) for theta in thetas])
+    whole = np.linalg.norm(blocks, axis=(1, 2))
+    contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)
+    shares = np.linalg.norm(contrasts, axis=(1, 2)) / np.where(whole > 0, whole, 1.0)
+    seen = np.flatnonzero(shares > least)
+    lengths = np.linalg.norm(blocks[seen], axis=1, keepdims=True)
+    scaled = contrasts[seen] / np.where(lengths > 0, lengths, 1.0)
+    left, singular, _ = np.linalg.svd(scaled, full_matrices=False)
+    independent = singular > least * singular[:, :1]
+    together = (left * independent[:, np.newaxis, :]).transpose(1, 0, 2)
+    return together, independent.sum(axis=1).astype(np.int64), seen.astype(np.int64)
+
+
+def _log_weights(design: Design, effect: Effect, thetas: FloatArray) -> FloatArray:
+    """Return ln of the prior probabilities of values: all alike, but for waves in time that follow the runs.
+
+    A wave in time whose period is that of a run does the same in every run: what it explains, position and
+    direction explain as well, and theirs is the better story.
+    """
+    weights = np.ones(len(thetas))
+    is_time = [each.name == "period" and each.dimension is Dimension.TIME for each in effect.searched]
+    cell = cells(design)
+    count = np.bincount(cell)
+    if any(is_time) and len(thetas) > 1 and count.max() > 1:
+        for number, theta in enumerate(thetas):
+            wave = effect.columns(design, theta)
+            wave = wave - wave.mean(axis=0)
+            means = np.stack([np.bincount(cell, weights=each) / count for each in wave.T], axis=1)
+            whole = float(np.sum(wave**2)) or 1.0
+            weights[number] = max(1.0 - float(np.sum(means[cell] ** 2)) / whole, _LEAST_OWN)
+    return np.asarray(np.log(weights / weights.sum()), dtype=np.float64)
+
+
+def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[Family]) -> bool:
+    """Return whether installed effects have a form already, at most of its values: it is no rival."""
+    thetas, known = form.grid(design), 0
+    searched = _searched(thetas)
+    as_free = [each for each in families if _searched(each.thetas) >= searched]
+    for number in np.linspace(0, len(thetas) - 1, _SAMPLES).round().astype(int).tolist():
+        blocks, _, seen = orthonormal(columns.space, design, form, thetas[number : number + 1], 1e-6)
+        if not len(seen):
+            continue
+        imitated = 0.0
+        for each in as_free:
+            products = columns.values(each.blocks.ravel()).T @ blocks[:, 0]
+            squares = np.sum(products**2, axis=1).reshape(each.blocks.shape).sum(axis=1)
+            imitated = max(imitated, float(squares.max()) / blocks.shape[2])
+        known += imitated > _THE_SAME
+    return known > _SAMPLES / 2
+
+
+def _searched(thetas: FloatArray) -> int:
+    """Return how many parameters differ between the values of a grid."""
+    return int(np.count_nonzero(np.ptp(thetas, axis=0) > 0))
+
+
+def forms_by_effect(families: Sequence[Family]) -> tuple[tuple[int, ...], ...]:
+    """Return for each installed effect the places of its forms among some families."""
+    by_effect: dict[str, list[int]] = {}
+    for place, each in enumerate(families):
+        if each.is_named:
+            by_effect.setdefault(each.identifier, []).append(place)
+    return tuple(tuple(each) for each in by_effect.values())

@@ -1,0 +1,518 @@
+"""Faults of the data: what looks like a cause of deviations and is a slip in recording them.
+
+A run is held against the others, as it stands and as it would be without a slip: directions exchanged, signs
+turned, every reading moved by one target. Only a slip that takes away most of what repeats differ by, and far
+more than any effect explains, is said. What the rows themselves show is sure, whatever the readings are.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.language.numbers import significant_words
+from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import Observations, of_readings
+from zlmreport.model.fitting.repeats import noise_floor, repeats
+from zlmreport.model.fitting.sessions import of_the_job
+
+if TYPE_CHECKING:
+    from zlmreport.model.effects.effect import Effect
+    from zlmreport.model.fitting.fit import Fit
+
+#: Evidence, 2·ln of a likelihood ratio, that a slip must have, and by which it must surpass every effect.
+_STRONG, _FARTHER = 20.0, 6.0
+#: Share of the squares within the repeats that a slip must take away.
+_MOST_OF_IT = 0.5
+_FEWEST_RUNS = 3
+#: Times by which a run in another unit is larger or smaller than the others.
+_ANOTHER_UNIT = 100.0
+#: m or rad: a whole test that deviates no more is likelier to be one in another unit.
+_TINY = 1e-7
+#: m or rad: repeats scatter by more on every machine whose deviations are not small as well, and by less.
+_STILL, _SMALL, _WILD = 5e-9, 2e-6, 3e-4
+#: Standard deviation of a normal variable over its median absolute deviation.
+_NORMAL = 1.4826
+#: Of the distance between two targets, how far a reading of the wrong one may be off.
+_NEAR = 0.1
+#: Lags of a sensor that are tried, s; evidence ahead of the best effect that surpasses it, and is as good.
+_LAGS, _LAGGING, _AS_GOOD = (120.0, 300.0, 600.0, 1200.0), 10.0, -2.0
+#: Squares that may be left, over those of the noise floor.
+_NEARLY_NOISE = 1.3
+#: Gaps between two readings that part sessions: s, and in usual steps.
+_LONG_GAP, _MANY_STEPS = 3600.0, 50.0
+_FEWEST_STUCK, _FEWEST_EQUAL = 20, 6
+#: Agreement of rows with their directions, or of runs with each other, that is clear.
+_CLEAR = 0.5
+_LIKELY, _ALMOST, _ALMOST_SURE, _EXACT = 0.9, 0.99, 50.0, 1e-6
+
+
+class FaultKind(StrEnum):
+    """What went wrong in recording, as results files name it."""
+
+    SWAPPED_DIRECTION = "swapped-direction"
+    WRONG_SIGN = "wrong-sign"
+    WRONG_UNIT = "wrong-unit"
+    SHIFTED_RUN = "shifted-run"
+    DUPLICATED_RUN = "duplicated-run"
+    WRONG_TARGET = "wrong-target"
+    CLOCK_JUMP = "clock-jump"
+    STUCK_SENSOR = "stuck-sensor"
+    LAGGING_SENSOR = "lagging-sensor"
+    SWAPPED_COLUMNS = "swapped-columns"
+
+
+#: What is wrong in a log alone: what follows no log is told all the same.
+_OF_LOGS = frozenset({FaultKind.STUCK_SENSOR, FaultKind.LAGGING_SENSOR, FaultKind.SWAPPED_COLUMNS})
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """Something that looks wrong in the data."""
+
+    kind: FaultKind  #: What went wrong.
+    run: int | None  #: In which run; None where it is not one.
+    probability: float  #: That it is so, against the best effect; 1 for what the rows themselves show.
+    #: statement and remedy: What the data look like, and what to do, in sentences without a full stop.
+    statement: Words
+    remedy: Words
+    explains: bool = False  #: Whether it explains more than any effect: then no effect is a candidate.
+
+    @property
+    def comes_first(self) -> bool:
+        """Whether no cause is sought before it is mended: it is sure, or explains more than any effect."""
+        return self.explains or (self.probability >= _ALMOST and self.kind not in _OF_LOGS)
+
+    @property
+    def is_sure(self) -> bool:
+        """Whether the rows themselves show it."""
+        return self.probability >= 1.0
+
+
+def faults_of(
+    observed: Observations,
+    before: Fit,
+    complete: Fit,
+    effects: Iterable[Effect],
+    *,
+    is_something_missing: bool,
+) -> tuple[Fault, ...]:
+    """Return what looks wrong in the data; a run that two signs betray is named once.
+
+    `before`, `complete`: The job's model, and the same with all effects that a contest found.
+    """
+    own = of_the_job(observed)
+    recorded = recorded_faults(own.design, own.deviation)
+    rivals = [complete] if is_something_missing else []
+    by_runs = run_faults(before, rivals)
+    lagging = lagging_sensors(before, rivals, effects)
+    known = {(each.kind, each.run): each for each in recorded}
+    found = [known.pop((each.kind, each.run), each) for each in (*by_runs, *lagging)]
+    return (*found, *known.values())
+
+
+def gaps(design: Design) -> Iterator[Words]:
+    """Yield what is to be said of long gaps in time: what lies on either side is a session of its own."""
+    if design.time_is_counted:
+        return
+    steps = np.diff(design.time)
+    usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 0.0
+    is_long = (steps > max(_LONG_GAP, _MANY_STEPS * usual)) & (np.diff(design.session) == 0)
+    for place in np.flatnonzero(is_long & (np.diff(design.cycle) != 0)).tolist():
+        hours = significant_words(float(steps[place]) / 3600.0, 2)
+        yield _GAP.given(hours=hours, before=int(design.run[place]), after=int(design.run[place + 1]))
+
+
+def recorded_faults(design: Design, deviation: FloatArray) -> tuple[Fault, ...]:
+    """Return what the rows themselves show, without any model."""
+    return (
+        *_against_the_order(design),
+        *_duplicated(design, deviation),
+        *_of_wrong_targets(design, deviation),
+        *_of_the_clock(design),
+        *_of_sensors(design),
+        *_of_units(design, deviation),
+    )
+
+
+def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = -np.inf) -> tuple[Fault, ...]:
+    """Return slips of single runs that explain what the repeats differ by.
+
+    An effect that changes with time makes runs differ as well: a slip must leave less within the repeats than
+    any effect does, also one that is physically impossible, and surpass every shape without a name.
+
+    `rivals`: The same with each of the best effects.
+    `shape_evidence`: Evidence of the best shape without a name.
+    """
+    design, deviation = fitted.design, fitted.deviation
+    runs = np.unique(design.cycle)
+    if len(runs) < _FEWEST_RUNS:
+        return ()
+    spread = repeats(design, deviation).squares
+    by_effects = min((*map(_within, rivals), spread))
+    tried = [
+        (kind, run, left, whole, count)
+        for run in runs.tolist()
+        for kind, left, whole, count in _slips(design, deviation, design.cycle == run)
+    ]
+    found = []
+    for kind, run, left, whole, count in tried:
+        if not left < _MOST_OF_IT * whole:
+            continue
+        least = max(left / whole, _EXACT)
+        evidence = -count * float(np.log(least)) - 2 * float(np.log(len(tried)))
+        by_rivals = -count * float(np.log(max(by_effects / spread, _EXACT)))
+        ahead = evidence - max(by_rivals, shape_evidence, 0.0)
+        if evidence > _STRONG and ahead > 0:
+            statement, remedy = _OF_RUNS[kind]
+            fault = Fault(kind, run, _probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER)
+            found.append((evidence, fault))
+    return tuple(fault for _, fault in sorted(found, key=lambda each: -each[0])[:1])
+
+
+def _within(fitted: Fit) -> float:
+    """Return the sum of squares that a model leaves within the repeats."""
+    return repeats(fitted.design, fitted.residual).squares
+
+
+def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]) -> tuple[Fault, ...]:
+    """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
+
+    `rivals`: The same with each of the best effects; nothing is said where none is better than nothing.
+    """
+    design, readings = fitted.design, len(fitted.deviation)
+    floor = noise_floor(design, fitted.deviation)
+    if not rivals or floor is None or design.time_is_counted or design.duration == 0:
+        return ()
+    # A lag turns a log into another: only one with which nothing is left is worth a word.
+    enough = _NEARLY_NOISE * readings * floor**2
+    moments = len(np.unique(design.time))
+    base, least = fitted.base(), min(float(np.sum(each.residual**2)) for each in rivals)
+    found: list[tuple[float, str, float]] = []
+    for name in design.conditions:
+        if not name.endswith("temperature") or moments < _FEWEST_STUCK:
+            continue
+        log, rate = design.conditions[name], _rate(design, name)
+        for effect in _followers(effects, design, name):
+            # What follows the log as it stands, as it does one that stands still, tells of no lag.
+            as_logged = _squares_left(
+                np.column_stack([base, effect.columns(design, effect.grid(design)[0])]), fitted.open_deviation
+            )
+            for lag in _LAGS:
+                corrected = replace(design, conditions={**design.conditions, name: log + lag * rate})
+                columns = np.column_stack([base, effect.columns(corrected, effect.grid(corrected)[0])])
+                left = _squares_left(columns, fitted.open_deviation)
+                if left > enough or readings * np.log(as_logged / max(left, 1e-12 * as_logged)) < _LAGGING:
+                    continue
+                found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
+    if not found:
+        return ()
+    evidence, name, lag = max(found)
+    # The effect that leads was searched over as many time constants: neither pays more than the other.
+    if evidence < _AS_GOOD:
+        return ()
+    statement = _LAGS_BEHIND.given(column=name, minutes=significant_words(lag / 60, 1))
+    kind = FaultKind.LAGGING_SENSOR
+    return (
+        Fault(kind, None, _probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING),
+    )
+
+
+def _rate(design: Design, name: str) -> FloatArray:
+    """Return how fast a log changes at each reading, each session by its own clock, shape (N,)."""
+    log, found = design.conditions[name], np.zeros(len(design.time))
+    for session in np.unique(design.session):
+        own = design.session == session
+        moments, first = np.unique(design.time[own], return_index=True)
+        if len(moments) > 1:
+            found[own] = np.interp(design.time[own], moments, np.gradient(log[own][first], moments))
+    return found
+
+
+def _probability(ahead: float) -> float:
+    """Return the probability of a fault by its evidence ahead of the best effect; never quite one."""
+    return min(_ALMOST, float(1.0 / (1.0 + np.exp(-min(ahead, _ALMOST_SURE) / 2))))
+
+
+def _slips(
+    design: Design, deviation: FloatArray, own: BoolArray
+) -> Iterator[tuple[FaultKind, float, float, int]]:
+    """Yield of each slip what is left within the repeats without it, what as it stands, with what degrees."""
+    as_it_stands = repeats(design, deviation)
+    whole, degrees = as_it_stands.squares, as_it_stands.degrees
+    if design.is_bidirectional:
+        turned = replace(design, direction=np.where(own, -design.direction, design.direction))
+        yield FaultKind.SWAPPED_DIRECTION, repeats(turned, deviation).squares, whole, degrees
+    negated = np.where(own, -deviation, deviation)
+    yield FaultKind.WRONG_SIGN, repeats(design, negated).squares, whole, degrees
+    for step in (1, -1):
+        source = _moved_by(design, own, step)
+        kept = np.flatnonzero(source >= 0)
+        if len(kept) > len(deviation) // 2:
+            subset = of_readings(design, kept)
+            stands = repeats(subset, deviation[kept])
+            left = repeats(subset, deviation[source[kept]]).squares
+            yield FaultKind.SHIFTED_RUN, left, stands.squares, stands.degrees
+
+
+def _moved_by(design: Design, own: BoolArray, step: int) -> IntArray:
+    """Return for each reading that of the next target in the same run and direction, where it is of a run."""
+    places = {
+        (run, sign, target): place
+        for place, (run, sign, target) in enumerate(
+            zip(design.cycle.tolist(), design.direction.tolist(), design.target.tolist(), strict=True)
+        )
+    }
+    source = np.arange(len(own))
+    for place in np.flatnonzero(own).tolist():
+        key = int(design.cycle[place]), float(design.direction[place]), int(design.target[place]) + step
+        source[place] = places.get(key, -1)
+    return np.asarray(source, dtype=np.int64)
+
+
+def _followers(effects: Iterable[Effect], design: Design, log: str) -> Iterator[Effect]:
+    """Yield forms of effects that follow a log and have nothing to be searched."""
+    without = replace(
+        design, conditions={name: each for name, each in design.conditions.items() if name != log}
+    )
+    for effect in effects:
+        for form in effect.forms():
+            follows = form.untestable(design) is None and form.untestable(without) is not None
+            if follows and len(form.grid(design)) == 1:
+                yield form
+
+
+def _squares_left(columns: FloatArray, deviation: FloatArray) -> float:
+    lengths = np.linalg.norm(columns, axis=0)
+    scaled = columns / np.where(lengths > 0, lengths, 1.0)
+    return float(np.sum((deviation - scaled @ np.linalg.lstsq(scaled, deviation, rcond=None)[0]) ** 2))
+
+
+def _against_the_order(design: Design) -> Iterator[Fault]:
+    """Yield runs whose rows lead the other way than their directions say, where others do not."""
+    agrees = {}
+    for run in np.unique(design.cycle).tolist():
+        own = design.cycle == run
+        steps = np.diff(design.position[own])
+        same_way = np.diff(design.direction[own]) == 0
+        along = np.sign(steps[same_way]) * design.direction[own][1:][same_way]
+        agrees[run] = float(np.mean(along)) if along.size else 0.0
+    rightly = sum(each > _CLEAR for each in agrees.values())
+    for run, each in agrees.items():
+        if each < -_CLEAR and rightly >= 1 and rightly >= len(agrees) / 2:
+            statement, remedy = _OF_RUNS[FaultKind.SWAPPED_DIRECTION]
+            words = _ORDER_SAYS_SO.given(statement=statement.given(run=run))
+            yield Fault(FaultKind.SWAPPED_DIRECTION, run, 1.0, words, remedy)
+
+
+def _duplicated(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+    """Yield runs that repeat another reading for reading, where readings do not repeat as a rule."""
+    runs = {
+        run: deviation[design.cycle == run][
+            np.lexsort((design.direction[design.cycle == run], design.target[design.cycle == run]))
+        ]
+        for run in np.unique(design.cycle).tolist()
+    }
+    pairs = [
+        (one, other) for one in runs for other in runs if one < other and len(runs[one]) == len(runs[other])
+    ]
+    alike = {pair: float(np.mean(runs[pair[0]] == runs[pair[1]])) for pair in pairs}
+    for (one, other), share in alike.items():
+        others = [each for pair, each in alike.items() if pair != (one, other)]
+        usual = max(others, default=0.0) if len(runs) > _FEWEST_RUNS - 1 else 0.0
+        if share == 1.0 and len(runs[one]) >= _FEWEST_EQUAL and (usual < _CLEAR) and np.ptp(runs[one]) > 0:
+            statement = _DUPLICATED.given(run=other, first=one)
+            yield Fault(FaultKind.DUPLICATED_RUN, other, 1.0, statement, _EXCLUDE_RUN.given(run=other))
+
+
+def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+    """Yield readings that are off by the distance to another target."""
+    targets = design.target_positions
+    if len(targets) < _FEWEST_RUNS:
+        return
+    spacing = float(np.diff(targets).min())
+    off = deviation - np.median(deviation)
+    for place in np.flatnonzero(np.abs(off) > 0.5 * spacing).tolist():
+        other = int(np.argmin(np.abs(targets - design.position[place] - off[place])))
+        if abs(targets[other] - design.position[place] - off[place]) < _NEAR * spacing:
+            statement = _WRONG_TARGET.given(
+                reading=wording.reading_at(design, place),
+                target=wording.position(design.axis, float(targets[other])),
+            )
+            yield Fault(FaultKind.WRONG_TARGET, int(design.cycle[place]), 1.0, statement, _CORRECT_TARGET)
+
+
+def _of_the_clock(design: Design) -> Iterator[Fault]:
+    """Yield where the time falls, or jumps within a run."""
+    if design.time_is_counted:
+        return
+    steps = np.diff(design.time)
+    for place in np.flatnonzero(steps < 0).tolist()[:1]:
+        statement = _CLOCK_FALLS.given(reading=wording.reading_at(design, place + 1))
+        yield Fault(FaultKind.CLOCK_JUMP, int(design.cycle[place + 1]), 1.0, statement, _CORRECT_CLOCK)
+
+
+def _of_sensors(design: Design) -> Iterator[Fault]:
+    """Yield logs that are in each other's columns, and logs that stopped while others went on."""
+    outside = {
+        name: not bool(np.all((low <= log) & (log <= high)))
+        for name, log in design.conditions.items()
+        for low, high in [_POSSIBLE.get(name, (-np.inf, np.inf))]
+    }
+    wrong = [name for name, is_outside in outside.items() if is_outside]
+    if len(wrong) > 1:
+        statement = _SWAPPED_COLUMNS.given(columns=", ".join(wrong))
+        yield Fault(FaultKind.SWAPPED_COLUMNS, None, 1.0, statement, _CORRECT_COLUMNS)
+    changing = {name for name, log in design.conditions.items() if len(np.unique(log)) > len(log) // 4}
+    for name, log in design.conditions.items():
+        stuck = len(log) - 1 - int(np.flatnonzero(np.diff(log))[-1]) if np.ptp(log) > 0 else 0
+        if name in changing and stuck > max(_FEWEST_STUCK, len(log) // 4):
+            statement = _STUCK.given(column=name, count=stuck)
+            yield Fault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
+
+
+def _of_units(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+    """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
+    sizes = {
+        run: float(np.median(np.abs(deviation[design.cycle == run])))
+        for run in np.unique(design.cycle).tolist()
+    }
+    for run, size in sizes.items() if len(sizes) >= _FEWEST_RUNS else ():
+        others = sorted(each for other, each in sizes.items() if other != run)
+        low, high = others[0], others[-1]
+        if high < _ANOTHER_UNIT * low and (size > _ANOTHER_UNIT * high or size * _ANOTHER_UNIT < low):
+            statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
+            yield Fault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
+    # A single reading at another target is no scatter.
+    floor = _NORMAL * float(np.median(np.abs(repeats(design, deviation).centred)))
+    largest = float(np.abs(deviation).max())
+    if 0 < largest < _TINY:
+        statement = _TINY_TEST.given(size=wording.deviation(design.axis, largest))
+        yield Fault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
+    elif 0 < floor < _STILL and largest < _SMALL:
+        statement = _STILL_TEST.given(size=wording.deviation(design.axis, floor))
+        yield Fault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
+    elif floor > _WILD:
+        statement = _WILD_TEST.given(size=wording.deviation(design.axis, floor))
+        yield Fault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
+
+
+#: What a log can be at a machine, SI.
+_POSSIBLE = {
+    **dict.fromkeys(
+        ("axis_temperature", "screw_temperature", "air_temperature", "material_temperature"), (253.15, 373.15)
+    ),
+    "air_pressure": (50_000.0, 110_000.0),
+    "relative_humidity": (0.0, 1.0),
+}
+_ORDER_SAYS_SO = Words(
+    en="{statement}; the order of its rows says so too",
+    de="{statement}; die Folge seiner Zeilen sagt es auch",
+)
+_EXCLUDE_RUN = Words(
+    en="measure run {run} again, or leave it out of the file",
+    de="Durchlauf {run} noch einmal messen oder aus der Datei nehmen",
+)
+_GAP = Words(
+    en="Between run {before} and run {after} lie {hours} h: these are two sessions. Put the later runs into "
+    "a file and a job of their own, and name that under model.sessions; then each has its zero and its "
+    "clock.",
+    de="Zwischen Durchlauf {before} und Durchlauf {after} liegen {hours} h: Das sind zwei Messungen. Die "
+    "späteren Durchläufe in eine eigene Datei mit eigenem Auftrag geben und diesen unter model.sessions "
+    "nennen; dann hat jede ihren Nullpunkt und ihre Uhr.",
+)
+_DUPLICATED = Words(
+    en="run {run} has the same readings as run {first}, digit for digit",
+    de="Durchlauf {run} hat Ziffer für Ziffer dieselben Messwerte wie Durchlauf {first}",
+)
+_WRONG_TARGET = Words(
+    en="the reading at {reading} looks as if it had been taken at {target}",
+    de="der Messwert bei {reading} sieht aus wie einer bei {target}",
+)
+_CORRECT_TARGET = Words(
+    en="correct the target in the file, or leave the reading empty",
+    de="die Zielposition in der Datei berichtigen oder den Messwert leer lassen",
+)
+_CLOCK_FALLS = Words(en="the time falls at {reading}", de="die Zeit läuft bei {reading} zurück")
+_CORRECT_CLOCK = Words(
+    en="correct the times in the file, or leave their column out",
+    de="die Zeiten in der Datei berichtigen oder ihre Spalte weglassen",
+)
+_SWAPPED_COLUMNS = Words(
+    en="columns look exchanged: {columns} hold what they cannot",
+    de="Spalten sehen vertauscht aus: {columns} enthalten, was sie nicht können",
+)
+_CORRECT_COLUMNS = Words(
+    en="name the columns rightly, in the file or in source.columns",
+    de="die Spalten richtig benennen, in der Datei oder in source.columns",
+)
+_STUCK = Words(
+    en="{column} stands still during the last {count} readings",
+    de="{column} steht während der letzten {count} Messwerte still",
+)
+_EXCLUDE_LOG = Words(
+    en="leave these values empty in the file; effects that follow them cannot be told otherwise",
+    de="diese Werte in der Datei leer lassen; Einflüsse, die ihnen folgen, sind sonst nicht zu erkennen",
+)
+_TINY_TEST = Words(
+    en="the deviations are no larger than {size}; are they in another unit?",
+    de="die Abweichungen sind nicht größer als {size}; stehen sie in einer anderen Einheit?",
+)
+_STILL_TEST = Words(
+    en="the readings repeat to {size}, which no machine does; are they in millimetres?",
+    de="die Messwerte wiederholen sich auf {size}, was keine Maschine tut; stehen sie in Millimetern?",
+)
+_WILD_TEST = Words(
+    en="the readings scatter by {size}, which no machine does; are they in another unit?",
+    de="die Messwerte streuen um {size}, was keine Maschine tut; stehen sie in einer anderen Einheit?",
+)
+_STATE_UNITS = Words(en="state source.units", de="source.units angeben")
+_LAGS_BEHIND = Words(
+    en="{column} looks as if its sensor lagged about {minutes} min behind",
+    de="{column} sieht aus, als hinkte ihr Fühler etwa {minutes} min nach",
+)
+_OTHER_SENSOR = Words(
+    en="repeat with a sensor in better contact, or wait until temperatures stand",
+    de="mit einem Fühler in besserem Kontakt wiederholen oder stehende Temperaturen abwarten",
+)
+_CORRECT_RUN = Words(
+    en="correct the run in the file, or leave it out",
+    de="den Durchlauf in der Datei berichtigen oder weglassen",
+)
+_OF_RUNS = {
+    FaultKind.SWAPPED_DIRECTION: (
+        Words(
+            en="run {run} looks as if its directions were swapped",
+            de="Durchlauf {run} sieht aus, als wären seine Richtungen vertauscht",
+        ),
+        _CORRECT_RUN,
+    ),
+    FaultKind.WRONG_SIGN: (
+        Words(
+            en="run {run} looks as if its sign were turned",
+            de="Durchlauf {run} sieht aus, als wäre sein Vorzeichen umgekehrt",
+        ),
+        _CORRECT_RUN,
+    ),
+    FaultKind.SHIFTED_RUN: (
+        Words(
+            en="run {run} looks as if every reading stood at the target beside its own",
+            de="Durchlauf {run} sieht aus, als stünde jeder Messwert bei der Zielposition neben seiner",
+        ),
+        _CORRECT_RUN,
+    ),
+    FaultKind.WRONG_UNIT: (
+        Words(
+            en="run {run} looks as if it were in another unit than the others",
+            de="Durchlauf {run} sieht aus, als stünde er in einer anderen Einheit als die anderen",
+        ),
+        _CORRECT_RUN,
+    ),
+}

@@ -1,0 +1,374 @@
+"""What a contest comes to: the effects that belong in, each with evidence of its own, and what is left.
+
+Whether anything is missing at all is held against chance. Then sets are searched; an effect is named where
+the readings ask for it beside everything else, that which has no name included, and its rivals are named with
+it where the odds between them are less than twenty to one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.candidates import effects_to_try
+from zlmreport.model.diagnosis.contest import Contest, Told, untold
+from zlmreport.model.diagnosis.forms import unnamed_forms
+from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue, Scores, chances_of, simulate_null
+from zlmreport.model.diagnosis.remainder import Remainder, remainder_of
+from zlmreport.model.diagnosis.sets import EffectSet, Member, SetSearch
+from zlmreport.model.diagnosis.visibility import Visibility, visibility
+from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
+from zlmreport.model.fitting.fit import Fit, fit
+from zlmreport.model.fitting.noise import Noise
+from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.repeats import resolution
+from zlmreport.model.fitting.search import Thetas
+
+# Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
+# to 10 strong (R. E. Kass and A. E. Raftery, Journal of the American Statistical Association 90 (1995) 773).
+
+#: Evidence that anything must have to be worth a mention.
+MENTION = 2.0
+#: Evidence of its own, prior odds counted, that an effect needs to be named.
+NAMED = 1.4
+#: Evidence within which two effects are not told apart: odds of 20 to 1.
+TOLD_APART = 6.0
+#: What a rival may lack that is told of.
+_BEHIND = 40.0
+#: What an effect may lack of that for its equals to make up for it.
+_BY_EQUALS = 4.0
+#: Share of a column that must be left beside the model: less, where its searched parameters are only known
+#: within their uncertainty.
+_LEAST_VISIBLE, _LEAST_VISIBLE_LATER = 1e-6, 1e-3
+#: Share of what is to be explained, and of what the model explains, that no equation of a machine describes.
+_INEXACT_MISFIT, _INEXACT_MODEL = 0.01, 0.002
+#: Times over which single readings may be forgotten, in steps from one to the next, and what that must gain.
+_MEMORIES, _REMEMBERS = (1.0, 2.0, 4.0), 10.0
+#: Evidence beyond which odds are as good as certain.
+_CERTAIN = 200.0
+
+
+@dataclass(frozen=True, slots=True)
+class Rival:
+    """An effect that may stand in the place of another, or beside a model where none has a name."""
+
+    member: Member
+    probability: float  #: Among all that may stand there, and nothing.
+    evidence: float  #: 2·ln of the odds for it against nothing in this place.
+    p_value: PValue  #: Of its likelihood ratio beside the job's model, its own search allowed for.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+        return self.member.identifier
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """An effect that belongs in."""
+
+    leading: Rival
+    equals: tuple[Rival, ...]  #: Effects that the readings do not tell from it, beside the others of the set.
+    behind: tuple[Rival, ...]  #: Effects that might stand there as well, but are told from it; best first.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name it."""
+        return self.leading.identifier
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What a contest beside a model comes to."""
+
+    fit: Fit  #: The model.
+    noise: Noise  #: Held to what noise may be.
+    p_value: PValue  #: Chance of such a contest where nothing is missing.
+    named: tuple[Named, ...]  #: The effects that belong in, the one to add first first.
+    others: tuple[Rival, ...]  #: Those that explain most where none has evidence of its own, best first.
+    makeshift: tuple[str, ...]  #: Effects of the model that others take the place of.
+    remainder: Remainder | None  #: What is left without a name; None where it is noise.
+    visible: tuple[Visibility, ...]  #: How much of each effect the plan can see beside the model.
+
+
+def find(  # noqa: PLR0913 - what is known, what may be, and who is told
+    fitted: Fit,
+    effects: Iterable[Effect],
+    expected: Expected | None = None,
+    *,
+    may_go: frozenset[str] = frozenset(),
+    is_left: bool = False,
+    told: Told = untold,
+) -> Finding:
+    """Return what a contest of all effects beside a fitted model comes to.
+
+    `expected`: What earlier tests say.
+    `may_go`: Effects of the model that others may take the place of.
+    `is_left`: Whether something is left in any case, whatever chance says of the contest.
+    """
+    stated = _Stated.of(fitted, effects, expected, may_go, is_left=is_left)
+    first = _contested(stated, 0.0, lambda share: told(0.8 * share))
+    if first.found is None:
+        return first.finding
+    memory = _memory(stated, first.found)
+    if memory:
+        # Readings that forget slowly look like many a cause: all is held against that once more.
+        again = _contested(stated, memory, told)
+        if again.found is None or again.found.score < first.found.score:
+            return again.finding
+    told(1.0)
+    return first.finding
+
+
+@dataclass(frozen=True, slots=True)
+class _Stated:
+    """What is asked: a model, the effects that are tried, and what may go."""
+
+    fitted: Fit
+    forms: tuple[Effect, ...]
+    expected: Expected | None
+    may_go: frozenset[str]
+    is_left: bool
+    known: float
+    least_visible: float
+
+    @classmethod
+    def of(
+        cls,
+        fitted: Fit,
+        effects: Iterable[Effect],
+        expected: Expected | None,
+        may_go: frozenset[str],
+        *,
+        is_left: bool,
+    ) -> _Stated:
+        own = tuple(each for each in fitted.model.terms if each.effect.identifier not in may_go)
+        entered = effects_to_try(AxisModel(own), fitted.design, effects)
+        is_linear = all(len(theta) == 0 for theta in fitted.solution.thetas)
+        return cls(
+            fitted,
+            entered.forms,
+            expected.in_units_of(fitted.noise.sigma) if expected else None,
+            may_go,
+            is_left,
+            known_noise(fitted),
+            _LEAST_VISIBLE if is_linear else _LEAST_VISIBLE_LATER,
+        )
+
+    @property
+    def base(self) -> FloatArray:
+        return self.fitted.base(without=self.may_go)
+
+    def contest(self, memory: float) -> Contest:
+        """Return the contest of all, if readings are forgotten after a time."""
+        return Contest.of(
+            self.fitted.design,
+            self.base,
+            self.forms,
+            self.fitted.open_deviation,
+            weights=self.fitted.noise.weights,
+            memory=memory,
+            forms=unnamed_forms(self.fitted.design),
+            known=self.known,
+            least_visible=self.least_visible,
+            expected=self.expected,
+        )
+
+    def score(self, base: FloatArray, memory: float) -> float:
+        """Return the score of a model by itself, if readings are forgotten after a time."""
+        contest = Contest.of(
+            self.fitted.design,
+            base,
+            (),
+            self.fitted.open_deviation,
+            weights=self.fitted.noise.weights,
+            memory=memory,
+            known=self.known,
+            expected=self.expected,
+        )
+        return SetSearch(contest).alone().score
+
+
+@dataclass(frozen=True, slots=True)
+class _Contested:
+    """What came of a contest: the set, if anything is missing at all."""
+
+    finding: Finding
+    found: EffectSet | None
+
+
+def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
+    fitted, contest = stated.fitted, stated.contest(memory)
+    told(0.05)
+    search = SetSearch(contest)
+    pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
+    start = search.as_noise(
+        [search.member_of(term.effect, at) for term, at in pairs if term.effect.identifier in stated.may_go]
+    )
+    null = simulate_null(contest, start.amplitudes, start.columns)
+    deviations = fitted.open_deviation[:, np.newaxis]
+    observed = contest.trials(start.amplitudes, start.columns, deviations, stated.known)
+    p_value = null.p_value(Scores(observed.ratios, observed.nameless))
+    reduced = contest.reduced(start.amplitudes, start.columns)
+    sigma = float(np.sqrt(contest.left(reduced)[0] / contest.space.degrees))
+    noise = Noise(sigma, contest.ratios_of(start.amplitudes), fitted.noise.weights)
+    visible = visibility(contest, null, reduced, sigma)
+    told(0.2)
+    most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
+    if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
+        return _Contested(Finding(fitted, noise, p_value, (), (), (), None, visible), None)
+    found = _believed(search, search.found(start.members, lambda share: told(0.2 + 0.6 * share)))
+    before = {(each.identifier, each.effect.settings) for each in start.members}
+    named = tuple(
+        _named(search, found, number)
+        for number in _in_order(contest, found)
+        if (found.members[number].identifier, found.members[number].effect.settings) not in before
+    )
+    finding = Finding(
+        fit=fitted,
+        noise=noise,
+        p_value=p_value,
+        named=named,
+        others=() if named else tuple(_others(search, found)),
+        makeshift=tuple(sorted(stated.may_go - {each.identifier for each in found.named})),
+        remainder=remainder_of(search, found, fitted),
+        visible=visible,
+    )
+    told(1.0)
+    return _Contested(finding, found)
+
+
+def _memory(stated: _Stated, found: EffectSet) -> float:
+    """Return the time over which a reading is forgotten beside a set; 0 where it is alone."""
+    design = stated.fitted.design
+    steps = np.diff(design.time)[np.diff(design.session) == 0]
+    step = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 0.0
+    columns = [each.effect.columns(design, each.theta) for each in found.members]
+    base = np.concatenate([stated.base, *columns], axis=1)
+    scores = {share * step: stated.score(base, share * step) for share in (0.0, *(_MEMORIES if step else ()))}
+    best = min(scores, key=scores.__getitem__)
+    return best if scores[best] < scores[0.0] - _REMEMBERS else 0.0
+
+
+def _believed(search: SetSearch, found: EffectSet) -> EffectSet:
+    """Return a set without those that have no evidence of their own, one after another.
+
+    Where several could stand in a place, it is their evidence together that something stands there.
+    """
+    while found.members:
+        without = [search.without(found, number) for number in range(len(found.members))]
+        number = min(range(len(without)), key=lambda each: without[each].score)
+        lost = without[number].score - found.score
+        if NAMED - _BY_EQUALS < lost < NAMED and found.members[number].family.is_named:
+            rivals = search.rivals(found, without[number], TOLD_APART)
+            lost += 2.0 * float(
+                np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
+            )
+        if lost >= NAMED:
+            break
+        found = without[number]
+    return found
+
+
+def _in_order(contest: Contest, found: EffectSet) -> list[int]:
+    """Return the named members of a set, always the one next that takes most of what is left."""
+    values = contest.columns.values
+    open_ = [number for number, each in enumerate(found.members) if each.family.is_named]
+    chosen: list[int] = []
+    while open_:
+        reduced = contest.reduced(contest.quiet, [found.members[each].columns for each in chosen])
+        taken = contest.left(reduced)[1]
+        explained = {
+            each: float(
+                contest.explained(reduced, values(found.members[each].columns)[:, np.newaxis], taken)[0]
+            )
+            for each in open_
+        }
+        chosen.append(max(open_, key=explained.__getitem__))
+        open_.remove(chosen[-1])
+    return chosen
+
+
+def _named(search: SetSearch, found: EffectSet, number: int) -> Named:
+    """Return an effect of a set with those that could stand in its place."""
+    rest = search.without(found, number)
+    member = found.members[number]
+    sets = [found, *search.rivals(found, rest, _BEHIND)]
+    scores = np.array([rest.score, *(each.score for each in sets)])
+    weights = np.exp(-0.5 * (scores - scores.min()))
+    members = [member, *(each.members[-1] for each in sets[1:])]
+    beside = [each.columns for place, each in enumerate(found.members) if place != number]
+    chances = chances_of(search.contest, found.amplitudes, beside, [each.identifier for each in members])
+    rivals = [
+        Rival(each, float(weight / weights.sum()), rest.score - whole.score, chances[each.identifier])
+        for each, whole, weight in zip(members, sets, weights[1:], strict=True)
+    ]
+    design = search.contest.design
+    near = [each for each in rivals if each.evidence > rivals[0].evidence - MENTION]
+    leading = min(near, key=lambda each: (_assumptions(each.member.effect, design), -each.evidence))
+    others = [each for each in rivals if each is not leading]
+    is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in others]
+    names = {each.identifier for each in found.members}
+    return Named(
+        leading,
+        tuple(each for each, equal in zip(others, is_equal, strict=True) if equal),
+        tuple(
+            each
+            for each, equal in zip(others, is_equal, strict=True)
+            if not equal and each.evidence > 0 and each.identifier not in names
+        ),
+    )
+
+
+def _assumptions(effect: Effect, design: Design) -> int:
+    """Return how much an effect takes for granted: a log that it follows, parameters that are searched.
+
+    A constant is a constant before it is the dead path of a beam in air that hardly changes.
+    """
+    follows_a_log = effect.untestable(replace(design, conditions={})) is not None
+    searched = len(effect.searched) if len(effect.grid(design)) > 1 else 0
+    return searched + follows_a_log
+
+
+def _others(search: SetSearch, found: EffectSet) -> Iterator[Rival]:
+    """Yield the effects that explain most beside what has no name, where none has evidence of its own."""
+    tried = search.ahead(found)
+    names = [each.members[-1].identifier for each in tried]
+    chances = chances_of(search.contest, found.amplitudes, found.columns, names) if names else {}
+    for name, each in zip(names, tried, strict=True):
+        odds = float(np.exp(-0.5 * min(max(each.score - found.score, -_CERTAIN), _CERTAIN)))
+        yield Rival(each.members[-1], odds / (1.0 + odds), found.score - each.score, chances[name])
+
+
+def known_noise(fitted: Fit) -> float:
+    """Return the standard deviation of what repeats do not show and no effect is asked to explain, m or rad.
+
+    Repeats share the rounding of the instrument, and no equation of a machine is exact: the wave of a screw
+    is no pure sine. On a quiet machine both stand far above the scatter, and any irregular shape would
+    surpass the cause that explains all but a hundredth. They are doubled, as irregular shares of the noise
+    may have half the size of all of it (`noise`).
+    """
+    unit = fitted.design.axis.deviation_unit
+    rounding = unit.to_si(resolution(unit.from_si(fitted.deviation))) / 12**0.5
+    inexact = _INEXACT_MISFIT * float(np.std(fitted.residual)), _INEXACT_MODEL * float(np.std(fitted.fitted))
+    return 2.0 * float(np.hypot(rounding, np.hypot(*inexact)))
+
+
+def with_member(fitted: Fit, member: Member) -> Fit:
+    """Return the fit of a model with an effect, where a contest found it.
+
+    Raises `ModelError` if the readings do not determine it.
+    """
+    model = fitted.model.with_effect(member.effect)
+    before = dict(zip(fitted.model.identifiers, fitted.solution.thetas, strict=True))
+    start: Thetas = tuple(
+        member.theta if term.effect.identifier == member.identifier else before[term.effect.identifier]
+        for term in model.terms
+    )
+    assumptions = replace(fitted.assumptions, weights=fitted.noise.weights)
+    return fit(model, fitted.design, fitted.deviation, assumptions, start)

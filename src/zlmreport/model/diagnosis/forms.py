@@ -1,0 +1,275 @@
+"""Forms without a name: what a course along the axis or in time can look like, each written as a formula.
+
+Bump, saw, wave, kink, step, bow, fading and a late beginning are laid along the axis or in time, for both
+directions alike, opposite, or in one of them. They stand for causes that nobody has installed: in a contest
+they are rivals without a name, and what is left beside a model is proposed as one of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from zlmreport.job.formula import names_in, parse_formula
+from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.formula import FormulaEffect
+
+#: Widths of bumps, shares of the travel or the duration.
+_WIDTHS = (0.04, 0.08, 0.15, 0.3, 0.5)
+#: Periods within travel or duration, and phases of a saw.
+_FEWEST, _PER_PERIOD, _PHASES = 1.25, 4, 8
+_MOST_PERIODS, _PLACES = 12.0, 24
+#: Targets in a period, or in a width, that at least must tell it.
+_LEAST_IN_PERIOD, _LEAST_IN_WIDTH = 2.0, 1.5
+_DIGITS, _OF_STATED = 3, 6
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """A form along one coordinate `{x}`, position or time; `{a}` and `{b}` are its sizes, with a carrier."""
+
+    name: str
+    text: str
+    searched: tuple[str, ...]  #: Of c, a place, w, a width, and L, a period: what is searched.
+    shape: Words  #: With places for width, period and the carrier.
+    is_slope: bool = False  #: Whether its size is one per position.
+
+
+BUMP = Form(
+    "bump",
+    "{a}*exp(-4*log(2)*(({x} - c)/w)^2)",
+    ("c", "w"),
+    Words(en="a bump, {width} wide", de="ein Buckel, {width} breit"),
+)
+SAW = Form(
+    "saw",
+    "{a}*atan(tan(pi*({x} - c)/L))/pi",
+    ("c", "L"),
+    Words(en="a saw with a period of {period}", de="ein Sägezahn mit {period} Periode"),
+)
+WAVE = Form(
+    "wave",
+    "{a}*sin(2*pi*{x}/L) + {b}*cos(2*pi*{x}/L)",
+    ("L",),
+    Words(en="a wave with a period of {period}", de="eine Welle mit {period} Periode"),
+)
+KINK = Form(
+    "kink",
+    "{a}*max(0, {x} - c)",
+    ("c",),
+    Words(en="a change of slope at one place", de="ein Knick an einer Stelle"),
+    is_slope=True,
+)
+STEP = Form("step", "{a}*step({x} - c)", ("c",), Words(en="a step", de="ein Sprung"))
+BOW = Form("bow", "{a}*(1 - (({x} - c)/w)^2)", (), Words(en="a bow", de="ein Bogen"))
+FADING = Form(
+    "fading",
+    "{a}*exp(-abs({x} - c)/w)",
+    ("w",),
+    Words(en="fading from one end within {width}", de="von einem Ende her auf {width} abklingend"),
+)
+LATE = Form(
+    "late",
+    "{a}*(1 - exp(-max(0, {x} - c)/w))",
+    ("c", "w"),
+    Words(en="a beginning that takes {width}", de="ein Beginn, der {width} dauert"),
+)
+_ALONG_AXIS = (BUMP, SAW, WAVE, KINK, STEP, BOW, FADING)
+_IN_TIME = (BUMP, WAVE, STEP, LATE)
+#: Whose phase makes a carrier of one direction no other form.
+_DIRECTIONS = {"D": "D*", "up": "step(D)*", "down": "step(-D)*"}
+#: What a carrier makes of the words of a form.
+CARRIERS = {
+    "": Words(en="{shape}, alike in both directions", de="{shape}, in beiden Richtungen gleich"),
+    "D": Words(en="{shape} in the reversal", de="{shape} in der Umkehrspanne"),
+    "up": Words(en="{shape}, upwards only", de="{shape}, nur aufwärts"),
+    "down": Words(en="{shape}, downwards only", de="{shape}, nur abwärts"),
+    "time": Words(en="{shape} in time, at all positions alike", de="{shape} in der Zeit, überall gleich"),
+    "lever": Words(
+        en="{shape} in time, in proportion to the position",
+        de="{shape} in der Zeit, im Verhältnis zur Position",
+    ),
+}
+IN_TIME = frozenset({"time", "lever"})
+#: Forms that begin or bend at one place.
+LOCAL = (BUMP, STEP, KINK, LATE)
+_SEARCHED = frozenset("cwL")
+
+
+class UnnamedForm(FormulaEffect):
+    """A form with a carrier on a design.
+
+    Attributes
+    ----------
+    form, carrier
+        What it is.
+    along : (n,) array
+        The places or moments along which it is laid, rising, SI.
+    starts : (g, s) array
+        Values of its searched parameters that are tried, SI, in their order.
+    """
+
+    def __init__(self, form: Form, carrier: str, design: Design, starts: FloatArray, end: float) -> None:
+        """Lay a form along a design.
+
+        `starts`, (g, k): Values of what the form searches, in its order.
+        `end`: Of a fading one, where it begins.
+        """
+        self.form, self.carrier = form, carrier
+        self.along = np.unique(design.time) if carrier in IN_TIME else design.target_positions
+        first, last = float(self.along[0]), float(self.along[-1])
+        middle, extent = (first + last) / 2, last - first
+        stated = {"c": middle if form is BOW else end, "w": extent / 2}
+        ranges = {name: (first, last) if name == "c" else (extent / 8, extent / 4) for name in form.searched}
+        super().__init__(_keys((form, carrier), design.axis.kind, stated, ranges), design.axis.kind)
+        named = dict(zip(form.searched, starts.T, strict=True))
+        constant = np.ones(len(starts))
+        self.starts = np.column_stack(
+            [np.empty((len(starts), 0))]
+            + [
+                named.get(each.name, constant * self.formula.given.get(each.name, 0.0))
+                for each in self.searched
+            ]
+        )
+
+    def grid(self, design: Design) -> FloatArray:  # noqa: ARG002 - that of its own design
+        """Return the values that are tried."""
+        return self.starts
+
+    def named(self, theta: FloatArray) -> dict[str, float]:
+        """Return the values of what is searched, by name."""
+        return {
+            each.name: value
+            for each, value in zip(self.searched, theta.tolist(), strict=True)
+            if each.name in self.form.searched
+        }
+
+    def proposed(self, theta: FloatArray, design: Design) -> FormulaKeys:
+        """Return its formula with ranges around the values that were found, named after its place."""
+        named = self.named(theta)
+        scale = 1.0 if self.carrier in IN_TIME else design.axis.position_unit.per_si
+        width = named.get("w", named.get("L", float(np.ptp(self.along)) / 4))
+        ranges = {
+            name: (value - width / 2, value + width / 2) if name == "c" else (value / 1.5, value * 1.5)
+            for name, value in named.items()
+        }
+        marked = named.get("c") if self.form in LOCAL else named.get("L", named.get("w"))
+        return _keys(
+            (self.form, self.carrier),
+            design.axis.kind,
+            self.formula.given,
+            ranges,
+            None if marked is None else marked * scale,
+        )
+
+    def extent(self, theta: FloatArray) -> tuple[float, float]:
+        """Return where it begins and ends, within what was measured, SI."""
+        first, last = float(self.along[0]), float(self.along[-1])
+        named = self.named(theta)
+        if self.form is BUMP:
+            half = named["w"] / 2
+            return max(first, named["c"] - half), min(last, named["c"] + half)
+        if self.form in LOCAL:
+            return min(max(first, named["c"]), last), last
+        return first, last
+
+
+def unnamed_forms(design: Design) -> Iterator[UnnamedForm]:
+    """Yield every form with every carrier that a design can tell."""
+    carriers = ("", *_DIRECTIONS) if design.is_bidirectional else ("",)
+    for form in _ALONG_AXIS:
+        starts = _starts(form, design.target_positions)
+        for carrier in carriers if len(starts) else ():
+            # A periodic form in one direction is the sum of the like and the opposite: these are enough.
+            if not ({"L"} & {*form.searched} and carrier in {"up", "down"}):
+                yield from _laid(form, carrier, design, starts)
+    moments = np.unique(design.time)
+    if design.duration > 0 and not design.session.any():
+        for form in _IN_TIME:
+            starts = _starts(form, moments)
+            for carrier in sorted(IN_TIME) if len(starts) else ():
+                yield from _laid(form, carrier, design, starts)
+
+
+def _laid(form: Form, carrier: str, design: Design, starts: FloatArray) -> Iterator[UnnamedForm]:
+    """Yield a form; a fading one from either end."""
+    ends = design.target_positions[[0, -1]] if form is FADING else design.target_positions[:1]
+    for end in ends.tolist():
+        yield UnnamedForm(form, carrier, design, starts, end)
+
+
+def _starts(form: Form, along: FloatArray) -> FloatArray:
+    """Return values that are tried along a coordinate, SI, shape (g, s)."""
+    first, last = float(along[0]), float(along[-1])
+    extent, count = last - first, len(along)
+    inner = np.linspace(first, last, _PLACES)
+    gaps = ((along[1:-2] + along[2:-1]) / 2)[:: max(1, count // (2 * _PLACES))]
+    widths = [share * extent for share in _WIDTHS if share * (count - 1) >= _LEAST_IN_WIDTH]
+    most = min(_MOST_PERIODS, count / _LEAST_IN_PERIOD)
+    periods = extent / np.arange(_FEWEST, most + 1e-9, 1 / _PER_PERIOD)
+    phases = np.arange(_PHASES) / _PHASES
+    rows: Sequence[tuple[float, ...]]
+    match form.searched:
+        case ("c", "w"):
+            rows = list(product(inner.tolist(), widths))
+        case ("c", "L"):
+            # The jump of a saw needs targets on either side, in more than one period.
+            rows = [(first + phase * each, each) for each in periods[: len(periods) // 2] for phase in phases]
+        case ("c",):
+            rows = [(each,) for each in (gaps if form is STEP else inner[2:-2]).tolist()]
+        case ("w",):
+            rows = [(each,) for each in widths]
+        case ("L",):
+            rows = [(each,) for each in periods.tolist()]
+        case _:
+            rows = [()]
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(form.searched))
+
+
+def _keys(
+    laid: tuple[Form, str],
+    kind: AxisKind,
+    stated: Mapping[str, float],
+    ranges: Mapping[str, tuple[float, float]],
+    marked: float | None = None,
+) -> FormulaKeys:
+    """Return a form as the keys of a formula.
+
+    `laid`: The form, and its carrier.
+    `stated`, `ranges`: Of its parameters, SI; those without a range are stated.
+    `marked`: The number that stands in its name.
+    """
+    form, carrier = laid
+    is_linear, is_time = kind is AxisKind.LINEAR, carrier in IN_TIME
+    slope = "um/m" if is_linear else "arcsec/deg"
+    size = slope if form.is_slope or carrier == "lever" else "um" if is_linear else "arcsec"
+    unit, per_si = ("mm", 1e3) if is_linear else ("deg", 180.0 / np.pi)
+    if is_time:
+        unit, per_si = "s", 1.0
+    before = "P*" if carrier == "lever" else _DIRECTIONS.get(carrier, "")
+    text = form.text.format(
+        x="t" if is_time else "P", a=f"a*{before}".rstrip("*"), b=f"b*{before}".rstrip("*")
+    )
+    used = [name for name in names_in(parse_formula(text)) if name in _SEARCHED]
+    parameters = {name: FormulaParameter(unit=size) for name in ("a", "b") if f"{name}*" in text}
+    for name in used:
+        if name in ranges:
+            low, high = (_rounded(end * per_si) for end in ranges[name])
+            parameters[name] = FormulaParameter(unit=unit, range=(low, high))
+        else:
+            parameters[name] = FormulaParameter(unit=unit, value=_rounded(stated[name] * per_si, _OF_STATED))
+    words = [form.name, *([carrier.lower()] if carrier else [])]
+    if marked is not None:
+        words += [f"{abs(marked):.0f}", unit]
+    return FormulaKeys(name="-".join(words), formula=text, parameters=parameters)
+
+
+def _rounded(value: float, digits: int = _DIGITS) -> float:
+    return float(f"{value:.{digits}g}")

@@ -1,0 +1,197 @@
+"""What has no name: random curves along the axis, in time, from run to run, each with one amplitude.
+
+Beside every set of named effects something may act that nobody knows. It is no polynomial that swallows what
+has a name, but a random curve: its many coefficients are not fitted but averaged over, and only its amplitude
+is chosen, with a few correlation lengths (C. E. Rasmussen and C. K. I. Williams, Gaussian Processes for
+Machine Learning, 2006, chapter 2). Small amplitudes of irregular shares are noise and free; what is larger
+has to earn its place like an effect.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.diagnosis.columns import Columns
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.noise import NoisePart, NoiseSource, by_session
+from zlmreport.model.fitting.priors import Expected
+
+#: 2·ln of the odds against a nameless part, its amplitude chosen among some: rarer than a known cause.
+PRICE = 9.0
+#: Variances that are tried of a random curve, in units of σ²: from hidden in the scatter to far above it.
+_VARIANCES = (0.02, 0.1, 0.5, 2.5, 12.0, 60.0, 300.0, 1500.0, 1e4, 1e5, 1e6)
+#: The same of irregular shares, beyond those that are noise; what drifts without being smooth stays noise.
+_IRREGULAR = (0.25, 1.0, 5.0, 25.0, 125.0, 1e3, 1e4, 1e5)
+#: Correlation lengths of smooth curves, as shares of the travel or the duration.
+_LENGTHS = (0.3, 0.1)
+_TERMS = 12
+_LEAST_VARIANCE = 1e-7
+_GRID = 120
+_LEAST_VISIBLE = 1e-3
+
+
+class Along(Enum):
+    """Over what a nameless part changes."""
+
+    PLACE = "place"
+    TIME = "time"
+    RUN = "run"
+
+
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A part of the covariance, with the amplitudes that are tried of it."""
+
+    shape: Words  #: In words.
+    along: Along
+    #: (k,) integer: The places of its columns, whose random combination it is, of mean variance one; empty
+    #: for a part that is irregular from position to position, which stands apart.
+    columns: IntArray
+    #: Which of the irregular factors it is; None of other parts.
+    irregular: int | None
+    levels: tuple[float, ...]  #: Its variances over σ² that are tried, rising from zero.
+    costs: tuple[float, ...]  #: −2 ln of the prior odds of each level.
+    noise_levels: int  #: How many of the levels are noise.
+    source: NoiseSource | None = None  #: The source of noise that it is at these.
+
+    @property
+    def width(self) -> int:
+        """The number of its columns beside the irregular ones."""
+        return len(self.columns)
+
+
+def parts_of(
+    design: Design,
+    columns: Columns,
+    noise: tuple[NoisePart, ...],
+    expected: Expected,
+    *,
+    with_nameless: bool = True,
+) -> tuple[Part, ...]:
+    """Return the parts of the covariance that the plan can see beside the model; their columns are added.
+
+    `noise`: The sources of noise; those by position are the irregular factors of the table, in their order.
+    `expected`: What earlier tests say of their amplitudes.
+    `with_nameless`: Whether anything else than noise is thought of.
+    """
+    found = []
+    nowhere = columns.add(np.empty((len(design.position), 0)))
+    irregular = 0
+    for each in noise:
+        is_irregular = each.source in _BY_POSITION
+        contrasts = columns.space.of(each.factor)
+        places = nowhere if is_irregular else columns.add(contrasts)
+        may_be_more = with_nameless and each.source is not NoiseSource.TIME
+        further = tuple(level for level in _IRREGULAR if may_be_more and level > each.ratios[-1])
+        found.append(
+            Part(
+                _WORDS[each.source],
+                _ALONG[each.source],
+                places,
+                irregular if is_irregular else None,
+                (*each.ratios, *further),
+                (*expected.costs(each.source, each.ratios), *(PRICE for _ in further)),
+                len(each.ratios),
+                each.source,
+            )
+        )
+        irregular += is_irregular
+    for shape, along, features in _features(design) if with_nameless else ():
+        contrasts = columns.space.of(features)
+        size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
+        if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
+            costs = (0.0, *(PRICE for _ in _VARIANCES))
+            places = columns.add(contrasts / size)
+            found.append(Part(shape, along, places, None, (0.0, *_VARIANCES), costs, 1))
+    return tuple(found)
+
+
+def irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
+    """Return the factors of what is irregular from position to position."""
+    return [each.factor for each in noise if each.source in _BY_POSITION]
+
+
+def _features(design: Design) -> Iterator[tuple[Words, Along, FloatArray]]:
+    along, moment = _unit(design.position), _unit(design.time)
+    lever, direction = (2.0 * along - 1.0)[:, np.newaxis], design.direction[:, np.newaxis]
+    runs = np.asarray(design.cycle[:, np.newaxis] == np.unique(design.cycle), dtype=np.float64)
+    if runs.shape[1] > 1:
+        yield _SLOPE_RUNS, Along.RUN, lever * runs
+        if design.is_bidirectional:
+            yield _DIRECTION_RUNS, Along.RUN, direction * runs
+    for length in _LENGTHS:
+        place = _smooth(along, length)
+        yield _SMOOTH_PLACE, Along.PLACE, place
+        if design.is_bidirectional:
+            yield _DIRECTION_PLACE, Along.PLACE, direction * place
+        if design.duration > 0:
+            time = by_session(design, _smooth(moment, length))
+            yield _SMOOTH_TIME, Along.TIME, time
+            yield _SLOPE_TIME, Along.TIME, lever * time
+            if design.is_bidirectional:
+                yield _DIRECTION_TIME, Along.TIME, direction * time
+
+
+def _unit(values: FloatArray) -> FloatArray:
+    extent = float(np.ptp(values))
+    return np.asarray((values - values.min()) / (extent or 1.0), dtype=np.float64)
+
+
+def _smooth(where: FloatArray, length: float) -> FloatArray:
+    """Return the leading eigenfunctions of a smooth random curve on 0 to 1, at the readings."""
+    grid = np.linspace(0.0, 1.0, _GRID)
+    values, functions = np.linalg.eigh(np.exp(-0.5 * ((grid[:, np.newaxis] - grid) / length) ** 2))
+    kept = np.flatnonzero(values > _LEAST_VARIANCE * values[-1])[-_TERMS:]
+    terms = functions[:, kept] * np.sqrt(values[kept])
+    return np.column_stack([np.interp(where, grid, term) for term in terms.T])
+
+
+_BY_POSITION = frozenset({NoiseSource.POSITION, NoiseSource.DIRECTION})
+_ALONG: Mapping[NoiseSource, Along] = {
+    NoiseSource.POSITION: Along.PLACE,
+    NoiseSource.DIRECTION: Along.PLACE,
+    NoiseSource.RUN: Along.RUN,
+    NoiseSource.TIME: Along.TIME,
+}
+_SMOOTH_PLACE = Words(en="smooth along the axis", de="glatt über der Achse")
+_DIRECTION_PLACE = Words(
+    en="a reversal value that changes smoothly along the axis",
+    de="eine Umkehrspanne, die sich glatt über der Achse ändert",
+)
+_SMOOTH_TIME = Words(
+    en="smooth in time, alike at all positions", de="glatt in der Zeit, an allen Positionen gleich"
+)
+_SLOPE_TIME = Words(
+    en="a slope along the axis that changes smoothly in time",
+    de="eine Steigung über der Achse, die sich glatt mit der Zeit ändert",
+)
+_DIRECTION_TIME = Words(
+    en="a reversal value that changes smoothly in time",
+    de="eine Umkehrspanne, die sich glatt mit der Zeit ändert",
+)
+_SLOPE_RUNS = Words(
+    en="a slope along the axis that differs from run to run",
+    de="eine Steigung über der Achse, die von Durchlauf zu Durchlauf wechselt",
+)
+_DIRECTION_RUNS = Words(
+    en="a reversal value that differs from run to run",
+    de="eine Umkehrspanne, die von Durchlauf zu Durchlauf wechselt",
+)
+_WORDS: Mapping[NoiseSource, Words] = {
+    NoiseSource.POSITION: Words(
+        en="irregular from position to position, alike in all runs",
+        de="unregelmäßig von Position zu Position, in allen Durchläufen gleich",
+    ),
+    NoiseSource.DIRECTION: Words(
+        en="irregular from position to position, opposite up and down",
+        de="unregelmäßig von Position zu Position, aufwärts und abwärts entgegengesetzt",
+    ),
+    NoiseSource.RUN: Words(en="every run displaced as a whole", de="jeder Durchlauf als Ganzes verschoben"),
+    NoiseSource.TIME: Words(en="slow irregular drift", de="langsame unregelmäßige Drift"),
+}

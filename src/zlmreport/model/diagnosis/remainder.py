@@ -1,0 +1,249 @@
+"""What is left beside a set of effects and is no noise: how large, where, of what shape; and a start.
+
+It is what forms without a name and random curves explain at the readings, on the average of all that these
+allow. The form that follows it best is proposed as a formula that a job can try and keep: a start, no cause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import BoolArray, FloatArray
+from zlmreport.measurement.units import Unit
+from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
+from zlmreport.model.diagnosis.nameless import Along
+from zlmreport.model.diagnosis.sets import EffectSet, Member, SetSearch
+from zlmreport.model.diagnosis.single_run import SingleRun
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.fit import Fit
+
+#: Evidence that what has no name must have, prior odds counted.
+_WORTH_SAYING = 2.5
+#: Share of what is left that a form must follow to be proposed.
+_FOLLOWS = 0.5
+#: Of the largest, what still belongs to the place.
+_HALF = 0.5
+_SECOND = Unit("s", "s", 1.0)
+_ABOUT = Words(en="about {place}", de="um {place}")
+_BETWEEN = Words(en="{first} to {last}", de="{first} bis {last}")
+_MOST_AT = Words(en="most at {place}", de="am meisten bei {place}")
+_IRREGULAR = Words(
+    en="more than the repeats scatter, but neither smooth nor of a form",
+    de="mehr als die Streuung der Wiederholungen, aber weder glatt noch von einer Form",
+)
+_RUN = Words(en="most in run {run}", de="am meisten in Durchlauf {run}")
+
+
+@dataclass(frozen=True, slots=True)
+class Remainder:
+    """What is left without a name.
+
+    `low` and `high` are in SI: m or rad, of a course in time s (or readings, where time is counted).
+    """
+
+    rms: float  #: Root mean square value at the readings, m or rad.
+    share: float  #: Of the squares of what the job's model leaves, 0 to 1.
+    where: Words  #: The place: "about 420 mm".
+    low: float  #: Where it begins: where it has more than half its largest value.
+    high: float  #: Where it ends.
+    unit: Unit  #: In which both are printed: mm, ° or s.
+    shape: Words  #: "a bump, 60 mm wide", "smooth along the axis".
+    size: float  #: Its largest value, with its sign, m or rad.
+    #: The form that follows it, as an effect of a job: keys of an item of `model.effects`, ranges around what
+    #: was found; None where no form does.
+    formula: FormulaKeys | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Share:
+    """What one thing without a name explains."""
+
+    values: FloatArray  #: (N,), m or rad.
+    along: Along
+    shape: Words
+    member: Member | None  #: The form; None of a random curve.
+
+    @property
+    def rms(self) -> float:
+        return float(np.sqrt(np.mean(self.values**2)))
+
+
+def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder | None:
+    """Return what a set leaves beside noise; None if that is nothing worth saying.
+
+    `fitted`: The job's model beside which the set stands.
+    """
+    if not search.has_nameless(found):
+        return None
+    bare = search.as_noise(found.named)
+    if bare.score - found.score < _WORTH_SAYING:
+        return None
+    design = search.contest.design
+    shares = sorted(_shares(search, found), key=lambda each: -each.rms)
+    whole: FloatArray = np.sum([each.values for each in shares], axis=0)
+    main, squares = shares[0], float(np.sum(fitted.residual**2))
+    form = main.member or _following(search, bare, whole)
+    proposed = _proposed(form, design) if form else None
+    where, low, high, unit = _place(main, whole, design)
+    return Remainder(
+        rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
+        share=min(1.0, float(np.sum(whole**2)) / squares) if squares else 0.0,
+        where=where,
+        low=low,
+        high=high,
+        unit=unit,
+        shape=_shape_of(form, design) if form and form is main.member else main.shape,
+        size=float(whole[int(np.argmax(np.abs(whole)))]),
+        formula=proposed,
+    )
+
+
+def remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
+    """Return what one run has that no other has."""
+    design, squares = fitted.design, float(np.sum(fitted.residual**2))
+    own = design.time[design.cycle == found.run]
+    return Remainder(
+        rms=float(np.linalg.norm(found.values)) / len(found.values) ** 0.5,
+        share=min(1.0, float(np.sum(found.values**2)) / squares),
+        where=found.where(design),
+        low=float(own.min()),
+        high=float(own.max()),
+        unit=_SECOND,
+        shape=found.shape,
+        size=float(found.values[int(np.argmax(np.abs(found.values)))]),
+        formula=None,
+    )
+
+
+def irregular_remainder(fitted: Fit, noise: float) -> Remainder:
+    """Return what is left where neither a form nor a smooth curve follows it: how large, and where most.
+
+    `noise`: What repeats scatter, m or rad.
+    """
+    design, squares = fitted.design, fitted.residual**2
+    rms = max(float(np.mean(squares)) - noise**2, 0.0) ** 0.5
+    by_target = np.bincount(design.target, weights=squares) / np.maximum(np.bincount(design.target), 1)
+    widest = float(design.position[int(np.argmax(by_target[design.target]))])
+    first, last = design.span
+    return Remainder(
+        rms=rms,
+        share=min(1.0, rms**2 / float(np.mean(squares))),
+        where=_MOST_AT.given(place=wording.position(design.axis, widest)),
+        low=first,
+        high=last,
+        unit=design.axis.position_unit,
+        shape=_IRREGULAR,
+        size=float(fitted.residual[int(np.argmax(squares))]),
+        formula=None,
+    )
+
+
+def _shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
+    """Yield what each thing without a name explains, on the average over what the readings allow."""
+    contest = search.contest
+    space, values = contest.space, contest.columns.values
+    of_set = np.concatenate([np.empty((len(space.scale), 0)), *map(values, found.columns)], axis=1)
+    factors = [space.of(each) for each in contest.factors(found.amplitudes)]
+    together = np.concatenate([np.empty((len(space.scale), 0)), *factors], axis=1)
+    inner = np.linalg.cholesky(np.eye(together.shape[1]) + together.T @ together)
+    root = np.linalg.solve(inner, together.T)
+
+    def weighed(columns: FloatArray) -> FloatArray:
+        return np.asarray(columns - root.T @ (root @ columns))
+
+    contrast = space.of(contest.deviation)
+    solved = np.linalg.lstsq(of_set.T @ weighed(of_set), of_set.T @ weighed(contrast), rcond=1e-12)[0]
+    left = weighed(contrast - of_set @ solved)
+    first = 0
+    for member in found.members:
+        own = slice(first, first + len(member.columns))
+        first = own.stop
+        if not member.family.is_named:
+            form = member.effect
+            assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
+            along = Along.TIME if form.carrier in IN_TIME else Along.PLACE
+            shape = _shape_of(member, contest.design)
+            yield _Share(space.single.coloured(of_set[:, own] @ solved[own]), along, shape, member)
+    active = [(part, level) for part, level in zip(contest.parts, found.amplitudes, strict=True) if level]
+    for (part, level), factor in zip(active, factors, strict=True):
+        if level >= part.noise_levels:
+            explained = space.single.coloured(factor @ (factor.T @ left))
+            yield _Share(explained, part.along, part.shape, None)
+
+
+def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> Member | None:
+    """Return the form that follows a curve best; None if none follows most of it."""
+    contest = search.contest
+    best = search.best_unnamed(bare)
+    if best is None:
+        return None
+    columns = best.effect.columns(contest.design, best.theta)
+    columns = contest.space.single.coloured(contest.space.of(columns))
+    gamma = np.linalg.lstsq(columns, whole, rcond=1e-9)[0]
+    left = float(np.sum((whole - columns @ gamma) ** 2))
+    return best if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
+
+
+def _proposed(form: Member, design: Design) -> FormulaKeys:
+    assert isinstance(form.effect, UnnamedForm)  # noqa: S101 - no other effect has no name
+    return form.effect.proposed(form.theta, design)
+
+
+def _shape_of(member: Member, design: Design) -> Words:
+    """Return a form in words."""
+    form = member.effect
+    assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
+    say, named = _sayer(design, is_time=form.carrier in IN_TIME), form.named(member.theta)
+    words = form.form.shape.given(
+        **{word: say(named[name]) for word, name in (("width", "w"), ("period", "L")) if name in named}
+    )
+    return CARRIERS[form.carrier].given(shape=words)
+
+
+def _sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
+    if is_time:
+        return lambda value: wording.span_of_time(design, value)
+    return lambda value: wording.length(design.axis, value)
+
+
+def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, float, float, Unit]:
+    """Return where something lies: in words, from where to where, and in which unit."""
+    is_time = main.along is not Along.PLACE
+    say, unit = _sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
+    form = main.member.effect if main.member else None
+    if isinstance(form, UnnamedForm) and main.member:
+        low, high = form.extent(main.member.theta)
+        place = form.named(main.member.theta).get("c", low)
+        is_local = form.form in LOCAL
+        words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
+        return words, low, high, unit
+    if main.along is Along.RUN:
+        runs = np.unique(design.cycle)
+        sizes = [float(np.mean(whole[design.cycle == run] ** 2)) for run in runs]
+        run = int(runs[int(np.argmax(sizes))])
+        own = design.time[design.cycle == run]
+        return _RUN.given(run=run), float(own.min()), float(own.max()), unit
+    labels = design.time if is_time else design.position
+    along, group = np.unique(labels, return_inverse=True)
+    means = np.sqrt(np.bincount(group, weights=whole**2) / np.bincount(group))
+    peak = int(np.argmax(means))
+    low, high = _about(along, means >= _HALF * means[peak], peak)
+    if low <= along[0] and high >= along[-1]:
+        return _BETWEEN.given(first=say(low), last=say(high)), low, high, unit
+    return _ABOUT.given(place=say(float(along[peak]))), low, high, unit
+
+
+def _about(along: FloatArray, is_large: BoolArray, peak: int) -> tuple[float, float]:
+    """Return the ends of the stretch about a place in which something is large."""
+    first = last = peak
+    while first > 0 and is_large[first - 1]:
+        first -= 1
+    while last < len(along) - 1 and is_large[last + 1]:
+        last += 1
+    return float(along[first]), float(along[last])

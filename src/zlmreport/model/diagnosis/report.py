@@ -1,0 +1,379 @@
+"""A diagnosis as the results file of `zlmreport model diagnose --json`: full precision, micrometres or ″."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.language import Language, Words
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import Unit
+from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, ErrorNumbers, Verdict
+from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.diagnosis.residuals import Failure
+from zlmreport.model.diagnosis.visibility import Visibility
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Parameter, unit_of
+from zlmreport.model.fitting.estimate import Estimate
+from zlmreport.model.fitting.fit import Fit
+from zlmreport.model.fitting.noise import Noise
+from zlmreport.model.fitting.profile import intervals
+
+SCHEMA = "zlmreport/diagnosis/1"
+#: Probability from which on a candidate is worth a word.
+_SERIOUS = 0.01
+
+_ADEQUATE = Words(
+    en="The model describes the readings: nothing is left that their scatter does not explain.",
+    de="Das Modell beschreibt die Messwerte: Es bleibt nichts übrig, was ihre Streuung nicht erklärt.",
+)
+_MISSING = Words(en="Missing effect: {effects}", de="Fehlender Einfluss: {effects}")
+_MISSING_TOGETHER = Words(en="Missing effects: {effects}", de="Fehlende Einflüsse: {effects}")
+_RESTS = {
+    False: Words(en="{missing}, which explains the rest.", de="{missing}; er erklärt den Rest."),
+    True: Words(
+        en="{missing}, which together explain the rest.", de="{missing}; zusammen erklären sie den Rest."
+    ),
+}
+_IN_PART = Words(
+    en="{missing}. With {many} the error falls from {before} to {after}, over a noise of {noise}.",
+    de="{missing}. Damit sinkt die Abweichung von {before} auf {after}, bei einem Rauschen von {noise}.",
+)
+_WITHOUT_FLOOR = Words(
+    en="{missing}. With {many} the error falls from {before} to {after}.",
+    de="{missing}. Damit sinkt die Abweichung von {before} auf {after}.",
+)
+_MANY = {False: Words(en="it", de=""), True: Words(en="them", de="")}
+_BESIDE = Words(
+    en="{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}.",
+    de="{statement} Daneben bleibt etwas ohne Namen: {shape}, {where}; quadratischer Mittelwert {size}.",
+)
+_GOES = Words(
+    en="{statement} Then no longer needed: {effects}.", de="{statement} Dann nicht mehr nötig: {effects}."
+)
+_FAULTY = Words(
+    en="The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}.",
+    de="Die Daten sehen falsch aus, und vorher wird keine Ursache gesucht: {statement}. Abhilfe: {remedy}.",
+)
+_UNEXPLAINED = Words(
+    en="Something is left that no installed effect explains.",
+    de="Es bleibt etwas übrig, das kein installierter Einfluss erklärt.",
+)
+_SHAPE = Words(
+    en="Something is left that no installed effect explains: {shape}, {where}; root mean square {size}.",
+    de="Es bleibt etwas übrig, das kein installierter Einfluss erklärt: {shape}, {where}; quadratischer "
+    "Mittelwert {size}.",
+)
+_QUESTION = Words(en="{statement} {question}", de="{statement} {question}")
+_OR = Words(en="{one} or {other}", de="{one} oder {other}")
+_AND = Words(en="{one} and {other}", de="{one} und {other}")
+
+
+def report(
+    diagnosis: Diagnosis,
+    language: Language = Language.ENGLISH,
+    experiment: Mapping[str, Any] | None = None,
+) -> dict[str, Any]:
+    """Return a diagnosis as plain values for a JSON file.
+
+    `experiment`: What tells the first candidate from its equals, with these under the key ``effects``.
+    """
+    fitted = diagnosis.fit
+    axis = fitted.design.axis
+    return {
+        "schema": SCHEMA,
+        "model": report_model(fitted),
+        "error": report_error(diagnosis.error, axis),
+        "noise": report_noise(fitted.noise, axis),
+        "verdict": diagnosis.verdict.value,
+        "p_value": diagnosis.p_value,
+        "failures": [_failure(each, language) for each in diagnosis.failures],
+        "candidates": [
+            {
+                **_candidate(each, fitted.design, language),
+                "experiment": experiment if experiment and each.identifier in experiment["effects"] else None,
+            }
+            for each in diagnosis.candidates
+        ],
+        "set": [each.identifier for each in diagnosis.together],
+        "error_after": report_error(diagnosis.error_after, axis),
+        "makeshift": list(diagnosis.makeshift),
+        "remainder": report_remainder(diagnosis.remainder, axis, language),
+        "not_testable": [
+            {"effect": each.effect, "reason": each.reason.in_language(language)}
+            for each in diagnosis.not_testable
+        ],
+        "not_excluded": list(diagnosis.not_excluded),
+        "visibility": [_visibility(each, axis) for each in diagnosis.visibility],
+        "faults": [
+            {
+                "fault": each.kind.value,
+                "run": each.run,
+                "probability": each.probability,
+                "statement": each.statement.in_language(language),
+                "remedy": each.remedy.in_language(language),
+            }
+            for each in diagnosis.faults
+        ],
+        "outliers": diagnosis.outliers.tolist(),
+        "remarks": [each.in_language(language) for each in diagnosis.remarks],
+    }
+
+
+def report_remainder(
+    remainder: Remainder | None, axis: Axis, language: Language = Language.ENGLISH
+) -> dict[str, Any] | None:
+    """Return what is left without a name; its formula as an item of a job's effects."""
+    if remainder is None:
+        return None
+    from_si = axis.deviation_unit.from_si
+    return {
+        "rms": from_si(remainder.rms),
+        "size": from_si(remainder.size),
+        "share": remainder.share,
+        "where": remainder.where.in_language(language),
+        "from": remainder.low * remainder.unit.per_si,
+        "to": remainder.high * remainder.unit.per_si,
+        "unit": remainder.unit.ascii,
+        "shape": remainder.shape.in_language(language),
+        "formula": None if remainder.formula is None else formula_entry(remainder.formula),
+    }
+
+
+def formula_entry(keys: FormulaKeys) -> str:
+    """Return a formula as an item of `model.effects` in one line, as `zlmreport model add` takes it."""
+    own = keys.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+    return json.dumps(own, ensure_ascii=False)
+
+
+def report_model(fitted: Fit) -> dict[str, Any]:
+    """Return the effects of a fitted model with their parameters."""
+    return {
+        "effects": list(fitted.model.identifiers),
+        "parameters": [
+            {"effect": each.effect, **_estimate(each, fitted.design)} for each in fitted.estimates
+        ],
+    }
+
+
+def report_precision(fitted: Fit, *, with_residuals: bool = True) -> dict[str, Any]:
+    """Return how well a model is known: covariance and intervals of its parameters, and what it leaves.
+
+    Without residuals where single readings are not to be told.
+    """
+    residuals = {"residuals": _residuals(fitted.of_the_job)} if with_residuals else {}
+    return {"covariance": _covariance(fitted), "intervals": _intervals(fitted), **residuals}
+
+
+def _covariance(fitted: Fit) -> dict[str, Any]:
+    """Return how the estimated parameters hang together, in the units in which they are reported."""
+    units = [_unit(each, fitted.design) for _, each in fitted.columns]
+    covariance = fitted.uncertainties.covariance
+    scale = np.array([each.per_si for each in units])
+    deviations = np.sqrt(np.diagonal(covariance))
+    deviations = np.where(deviations > 0, deviations, 1.0)
+    return {
+        "parameters": [f"{effect}.{each.name}" for effect, each in fitted.columns],
+        "units": [each.ascii for each in units],
+        "covariance": (covariance * np.outer(scale, scale)).tolist(),
+        "correlation": (covariance / np.outer(deviations, deviations)).tolist(),
+    }
+
+
+def _intervals(fitted: Fit) -> list[dict[str, Any]]:
+    """Return from where to where the readings leave each parameter; null where they exclude nothing."""
+    return [
+        {
+            "parameter": f"{each.effect}.{each.parameter.name}",
+            "unit": (unit := _unit(each.parameter, fitted.design)).ascii,
+            "low": each.low * unit.per_si if isfinite(each.low) else None,
+            "high": each.high * unit.per_si if isfinite(each.high) else None,
+            "open": [side for side in ("low", "high") if getattr(each, f"{side}_is_open")],
+        }
+        for each in intervals(fitted)
+    ]
+
+
+def _residuals(fitted: Fit) -> list[dict[str, Any]]:
+    """Return what the model leaves of each reading, in the order in which they were taken."""
+    design = fitted.design
+    unit = design.axis.deviation_unit
+    positions = design.axis.position_unit.from_si(design.position).tolist()
+    residuals = unit.from_si(fitted.residual).tolist()
+    signs = ["+" if each > 0 else "-" for each in design.direction.tolist()]
+    return [
+        {"target": target, "direction": sign, "run": run, "residual": residual, "unit": unit.ascii}
+        for target, sign, run, residual in zip(positions, signs, design.run.tolist(), residuals, strict=True)
+    ]
+
+
+def _unit(parameter: Parameter, design: Design) -> Unit:
+    return unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+
+
+def report_error(error: ErrorNumbers, axis: Axis) -> dict[str, Any]:
+    """Return how far readings and model are apart."""
+    return {
+        "rms": axis.deviation_unit.from_si(error.rms),
+        "noise_rms": _in_unit(error.noise_rms, axis),
+        "chi2_per_dof": error.chi2_per_dof,
+        "cross_validated_rms": _in_unit(error.cross_validated_rms, axis),
+        "unit": axis.deviation_unit.ascii,
+    }
+
+
+def _in_unit(value: float | None, axis: Axis) -> float | None:
+    return None if value is None else axis.deviation_unit.from_si(value)
+
+
+def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
+    """Return what scatters: where readings are weighted, also where they scatter least and most."""
+    unit = axis.deviation_unit
+    least, largest = noise.span
+    ends = (("least", least), ("largest", largest)) if least < largest else ()
+    return {
+        "repeatability": unit.from_si(noise.sigma),
+        **{f"{end}_repeatability": unit.from_si(size) for end, size in ends},
+        **{source.value.replace(" ", "_"): unit.from_si(noise.amount(source)) for source in noise.ratios},
+    }
+
+
+def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
+    unit = _unit(estimate.parameter, design)
+    found = {
+        "name": estimate.parameter.name,
+        "value": estimate.value * unit.per_si,
+        "unit": unit.ascii,
+        "expanded_uncertainty": estimate.expanded_uncertainty * unit.per_si,
+        "coverage_factor": estimate.coverage_factor,
+        "given": estimate.is_given,
+        "plausibility": estimate.plausibility(time_is_counted=design.time_is_counted).name.lower(),
+    }
+    if estimate.equals:
+        found["equals"] = estimate.equals
+    if estimate.at_bound:
+        found["at_bound"] = estimate.at_bound
+    if estimate.expected is not None:
+        found["expected"] = estimate.expected * unit.per_si
+    return found
+
+
+def _failure(failure: Failure, language: Language) -> dict[str, Any]:
+    return {
+        "test": failure.test.value,
+        "p_value": failure.p_value,
+        "where": failure.where.in_language(language),
+        "statement": failure.statement.in_language(language),
+    }
+
+
+def _candidate(candidate: Candidate, design: Design, language: Language) -> dict[str, Any]:
+    after = report_error(candidate.error, design.axis)
+    discriminate_by, remedy = candidate.discriminate_by, candidate.effect.remedy
+    return {
+        "effect": candidate.identifier,
+        "settings": candidate.effect.settings.model_dump(mode="json"),
+        "p_value": candidate.p_value,
+        "p_value_extrapolated": candidate.p_value_is_extrapolated,
+        "probability": candidate.probability,
+        "plausible": candidate.is_plausible,
+        "large": candidate.is_large,
+        "question": "" if candidate.question is None else candidate.question.in_language(language),
+        "rms_after": after["rms"],
+        "chi2_per_dof_after": after["chi2_per_dof"],
+        "cross_validated_rms_after": after["cross_validated_rms"],
+        "parameters": [_estimate(each, design) for each in candidate.estimates],
+        "share": candidate.share,
+        "explains": candidate.explains.in_language(language),
+        "indistinguishable_from": list(candidate.equals),
+        "discriminate_by": "" if discriminate_by is None else discriminate_by.in_language(language),
+        "remedy": remedy.in_language(language) if remedy else "",
+    }
+
+
+def _visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
+    unit = axis.deviation_unit
+    finite = seen.smallest_rms < float("inf")
+    return {
+        "effect": seen.effect,
+        "share": seen.share,
+        "smallest_rms": unit.from_si(seen.smallest_rms) if finite else None,
+    }
+
+
+def verdict_statement(diagnosis: Diagnosis) -> Words:
+    """Return the verdict in sentences: what is surely there, then what the rest looks like."""
+    if diagnosis.verdict is Verdict.ADEQUATE:
+        return _ADEQUATE
+    if diagnosis.verdict is Verdict.UNEXPLAINED:
+        return _unexplained(diagnosis)
+    by_name = {each.identifier: each for each in diagnosis.candidates}
+    groups = [listed([each.identifier, *by_name[each.identifier].equals], _OR) for each in diagnosis.together]
+    is_many = len(groups) > 1
+    missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=listed(groups, _AND))
+    statement = _so_far(diagnosis, missing, is_many=is_many)
+    if diagnosis.makeshift:
+        statement = _GOES.given(statement=statement, effects=listed(diagnosis.makeshift))
+    for each in diagnosis.together:
+        question = by_name[each.identifier].question
+        if question is not None:
+            statement = _QUESTION.given(statement=statement, question=question)
+    if diagnosis.remainder is None:
+        return statement
+    return _with_remainder(_BESIDE.given(statement=statement), diagnosis.remainder, diagnosis)
+
+
+def _so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:
+    """Return how far the effects that are missing explain the rest."""
+    if diagnosis.leaves_noise:
+        return _RESTS[is_many].given(missing=missing)
+    axis, after = diagnosis.fit.design.axis, diagnosis.error_after
+    before = wording.deviation(axis, diagnosis.error.rms)
+    words = _WITHOUT_FLOOR if after.noise_rms is None else _IN_PART
+    given = words.given(
+        missing=missing, many=_MANY[is_many], before=before, after=wording.deviation(axis, after.rms)
+    )
+    return given if after.noise_rms is None else given.given(noise=wording.deviation(axis, after.noise_rms))
+
+
+def _unexplained(diagnosis: Diagnosis) -> Words:
+    fault = next((each for each in diagnosis.faults if each.comes_first), None)
+    if fault is None and diagnosis.remainder is None:
+        fault = next(iter(diagnosis.faults), None)
+    if fault is not None:
+        return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
+    if diagnosis.remainder is None:
+        return _UNEXPLAINED
+    return _with_remainder(_SHAPE, diagnosis.remainder, diagnosis)
+
+
+def _with_remainder(words: Words, remainder: Remainder, diagnosis: Diagnosis) -> Words:
+    size = wording.deviation(diagnosis.fit.design.axis, remainder.rms)
+    return words.given(shape=remainder.shape, where=remainder.where, size=size)
+
+
+def serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
+    """Return the candidates that are worth a word: those of the set, their equals, what is not improbable."""
+    named = {each.identifier for each in diagnosis.together}
+    return tuple(
+        each
+        for each in diagnosis.candidates
+        if each.identifier in named or each.equals or each.probability >= _SERIOUS
+    )
+
+
+def listed(names: Sequence[str | Words], last: Words = _AND) -> Words:
+    """Return names in a row: commas between them, and a word before the last."""
+    *others, final = names
+    if not others:
+        return Words("{one}", "{one}").given(one=final)
+    row = others[0]
+    for name in others[1:]:
+        row = Words("{one}, {other}", "{one}, {other}").given(one=row, other=name)
+    return last.given(one=row, other=final)

@@ -1,0 +1,345 @@
+"""All tests of the residuals of a model: of means and scatter, of order, of time and of periods."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from zlmreport.language import Words, same
+from zlmreport.language.numbers import number_words
+from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
+from zlmreport.model.diagnosis.null_distribution import LEVEL
+from zlmreport.model.diagnosis.residuals import Failure, Residuals, ResidualTest
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.blunders import Outliers
+from zlmreport.model.fitting.distributions import f_tail
+from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, repeats, spread_tests
+
+_LACK_OF_FIT = Words(
+    en="the means of the positions deviate from the model by up to {size}, more than their repeats allow",
+    de="die Mittelwerte der Positionen weichen um bis zu {size} vom Modell ab, mehr als ihre Wiederholungen "
+    "erlauben",
+)
+_LARGEST_AT = Words(en="largest at {place}", de="am größten bei {place}")
+_SIGNS = Words(
+    en="the residuals keep their sign longer than by chance; changes of sign: {changes} instead of "
+    "{expected}",
+    de="die Residuen behalten ihr Vorzeichen länger als durch Zufall; Vorzeichenwechsel: {changes} statt "
+    "{expected}",
+)
+_HIGHER_UPWARDS = Words(
+    en="upwards the residuals lie {size} higher than downwards",
+    de="aufwärts liegen die Residuen um {size} höher als abwärts",
+)
+_HIGHER_DOWNWARDS = Words(
+    en="downwards the residuals lie {size} higher than upwards",
+    de="abwärts liegen die Residuen um {size} höher als aufwärts",
+)
+_DIRECTION_ALONG = Words(
+    en="the difference between up and down changes with the position",
+    de="der Unterschied zwischen aufwärts und abwärts ändert sich mit der Position",
+)
+_RUNS = Words(
+    en="runs are displaced as a whole, by up to {size}",
+    de="Durchläufe sind als Ganzes verschoben, um bis zu {size}",
+)
+_WHOLE_AXIS = Words(en="along the whole axis", de="längs der ganzen Achse")
+_RUN = Words(en="run {run}", de="Durchlauf {run}")
+
+_PERMUTATIONS = 400
+_SEED = 20_261_118
+_ORDERS = 4
+_FOLLOW = Words(
+    en="the residuals follow a logged condition, in their zero or in their slope",
+    de="die Residuen folgen einer aufgezeichneten Bedingung, mit Nullpunkt oder Steigung",
+)
+_UNEQUAL = Words(
+    en="the readings scatter unequally {factor}", de="die Messwerte streuen {factor} verschieden"
+)
+_UPWARDS = Words(en="more upwards", de="mehr aufwärts")
+_DOWNWARDS = Words(en="more downwards", de="mehr abwärts")
+_MOST_AT = Words(en="most at {place}", de="am meisten bei {place}")
+_FLAGGED = Words(
+    en="readings that stand off from their repeats and from their neighbours in time: {count}; they are set "
+    "aside, not altered",
+    de="Messwerte, die von ihren Wiederholungen und ihren zeitlichen Nachbarn abstehen: {count}; sie sind "
+    "beiseite gelegt, nicht verändert",
+)
+_AT = Words(en="at {place}", de="bei {place}")
+_AND_MORE = Words(en="{first}; others: {more}", de="{first}; weitere: {more}")
+
+
+def lack_of_fit(residuals: Residuals) -> Failure | None:
+    """Return the F-test of what the model leaves of the means against the pure error of the repeats."""
+    fit, design = residuals.fit, residuals.design
+    within = repeats(design, fit.residual)
+    means = len(within.count) - (len(fit.deviation) - fit.degrees)
+    if within.degrees < 1 or means < 1 or within.squares == 0:
+        return None
+    left = float(np.sum(fit.residual**2)) - within.squares
+    p_value = f_tail((left / means) / (within.squares / within.degrees), means, within.degrees)
+    of_cells = fit.residual - within.centred
+    worst = int(np.argmax(np.abs(of_cells)))
+    size = wording.deviation(design.axis, abs(float(of_cells[worst])))
+    where = _LARGEST_AT.given(place=wording.cell(design, worst))
+    readings = read_only_integers(np.flatnonzero(within.cell == within.cell[worst]))
+    return Failure(ResidualTest.LACK_OF_FIT, p_value, where, _LACK_OF_FIT.given(size=size), readings)
+
+
+def signs(residuals: Residuals) -> Failure | None:
+    """Return the test of the changes of sign of the positions' mean residuals along the axis."""
+    design = residuals.design
+    means = [
+        _means(residuals.fit.residual[side], design.target[side])
+        for side in (design.direction > 0, design.direction < 0)
+        if np.count_nonzero(side)
+    ]
+    signs_ = [np.sign(each - np.median(each)) for each in means if len(each) > 2]
+    if not signs_:
+        return None
+    found = sum(_changes(each[np.newaxis])[0] for each in signs_)
+    random = np.random.default_rng(_SEED)
+    chance = np.sum(
+        [_changes(random.permuted(np.tile(each, (_PERMUTATIONS, 1)), axis=1)) for each in signs_], axis=0
+    )
+    p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
+    statement = _SIGNS.given(changes=int(found), expected=number_words(float(np.mean(chance)), 1))
+    return Failure(ResidualTest.SIGNS, p_value, _WHOLE_AXIS, statement)
+
+
+def direction(residuals: Residuals) -> Failure | None:
+    """Return the test of a difference between the directions, constant or changing along the axis."""
+    design = residuals.design
+    if not design.is_bidirectional:
+        return None
+    sign = design.direction
+    along = 2 * (design.position - design.middle) / (design.length or 1.0)
+    gap = residuals.p_value(sign[:, np.newaxis])
+    shape = residuals.p_value(sign[:, np.newaxis] * np.vander(along, _ORDERS))
+    statement = _DIRECTION_ALONG if shape < gap else _constant_gap(residuals)
+    return Failure(ResidualTest.DIRECTION, min(1.0, 2 * min(gap, shape)), _WHOLE_AXIS, statement)
+
+
+def runs(residuals: Residuals) -> Failure | None:
+    """Return the test of runs that are displaced as a whole."""
+    design = residuals.design
+    numbers = np.unique(design.cycle)
+    if len(numbers) < 2:
+        return None
+    membership = (design.cycle[:, np.newaxis] == numbers).astype(np.float64)
+    means = _means(residuals.fit.residual, design.cycle)
+    worst = int(np.argmax(np.abs(means)))
+    run = int(numbers[worst])
+    statement = _RUNS.given(size=wording.deviation(design.axis, abs(float(means[worst]))))
+    where, readings = _RUN.given(run=run), read_only_integers(np.flatnonzero(design.cycle == run))
+    return Failure(ResidualTest.RUNS, residuals.p_value(membership), where, statement, readings)
+
+
+def _constant_gap(residuals: Residuals) -> Words:
+    design, residual = residuals.design, residuals.fit.residual
+    gap = float(np.mean(residual[design.direction > 0]) - np.mean(residual[design.direction < 0]))
+    statement = _HIGHER_UPWARDS if gap > 0 else _HIGHER_DOWNWARDS
+    return statement.given(size=wording.deviation(design.axis, abs(gap)))
+
+
+def _means(values: FloatArray, labels: IntArray) -> FloatArray:
+    _, group = np.unique(labels, return_inverse=True)
+    return np.asarray(np.bincount(group, weights=values) / np.bincount(group), dtype=np.float64)
+
+
+def _changes(signs_: FloatArray) -> IntArray:
+    """Return how often the sign changes along each row."""
+    return np.asarray(np.count_nonzero(np.diff(signs_, axis=1) != 0, axis=1), dtype=np.int64)
+
+
+def conditions(residuals: Residuals) -> Failure | None:
+    """Return the test of the logged condition that the residuals follow most closely."""
+    design = residuals.design
+    p_values = {}
+    for name, log in design.conditions.items():
+        if np.ptp(log) == 0:
+            continue
+        change = log - log.mean()
+        columns = np.column_stack([change, change * (design.position - design.middle)])
+        p_values[name] = residuals.p_value(columns)
+    if not p_values:
+        return None
+    closest = min(p_values, key=p_values.__getitem__)
+    p_value = min(1.0, len(p_values) * p_values[closest])
+    return Failure(ResidualTest.CONDITION, p_value, same(closest), _FOLLOW, condition=closest)
+
+
+def spread(residuals: Residuals) -> Iterator[Failure]:
+    """Yield the tests of equal scatter by position, direction and run."""
+    design = residuals.design
+    for test in spread_tests(design, residuals.fit.deviation):
+        statement = _UNEQUAL.given(factor=test.factor.words)
+        where, readings = _widest(design, test)
+        yield Failure(ResidualTest.SPREAD, test.p_value, where, statement, readings)
+
+
+def flagged(design: Design, aside: Outliers) -> Failure | None:
+    """Return what is to be said of readings that were set aside, on the design that still has them."""
+    readings = aside.readings
+    if not len(readings):
+        return None
+    where = _AT.given(place=wording.reading_at(design, int(readings[0])))
+    if len(readings) > 1:
+        where = _AND_MORE.given(first=where, more=len(readings) - 1)
+    return Failure(ResidualTest.OUTLIERS, aside.p_value, where, _FLAGGED.given(count=len(readings)))
+
+
+def _widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
+    """Return where readings scatter most, and which these are."""
+    if test.factor is SpreadFactor.DIRECTION:
+        chosen = np.sign(design.direction) == np.sign(test.widest)
+        return (_UPWARDS if test.widest > 0 else _DOWNWARDS), read_only_integers(np.flatnonzero(chosen))
+    if test.factor is SpreadFactor.RUN:
+        chosen = design.cycle == test.widest
+        place = _RUN.given(run=test.widest)
+    else:
+        chosen = design.target == test.widest
+        place = wording.position(design.axis, float(design.position[int(np.argmax(chosen))]))
+    return _MOST_AT.given(place=place), read_only_integers(np.flatnonzero(chosen))
+
+
+_TIME_ORDER = Words(
+    en="repeats that follow one another deviate alike: something moves with time, by {size} from the first "
+    "third of the test to the last",
+    de="aufeinander folgende Wiederholungen weichen gleich ab: Etwas bewegt sich mit der Zeit, um {size} vom "
+    "ersten Drittel der Prüfung zum letzten",
+)
+_REPEATS = Words(en="the residual repeats every {period}", de="das Residuum wiederholt sich alle {period}")
+_ALONG_THE_AXIS = Words(
+    en="along the whole axis, amplitude {size}", de="längs der ganzen Achse, Amplitude {size}"
+)
+_DURING_THE_TEST = Words(
+    en="during the whole test, amplitude {size}", de="während der ganzen Prüfung, Amplitude {size}"
+)
+_WHOLE_TEST = Words(en="during the whole test", de="während der ganzen Prüfung")
+
+_FEWEST_PERIODS = 1.3
+_STEPS_PER_PERIOD = 4
+_MOST_PERIODS = 200
+_READINGS_PER_PERIOD = 4
+_HARMONICS = (1, 2)
+_FEWEST_TARGETS = 6
+_FINER = 41
+
+
+def time_order(residuals: Residuals) -> Failure | None:
+    """Return von Neumann's ratio of the repeats in time order, against repeats exchanged in their cells."""
+    fit = residuals.fit
+    within = repeats(residuals.design, fit.residual)
+    if within.degrees < 1 or within.squares == 0:
+        return None
+    found = _ratio(within.centred[np.newaxis])[0]
+    chance = _ratio(_exchanged(within.centred, within.cell))
+    p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
+    third = max(1, len(within.centred) // 3)
+    moved = float(within.centred[-third:].mean() - within.centred[:third].mean())
+    statement = _TIME_ORDER.given(size=wording.deviation(residuals.design.axis, moved))
+    return Failure(ResidualTest.TIME_ORDER, p_value, _WHOLE_TEST, statement)
+
+
+def period_in_position(residuals: Residuals) -> Failure | None:
+    """Return the strongest wave along the axis; periods that the job states are tried beside all others."""
+    design = residuals.design
+    targets = len(design.target_positions)
+    if targets < _FEWEST_TARGETS or design.length == 0:
+        return None
+    stated = [each for each in (design.axis.screw_pitch, design.axis.signal_period) if each is not None]
+    known = [each / harmonic for each in stated for harmonic in _HARMONICS if each <= design.length]
+    period, p_value, size = _strongest_wave(residuals, design.position, targets / 2, known)
+    statement = _REPEATS.given(period=wording.length(design.axis, period))
+    return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, _ALONG_THE_AXIS.given(size=size), statement)
+
+
+def period_in_time(residuals: Residuals) -> Failure | None:
+    """Return the strongest wave in time."""
+    design = residuals.design
+    most = len(design.time) / _READINGS_PER_PERIOD
+    if design.duration == 0 or most <= _FEWEST_PERIODS:
+        return None
+    period, p_value, size = _strongest_wave(residuals, design.time, most, [])
+    statement = _REPEATS.given(period=wording.span_of_time(design, period))
+    return Failure(ResidualTest.PERIOD_IN_TIME, p_value, _DURING_THE_TEST.given(size=size), statement)
+
+
+def _strongest_wave(
+    residuals: Residuals, where: FloatArray, most: float, known: Sequence[float]
+) -> tuple[float, float, Words]:
+    """Return the period that explains most, the chance of it, and the amplitude in words.
+
+    `where`, (N,): Position or time.
+    `most`: Periods within the test that the readings can tell.
+    """
+    extent = float(np.ptp(where))
+    counts = np.arange(_FEWEST_PERIODS, min(most, _MOST_PERIODS), 1 / _STEPS_PER_PERIOD)
+    periods = np.concatenate([known, extent / counts])
+    best, p_value = residuals.best_block(_waves(where, periods))
+    period = float(periods[best])
+    if best >= len(known):
+        finer = extent / (extent / period + np.linspace(-1.0, 1.0, _FINER) / _STEPS_PER_PERIOD)
+        best, _ = residuals.best_block(_waves(where, finer))
+        period = float(finer[best])
+    amplitude = np.hypot(*_coefficients(residuals, _waves(where, np.array([period]))[0]))
+    return period, p_value, wording.deviation(residuals.design.axis, float(amplitude))
+
+
+def _waves(where: FloatArray, periods: FloatArray) -> FloatArray:
+    """Return sine and cosine of each period, shape (periods, N, 2)."""
+    angles = 2 * np.pi * where / periods[:, np.newaxis]
+    return np.stack([np.sin(angles), np.cos(angles)], axis=2)
+
+
+def _coefficients(residuals: Residuals, wave: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.lstsq(wave, residuals.fit.residual, rcond=None)[0], dtype=np.float64)
+
+
+def _ratio(centred: FloatArray) -> FloatArray:
+    """Return von Neumann's ratio of each row."""
+    squares = np.sum(np.diff(centred, axis=1) ** 2, axis=1) / np.sum(centred**2, axis=1)
+    return np.asarray(squares, dtype=np.float64)
+
+
+def _exchanged(centred: FloatArray, cell: IntArray) -> FloatArray:
+    """Return repeats exchanged at random within their cells, shape (permutations, N)."""
+    keys = np.random.default_rng(_SEED).random((_PERMUTATIONS, len(cell)))
+    places = np.argsort(cell, kind="stable")
+    found = np.empty((_PERMUTATIONS, len(cell)))
+    found[:, places] = centred[np.argsort(keys + cell, axis=1)]
+    return found
+
+
+def residual_tests(residuals: Residuals) -> tuple[Failure, ...]:
+    """Return every test that the design allows, passed or not."""
+    return tuple(_tests(residuals))
+
+
+def failures(tests: tuple[Failure, ...]) -> tuple[Failure, ...]:
+    """Return the tests that were not passed, the clearest first; each pays for the number of them."""
+    limit = LEVEL / max(1, len(tests))
+    return tuple(sorted((test for test in tests if test.p_value < limit), key=lambda test: test.p_value))
+
+
+def _tests(residuals: Residuals) -> Iterator[Failure]:
+    for single in _SINGLE:
+        found = single(residuals)
+        if found is not None:
+            yield found
+    yield from spread(residuals)
+
+
+_SINGLE = (
+    lack_of_fit,
+    signs,
+    direction,
+    runs,
+    time_order,
+    period_in_position,
+    period_in_time,
+    conditions,
+)

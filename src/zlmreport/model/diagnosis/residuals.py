@@ -1,0 +1,145 @@
+"""The residuals of a fit, made independent, and what a test of them says that they did not pass."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import Enum
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.contrasts import Whitener, whitener
+from zlmreport.model.fitting.distributions import f_tail
+from zlmreport.model.fitting.fit import Fit
+from zlmreport.model.fitting.noise import Noise, noise_parts
+
+_DEPENDENT = 1e-11
+#: Sum of squares of a residual that is no residual at all, m² or rad².
+_NOTHING = 1e-60
+_TRIALS = 400
+_SEED = 20_261_118
+
+
+class ResidualTest(Enum):
+    """The tests of residuals, with the names that results files use."""
+
+    LACK_OF_FIT = "lack-of-fit"
+    TIME_ORDER = "time-order"
+    SIGNS = "signs"
+    PERIOD_IN_POSITION = "period-in-position"
+    PERIOD_IN_TIME = "period-in-time"
+    DIRECTION = "direction"
+    RUNS = "runs"
+    CONDITION = "condition"
+    SPREAD = "spread"
+    OUTLIERS = "outliers"
+
+    @property
+    def title(self) -> Words:
+        """What it tests."""
+        return _TITLES[self]
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """A test that the residuals did not pass."""
+
+    test: ResidualTest  #: Which.
+    p_value: float  #: Chance of such residuals if the model held.
+    #: The place, the time, the run or the condition: what stands in brackets after the statement.
+    where: Words
+    statement: Words  #: What the residuals do, in a sentence without a full stop.
+    #: (k,) integer: The readings that `where` names, by their places in the design; none where all show it,
+    #: or where they were set aside before.
+    readings: IntArray = field(default_factory=lambda: read_only_integers([]), compare=False)
+    condition: str = ""  #: Of the test against a logged condition, the name of that; else empty.
+
+
+_TITLES = {
+    ResidualTest.LACK_OF_FIT: Words(
+        en="Means of the positions against the repeats",
+        de="Mittelwerte der Positionen gegen die Wiederholungen",
+    ),
+    ResidualTest.TIME_ORDER: Words(
+        en="Order of time within the repeats", de="Zeitfolge innerhalb der Wiederholungen"
+    ),
+    ResidualTest.SIGNS: Words(en="Signs along the axis", de="Vorzeichen längs der Achse"),
+    ResidualTest.PERIOD_IN_POSITION: Words(en="Period along the axis", de="Periode längs der Achse"),
+    ResidualTest.PERIOD_IN_TIME: Words(en="Period in time", de="Periode in der Zeit"),
+    ResidualTest.DIRECTION: Words(en="Up against down", de="Aufwärts gegen abwärts"),
+    ResidualTest.RUNS: Words(en="Run against run", de="Durchlauf gegen Durchlauf"),
+    ResidualTest.CONDITION: Words(en="Logged conditions", de="Aufgezeichnete Bedingungen"),
+    ResidualTest.SPREAD: Words(en="Equal scatter", de="Gleiche Streuung"),
+    ResidualTest.OUTLIERS: Words(en="Single readings", de="Einzelne Messwerte"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Residuals:
+    """The residuals of a fitted model."""
+
+    fit: Fit  #: The model.
+    whiten: Whitener  #: Makes readings independent under the noise of the test.
+    base: FloatArray  #: (N, q): Orthonormal columns that span the whitened model.
+    independent: FloatArray  #: (N,): The whitened residuals.
+
+    @property
+    def design(self) -> Design:
+        """The test."""
+        return self.fit.design
+
+    @property
+    def degrees(self) -> int:
+        """Readings less columns of the model."""
+        return int(self.base.shape[0] - self.base.shape[1])
+
+    def blocks(self, columns: FloatArray) -> FloatArray:
+        """Return blocks of columns, shape (g, N, k), as orthonormal contrasts of independent readings."""
+        whitened = np.stack([self.whiten(block) for block in columns])
+        left = whitened - self.base @ (self.base.T @ whitened)
+        lengths = np.linalg.norm(whitened, axis=1, keepdims=True)
+        vectors, singular, _ = np.linalg.svd(left / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
+        return np.asarray(vectors * (singular > _DEPENDENT)[:, np.newaxis, :], dtype=np.float64)
+
+    def p_value(self, columns: FloatArray) -> float:
+        """Return the chance that columns, shape (N, k), explain so much of the residuals (F-test)."""
+        block = self.blocks(columns[np.newaxis])[0]
+        rank = int(np.count_nonzero(np.any(block != 0, axis=0)))
+        if rank == 0 or self.degrees <= rank:
+            return 1.0
+        explained = float(np.sum((block.T @ self.independent) ** 2))
+        left = float(np.sum(self.independent**2)) - explained
+        if left <= 0:
+            return 0.0
+        return f_tail((explained / rank) / (left / (self.degrees - rank)), rank, self.degrees - rank)
+
+    def best_block(self, columns: FloatArray) -> tuple[int, float]:
+        """Return which of many blocks explains most, and the chance that the best explains so much.
+
+        The chance is that of the whole search, counted on simulated independent residuals.
+
+        `columns`, (g, N, k): The blocks.
+        """
+        blocks = self.blocks(columns)
+        size, readings, width = blocks.shape
+        flat = blocks.transpose(1, 0, 2).reshape(readings, -1)
+        random = np.random.default_rng(_SEED).standard_normal((readings, _TRIALS))
+        together = np.column_stack([self.independent, random - self.base @ (self.base.T @ random)])
+        shares = ((flat.T @ together) ** 2).reshape(size, width, -1).sum(axis=1)
+        shares /= np.maximum(np.sum(together**2, axis=0), _NOTHING)
+        most = shares.max(axis=0)
+        reached = int(np.count_nonzero(most[1:] >= most[0]))
+        return int(np.argmax(shares[:, 0])), (1 + reached) / (_TRIALS + 1)
+
+
+def residuals_of(fit: Fit, noise: Noise) -> Residuals:
+    """Return the residuals of a fit under a noise: one that holds no more than noise may."""
+    whiten = whitener(noise_parts(fit.design), noise)
+    columns = whiten(fit.base())
+    lengths = np.linalg.norm(columns, axis=0)
+    vectors, singular, _ = np.linalg.svd(columns / np.where(lengths > 0, lengths, 1.0), full_matrices=False)
+    base = vectors[:, singular > _DEPENDENT * singular.max(initial=0.0)]
+    whitened = whiten(fit.residual)
+    return Residuals(fit, whiten, base, whitened - base @ (base.T @ whitened))

@@ -1,0 +1,576 @@
+"""The search over sets: which effects together explain the readings, beside what has no name.
+
+A set is scored by its evidence: spike and slab (T. J. Mitchell and J. J. Beauchamp, J. Amer. Statist. Assoc.
+83 (1988) 1023), the coefficients of its effects, their searched parameters and σ averaged over, the
+amplitudes of all nameless parts chosen anew for each set. Effects come in, go out and take each other's
+places as long as the evidence grows; also in pairs where something without a name is left. The search begins
+twice, with and without nameless parts: beside random curves of any size a cause may look needless, and
+without them one may look needed that is a makeshift.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, untold
+from zlmreport.model.diagnosis.families import Family, orthonormal
+from zlmreport.model.effects.effect import Dimension, Effect
+
+#: Effects of a set at most, and moves of a search.
+_MOST_MEMBERS, _MOST_MOVES = 10, 24
+#: Candidates that a look at a set brings by its scan, those that are then tried, and of pairs and exchanges.
+_LISTED, _TRIED = 6, 3
+#: What a score may lack before its parameters are refined, and as a share of what the best one gains.
+_PROMISING, _SHARE_OF_GAIN = 12.0, 0.3
+_LISTED_FOR_ANOTHER, _TRIED_FOR_ANOTHER = 4, 2
+#: Evidence that a move must gain, and more where it changes what a set means.
+_GAIN, _CLEAR_GAIN = 0.01, 0.5
+#: Evidence by which another part of a grid must be better for a parameter to jump there.
+_JUMP = 2.0
+#: Values that are tried between two of a grid, in rounds, each about the best of the last.
+_BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
+_ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
+#: Evidence of each effect's own above which a set is not looked for again from another start.
+_SURE = 6.0
+#: What a value costs that lies beyond doubt outside of what is usual: odds of 20 to 1, and more the farther.
+UNUSUAL = 6.0
+#: Standard uncertainties beyond which nothing is in doubt; of a searched value, taken as a share of it.
+_DOUBT, _SHARE_OF_SEARCHED = 2.0, 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class Member:
+    """An effect of a set, at values of its searched parameters."""
+
+    family: Family
+    theta: FloatArray  #: (s,): Its searched parameters.
+    columns: IntArray  #: (k,) integer: Places of its columns.
+    rank: int  #: How many of them are not zero.
+    spread: float = 0.0  #: What it costs that θ had to be found.
+    tangents: IntArray | None = None  #: Place of what a shift of θ would change.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name the effect."""
+        return self.family.identifier
+
+    @property
+    def effect(self) -> Effect:
+        """The effect, in its form."""
+        return self.family.effect
+
+
+@dataclass(frozen=True, slots=True)
+class EffectSet:
+    """Effects together, with the amplitudes of what has no name beside them."""
+
+    members: tuple[Member, ...]
+    amplitudes: Amplitudes
+    score: float  #: −2·ln of its evidence, but for a constant of the test.
+
+    @property
+    def named(self) -> tuple[Member, ...]:
+        """Those that are installed effects."""
+        return tuple(each for each in self.members if each.family.is_named)
+
+    @property
+    def unnamed(self) -> tuple[Member, ...]:
+        """Forms without a name."""
+        return tuple(each for each in self.members if not each.family.is_named)
+
+    @property
+    def columns(self) -> list[IntArray]:
+        """The columns of its members."""
+        return [each.columns for each in self.members]
+
+    @property
+    def columns_with_tangents(self) -> list[IntArray]:
+        """The same, and what shifts of their searched parameters would change."""
+        return [*self.columns, *(each.tangents for each in self.members if each.tangents is not None)]
+
+
+class SetSearch:
+    """A search over sets in a contest."""
+
+    def __init__(self, contest: Contest) -> None:
+        self.contest = contest
+        self._is_quiet = False  # whether nameless parts are left out
+
+    def found(self, start: Sequence[Member] = (), told: Told = untold) -> EffectSet:
+        """Return the set with the most evidence.
+
+        `start`: Effects that are in it at first, and may go out.
+        """
+        self._is_quiet = True
+        quiet = self._climb(self._with(start, self.contest.quiet))
+        told(0.3)
+        self._is_quiet = False
+        released = self._climb(self._with(quiet.members, quiet.amplitudes))
+        told(0.5)
+        is_whole = bool(released.named) and not self.has_nameless(released)
+        if is_whole and min(self.own_evidence(released)) > _SURE:
+            return released
+        beside = self._climb(self._with(start, self.contest.quiet))
+        told(0.8)
+        best, other = sorted((released, beside), key=lambda each: each.score)
+        members = best.members
+        for each in other.members:
+            if len(_beside(members, each.effect)) == len(members):
+                members = (*members, each)
+        if len(members) > len(best.members):
+            best = min(best, self._climb(self._with(members, best.amplitudes)), key=lambda each: each.score)
+        told(1.0)
+        return best
+
+    def alone(self) -> EffectSet:
+        """Return what there is without any effect."""
+        return self._with((), self.contest.quiet)
+
+    def has_nameless(self, found: EffectSet) -> bool:
+        """Whether anything without a name is in a set, beyond what noise may be."""
+        return bool(found.unnamed) or self.contest.as_noise(found.amplitudes) != found.amplitudes
+
+    def own_evidence(self, found: EffectSet) -> list[float]:
+        """Return for each member the evidence that the set loses without it, all else following."""
+        return [self.without(found, number).score - found.score for number in range(len(found.members))]
+
+    def without(self, found: EffectSet, number: int) -> EffectSet:
+        """Return a set without one of its members, what has no name as it then is."""
+        members = (*found.members[:number], *found.members[number + 1 :])
+        return self._with(members, found.amplitudes)
+
+    def as_noise(self, members: Sequence[Member]) -> EffectSet:
+        """Return a set beside which there is nothing but noise."""
+        self._is_quiet = True
+        found = self._with(members, self.contest.quiet)
+        self._is_quiet = False
+        return found
+
+    def member_of(self, effect: Effect, theta: FloatArray) -> Member:
+        """Return an effect of the contest at values of its searched parameters as a member of a set."""
+        family = next(
+            each
+            for each in self.contest.families
+            if each.identifier == effect.identifier and each.effect.settings == effect.settings
+        )
+        contest = self.contest
+        blocks, ranks, _ = orthonormal(
+            contest.space, contest.design, effect, theta[np.newaxis], contest.least_visible
+        )
+        return Member(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
+
+    def rivals(self, found: EffectSet, rest: EffectSet, within: float) -> list[EffectSet]:
+        """Return the sets in which another effect stands in the place of a member, best first.
+
+        `rest`: The set without it.
+        `within`: What evidence they may lack.
+        """
+        known = {each.identifier for each in found.members}
+
+        def is_another(family: Family) -> bool:
+            return family.is_named and family.identifier not in known
+
+        beside = replace(rest, amplitudes=found.amplitudes)
+        tried = {
+            each.members[-1].identifier: each
+            for start in (rest, beside)
+            for each in reversed(
+                self._ahead(start, _LISTED, _TRIED, is_another, found.score + within + _PROMISING)
+            )
+        }
+        near = [each for each in tried.values() if each.score < found.score + within]
+        return sorted(near, key=lambda each: each.score)
+
+    def ahead(self, found: EffectSet) -> list[EffectSet]:
+        """Return a set with one more installed effect, each effect once, the most promising first."""
+        tried = self._ahead(found, _LISTED, _TRIED, lambda family: family.is_named)
+        return list({each.members[-1].identifier: each for each in reversed(tried)}.values())[::-1]
+
+    def best_unnamed(self, found: EffectSet) -> Member | None:
+        """Return the form without a name that adds most to a set; None if none adds anything."""
+        tried = self._ahead(found, _LISTED, _TRIED, lambda family: not family.is_named)
+        return tried[0].members[-1] if tried else None
+
+    def _with(self, members: Sequence[Member], amplitudes: Amplitudes) -> EffectSet:
+        """Return a set with its best amplitudes near others."""
+        return self._scored(members, self._amplitudes([each.columns for each in members], amplitudes))
+
+    def _scored(self, members: Sequence[Member], amplitudes: Amplitudes) -> EffectSet:
+        columns = [each.columns for each in members]
+        score = self.contest.criterion(amplitudes, columns) + self._cost(members, amplitudes)
+        return EffectSet(tuple(members), amplitudes, score)
+
+    def _cost(self, members: Sequence[Member], amplitudes: Amplitudes) -> float:
+        """Return what the members cost: prior odds, coefficients, searched parameters, unusual values."""
+        if not members:
+            return 0.0
+        contest = self.contest
+        reduced = contest.reduced(amplitudes, [each.columns for each in members])
+        squares, taken = contest.left(reduced)
+        variance = squares / contest.space.degrees
+        solved = reduced.set_root.T @ taken[len(reduced.root) :] * np.sqrt(contest.squares)
+        inverse = reduced.set_root.T @ reduced.set_root
+        cost, first = 0.0, 0
+        for each in members:
+            own = slice(first, first + len(each.columns))
+            first = own.stop
+            information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
+            explained = float(solved[own] @ information @ solved[own]) / variance
+            square = contest.expected.square(each.identifier)
+            cost += contest.worth(explained, each.rank, square) + each.family.price + each.spread
+            if each.family.is_named:
+                cost += self._unusual(each, solved[own], variance * inverse[own, own])
+        return cost
+
+    def _unusual(self, member: Member, solved: FloatArray, covariance: FloatArray) -> float:
+        """Return what it costs that values lie beyond what is usual."""
+        effect, design = member.effect, self.contest.design
+        linear = [each for each in effect.linear if each.smallest is not None or each.largest is not None]
+        cost = sum(
+            _beyond(value, _SHARE_OF_SEARCHED * abs(value), each.smallest, each.largest)
+            for each, value in zip(effect.searched, member.theta.tolist(), strict=True)
+            if not (each.dimension is Dimension.TIME and design.time_is_counted)
+        )
+        if not linear:
+            return cost
+        # The columns of a block are orthonormal: turn what was solved into the parameters.
+        contrasts = self.contest.space.of(effect.columns(design, member.theta))
+        values = self.contest.columns.values(member.columns)
+        turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
+        gamma, spread = turn @ solved, np.sqrt(np.maximum(np.diagonal(turn @ covariance @ turn.T), 0.0))
+        return cost + sum(
+            _beyond(float(value), float(own), each.smallest, each.largest)
+            for each, value, own in zip(effect.linear, gamma, spread, strict=True)
+        )
+
+    def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
+        """Return the best amplitudes of all parts near others, one after another."""
+        contest = self.contest
+        now = contest.as_noise(start) if self._is_quiet else start
+        best = contest.criterion(now, columns)
+        irregular = [number for number, part in enumerate(contest.parts) if part.irregular is not None]
+        smooth = [number for number in range(len(contest.parts)) if number not in irregular]
+        for turn in range(_ROUNDS_OF_AMPLITUDES):
+            before = best
+            silent = [number for number in smooth if not now[number]]
+            for numbers in [silent, *([number] for number in smooth if now[number])]:
+                if not numbers:
+                    continue
+                tried = [
+                    each[: self._levels(number)]
+                    for number, each in zip(numbers, contest.by_level(now, columns, numbers), strict=True)
+                ]
+                leading = min(range(len(numbers)), key=lambda place: float(tried[place].min()))
+                if tried[leading].min() < best - _NOTHING:
+                    best = float(tried[leading].min())
+                    now = _moved(now, numbers[leading], int(np.argmin(tried[leading])))
+            for number in irregular:
+                level, noise = now[number], contest.parts[number].noise_levels
+                others = {0, level - 1, level + 1} if level or turn else {1, noise - 1, noise, noise + 2}
+                for other in sorted(others - {level}):
+                    if 0 <= other < self._levels(number):
+                        criterion = contest.criterion(_moved(now, number, other), columns)
+                        if criterion < best - _NOTHING:
+                            best, now = criterion, _moved(now, number, other)
+            if best > before - _SETTLED:
+                break
+        return now
+
+    def _levels(self, number: int) -> int:
+        """Return how many levels of a part are thought of."""
+        part = self.contest.parts[number]
+        return part.noise_levels if self._is_quiet else len(part.levels)
+
+    def _climb(self, start: EffectSet) -> EffectSet:
+        """Return the best set that moves lead to, one after another."""
+        now = self._shrunk(start)
+        for _ in range(_MOST_MOVES):
+            larger = self._larger(now, _LISTED, _TRIED) if len(now.members) < _MOST_MEMBERS else None
+            if larger is not None and larger.score < now.score - _GAIN:
+                now = self._shrunk(larger)
+                continue
+            other = self._exchanged(now)
+            if other is None:
+                other = self._parted(now)
+            if other is None and self.has_nameless(now):
+                other = self._paired(now)
+            if other is None:
+                return now
+            now = self._shrunk(other)
+        return now
+
+    def _shrunk(self, now: EffectSet) -> EffectSet:
+        """Return a set without the members that the others make needless."""
+        while now.members:
+            fewer = [
+                self._with((*now.members[:number], *now.members[number + 1 :]), now.amplitudes)
+                for number in range(len(now.members))
+            ]
+            best = min(fewer, key=lambda each: each.score)
+            if best.score >= now.score:
+                return now
+            now = best
+        return now
+
+    def _larger(self, now: EffectSet, listed: int, tried: int) -> EffectSet | None:
+        ahead = self._ahead(now, listed, tried)
+        return self._settled(ahead[0]) if ahead else None
+
+    def _exchanged(self, now: EffectSet) -> EffectSet | None:
+        """Return a better set in which one effect takes the place of another; None if there is none.
+
+        What has searched parameters may stand for two: then a second effect, or itself at other values, comes
+        in as well.
+        """
+        limit = now.score + _PROMISING
+        for number, member in enumerate(now.members):
+            rest = replace(now, members=(*now.members[:number], *now.members[number + 1 :]))
+
+            def is_another(family: Family, own: str = member.identifier) -> bool:
+                return family.identifier != own
+
+            for each in self._ahead(rest, _LISTED_FOR_ANOTHER, _TRIED_FOR_ANOTHER, is_another, limit):
+                if each.score < now.score - _CLEAR_GAIN:
+                    settled = self._settled(each)
+                    if settled.score < now.score - _CLEAR_GAIN:
+                        return settled
+        return None
+
+    def _parted(self, now: EffectSet) -> EffectSet | None:
+        """Return a better set in which two effects do what one stands for; None if there is none.
+
+        A wave in time with the period of a run does what a bow of the reversal does: only where that is in
+        the set, the wave is found at the period that is its own.
+        """
+        for number, member in enumerate(now.members):
+            if len(member.family.thetas) == 1:
+                continue
+            rest = replace(now, members=(*now.members[:number], *now.members[number + 1 :]))
+
+            def is_another(family: Family, own: str = member.identifier) -> bool:
+                return family.identifier != own
+
+            for each in self._ahead(rest, _LISTED, _TRIED_FOR_ANOTHER, is_another):
+                larger = self._larger(each, _TRIED, _TRIED_FOR_ANOTHER)
+                if larger is not None and larger.score < now.score - _CLEAR_GAIN:
+                    return larger
+        return None
+
+    def _paired(self, now: EffectSet) -> EffectSet | None:
+        """Return a better set with two more effects; None if there is none."""
+        for each in self._ahead(now, _LISTED, _LISTED_FOR_ANOTHER):
+            larger = self._larger(each, _TRIED, _TRIED_FOR_ANOTHER)
+            if larger is not None and larger.score < now.score - _CLEAR_GAIN:
+                return larger
+        return None
+
+    def _ahead(
+        self,
+        now: EffectSet,
+        listed: int,
+        tried: int,
+        wanted: Callable[[Family], bool] = lambda _: True,
+        limit: float | None = None,
+    ) -> list[EffectSet]:
+        """Return the most promising sets with one more effect, the best first.
+
+        `listed`, `tried`: How many a scan brings, and how many of these are tried.
+        `wanted`: Which families are thought of.
+        `limit`: The score before any refinement beyond which nothing is tried; without it, that of the best
+            and somewhat more.
+        """
+        glanced = []
+        for family, block, spread in self._leading(now, listed, wanted):
+            member = Member(
+                family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread
+            )
+            members = (*_beside(now.members, member.effect), member)
+            glanced.append(self._glanced(members, now.amplitudes))
+        glanced.sort(key=lambda each: each.score)
+        if limit is None and glanced:
+            limit = glanced[0].score + _PROMISING + _SHARE_OF_GAIN * max(now.score - glanced[0].score, 0.0)
+        promising = [each for each in glanced[:tried] if each.score < (limit or 0.0)]
+        return sorted((self._tried(each) for each in promising), key=lambda each: each.score)
+
+    def _leading(
+        self, now: EffectSet, listed: int, wanted: Callable[[Family], bool]
+    ) -> Iterator[tuple[Family, int, float]]:
+        """Yield the families that would add most, with and without the nameless parts."""
+        contest, seen = self.contest, set()
+        for amplitudes in dict.fromkeys((now.amplitudes, contest.as_noise(now.amplitudes))):
+            scan = contest.scan(amplitudes, now.columns_with_tangents)
+            names: set[str] = set()
+            for number in np.argsort(scan.criterion, kind="stable").tolist():
+                family, choice = contest.families[number], (number, int(scan.best[number]))
+                if not np.isfinite(scan.criterion[number]) or len(names) == listed:
+                    break
+                if family.identifier in names or not wanted(family):
+                    continue
+                names.add(family.identifier)
+                if choice not in seen:
+                    seen.add(choice)
+                    yield family, choice[1], float(scan.spread[number])
+
+    def _glanced(self, members: Sequence[Member], amplitudes: Amplitudes) -> EffectSet:
+        """Return a set with nameless parts lowered where that is better at once."""
+        contest, columns = self.contest, [each.columns for each in members]
+        best, now = contest.criterion(amplitudes, columns), amplitudes
+        quiet = contest.as_noise(amplitudes)
+        if quiet != amplitudes:
+            tried = [quiet]
+            for number, part in enumerate(contest.parts):
+                if amplitudes[number] >= part.noise_levels:
+                    tried += [_moved(amplitudes, number, level) for level in (0, amplitudes[number] - 1)]
+            for each in tried:
+                criterion = contest.criterion(each, columns)
+                if criterion < best:
+                    best, now = criterion, each
+        return EffectSet(tuple(members), now, best + self._cost(members, now))
+
+    def _tried(self, glanced: EffectSet) -> EffectSet:
+        """Return a set with one effect more, its parameters between those of the grid."""
+        members = list(glanced.members)
+        amplitudes = self._amplitudes(glanced.columns, glanced.amplitudes)
+        members, has_moved = self._jumped(members, amplitudes)
+        if has_moved:
+            amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
+        members[-1] = self._refined(members, len(members) - 1, amplitudes)
+        return self._scored(members, amplitudes)
+
+    def _settled(self, now: EffectSet) -> EffectSet:
+        """Return a set with all its parameters refined and its amplitudes chosen anew."""
+        members, amplitudes = list(now.members), now.amplitudes
+        for _ in range(2):
+            for number in range(len(members)):
+                members[number] = self._refined(members, number, amplitudes)
+        amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
+        members, _ = self._jumped(members, amplitudes)
+        return self._scored(members, amplitudes)
+
+    def _jumped(self, members: list[Member], amplitudes: Amplitudes) -> tuple[list[Member], bool]:
+        """Return members at better parts of their grids, beside each other, and whether any moved."""
+        contest, found, has_moved = self.contest, list(members), False
+        for number, member in enumerate(members):
+            forms = [
+                place
+                for place, each in enumerate(contest.families)
+                if each.identifier == member.identifier and each.is_named == member.family.is_named
+            ]
+            if len(forms) == 1 and len(member.family.thetas) == 1:
+                continue
+            rest = [each.columns for place, each in enumerate(found) if place != number]
+            scan = contest.scan(amplitudes, rest, forms)
+            best = min(forms, key=lambda place: float(scan.criterion[place]))
+            own = next(place for place in forms if contest.families[place] is member.family)
+            if not np.isfinite(scan.criterion[best]):
+                continue
+            is_other = scan.criterion[best] < scan.criterion[own] - _CLEAR_GAIN
+            chosen = best if is_other else own
+            family, block = contest.families[chosen], int(scan.best[chosen])
+            moved = contest.criterion(amplitudes, [*rest, family.blocks[block]])
+            if is_other or moved < contest.criterion(amplitudes, [*rest, member.columns]) - _JUMP:
+                found[number] = Member(
+                    family, family.thetas[block], family.blocks[block], int(family.ranks[block])
+                )
+                has_moved = True
+            found[number] = replace(found[number], spread=float(scan.spread[chosen]))
+        return found, has_moved
+
+    def _refined(self, members: Sequence[Member], number: int, amplitudes: Amplitudes) -> Member:
+        """Return a member with its searched parameters between those of the grid, one after another."""
+        contest, member = self.contest, members[number]
+        family, effect = member.family, member.effect
+        places = [
+            (column, np.unique(family.thetas[:, column]))
+            for column, each in enumerate(effect.searched)
+            if each.is_refined
+        ]
+        places = [(column, values) for column, values in places if len(values) > 1]
+        if not places:
+            return member
+        rest = contest.reduced(
+            amplitudes, [each.columns for place, each in enumerate(members) if place != number]
+        )
+        taken = contest.left(rest)[1]
+        theta = member.theta.copy()
+        most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis], taken)[0])
+        best: tuple[FloatArray, int] | None = None
+        steps = {}
+        for column, values in places:
+            near = int(np.clip(np.searchsorted(values, theta[column]), 1, len(values) - 1))
+            step = steps[column] = float(values[near] - values[near - 1])
+            for _ in range(_ROUNDS):
+                tried = np.repeat(theta[np.newaxis], _BETWEEN, axis=0)
+                tried[:, column] += step * np.linspace(-_REACH, _REACH, _BETWEEN)
+                tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
+                blocks, ranks, seen = orthonormal(
+                    contest.space, contest.design, effect, tried, contest.least_visible
+                )
+                if not len(seen):
+                    break
+                explained = contest.explained(rest, blocks, taken)
+                leading = int(np.argmax(explained))
+                if explained[leading] > most:
+                    most, theta = float(explained[leading]), tried[seen[leading]]
+                    best = blocks[:, leading], int(ranks[leading])
+                step *= _CLOSER
+        columns = member.columns if best is None else contest.columns.add(best[0])
+        rank = member.rank if best is None else best[1]
+        moved = replace(member, theta=theta, columns=columns, rank=rank)
+        tangents = self._tangents(
+            [*members[:number], moved, *members[number + 1 :]], number, amplitudes, steps
+        )
+        return replace(moved, tangents=tangents)
+
+    def _tangents(
+        self, members: Sequence[Member], number: int, amplitudes: Amplitudes, steps: dict[int, float]
+    ) -> IntArray | None:
+        """Return the places of what small shifts of a member's searched parameters change."""
+        contest, member = self.contest, members[number]
+        reduced = contest.reduced(amplitudes, [each.columns for each in members])
+        taken = contest.left(reduced)[1]
+        solved = reduced.set_root.T @ taken[len(reduced.root) :]
+        first = sum(len(each.columns) for each in members[:number])
+        own = contest.columns.values(member.columns) @ solved[first : first + len(member.columns)]
+        effect, design = member.effect, contest.design
+        gamma = np.linalg.lstsq(contest.space.of(effect.columns(design, member.theta)), own, rcond=1e-9)[0]
+        found = []
+        for column, step in steps.items():
+            shift = np.where(np.arange(len(member.theta)) == column, 0.3 * step, 0.0)
+            change = effect.columns(design, member.theta + shift) - effect.columns(
+                design, member.theta - shift
+            )
+            slope = contest.space.of((change @ gamma)[:, np.newaxis])
+            length = float(np.linalg.norm(slope))
+            if length > 0:
+                found.append(slope / length)
+        return contest.columns.add(np.concatenate(found, axis=1)) if found else None
+
+
+def _moved(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
+    return (*amplitudes[:number], level, *amplitudes[number + 1 :])
+
+
+def _beside(members: Sequence[Member], effect: Effect) -> tuple[Member, ...]:
+    """Return the members that can stand beside an effect: none that it contains or takes the place of."""
+    replaced = {effect.identifier, *effect.contains}
+    return tuple(
+        each
+        for each in members
+        if each.identifier not in replaced and effect.identifier not in each.effect.contains
+    )
+
+
+def _beyond(value: float, uncertainty: float, smallest: float | None, largest: float | None) -> float:
+    """Return what a value costs for lying beyond doubt outside of a range, and the farther, the more."""
+    ends = [abs(each) for each in (smallest, largest) if each]
+    low = -np.inf if smallest is None else smallest
+    high = np.inf if largest is None else largest
+    excess = max(low - value, value - high, 0.0)
+    if excess <= _DOUBT * uncertainty or not ends:
+        return 0.0
+    return UNUSUAL + 2.0 * float(np.log1p((excess / max(ends)) ** 2))

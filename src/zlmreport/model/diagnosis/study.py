@@ -1,0 +1,382 @@
+"""A job's error model beside its readings: what every command and the certificate's annex begin with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from zlmreport.errors import InputError, Place, Problem
+from zlmreport.job.choices import EffectChoice, next_number, numbered
+from zlmreport.job.edit import CANDIDATES, NamedEffect, listed_items, named_effect
+from zlmreport.job.formula import names_in, parse_formula
+from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.job.installed import Installed
+from zlmreport.job.job import Job
+from zlmreport.language import Language, Words
+from zlmreport.language.numbers import significant_words
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.measurand import is_for
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.units import MICROMETRE, with_unit
+from zlmreport.model.diagnosis.building import Built, build
+from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, diagnose, error_numbers
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, chosen_effect, chosen_terms
+from zlmreport.model.effects.design import of_position
+from zlmreport.model.effects.effect import Effect, Shape
+from zlmreport.model.effects.harmonic import Harmonic, harmonics
+from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.estimate import Estimate, InstrumentError
+from zlmreport.model.fitting.fit import Assumptions, Fit, fit
+from zlmreport.model.fitting.observations import Observations, observations_of, of_readings, thinned
+from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.sessions import held_together, of_the_job, with_zeros
+
+#: The effect that is a full polynomial over the position.
+_POLYNOMIAL = "polynomial"
+#: Coverage factor of the instrument's uncertainty as a job states it.
+_COVERAGE_FACTOR = 2.0
+_AT_POSITIONS = frozenset({"at-each-position", "at-each-approach"})
+_KEY = "model.effects"
+_SESSIONS = "model.sessions"
+#: What a table of positions, one for each direction, can take away; the rest changes with time or run.
+BY_TABLE = frozenset({Shape.POSITION, Shape.DIRECTION})
+_CORRECTED = Words(
+    en="Predicted: less what the error model explains by {effects}",
+    de="Vorhergesagt: abzüglich dessen, was das Fehlermodell durch {effects} erklärt",
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Fitted:
+    """A fitted model, and how far it is from the readings."""
+
+    fit: Fit
+    error: ErrorNumbers
+
+
+def demand_effects_for(job: Job, effects: Sequence[Effect]) -> None:
+    """Refuse a job of several measured lines, and one on what no effect describes: nothing could be found."""
+    job.demand_one_line("an error model")
+    measurand = job.axis.measurand
+    own = any(each.is_formula for each in (*job.effects, *job.candidates))
+    if not own and not any(is_for(each, measurand) for each in effects):
+        raise InputError.at(
+            job.place_of("measurement.error"),
+            f"this job is on {measurand.identifier}, and no installed effect acts on that; a formula of "
+            f"your own "
+            "does: model.candidates",
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """The error model that a job names, and the readings that it is held against.
+
+    Its methods raise `InputError` at the place in the job where an effect stands that makes no sense on these
+    readings.
+    """
+
+    job: Job
+    measurements: MeasurementSet  #: Its readings.
+    model: AxisModel  #: Its effects, after the zeros of further sessions.
+    observed: Observations  #: Its readings as the model sees them, none set aside.
+    #: What fits take for granted: the error of the instrument, as the job states it.
+    assumptions: Assumptions
+    sessions: tuple[MeasurementSet, ...]  #: The readings of the job's further sessions.
+    #: The readings of all sessions below one another; without others, those of the job.
+    together: Observations
+
+    @classmethod
+    def of(
+        cls,
+        job: Job,
+        measurements: MeasurementSet,
+        effects: Sequence[Effect],
+        sessions: Sequence[MeasurementSet] = (),
+    ) -> Study:
+        """Begin the study of a job.
+
+        `sessions`: The readings of the further sessions that the job names.
+        """
+        demand_effects_for(job, effects)
+        find = {effect.identifier: effect for effect in effects}.__getitem__
+        own = _with_feed(observations_of(measurements), job)
+        names = [each.files[0].name for each in job.sessions]
+        others = [
+            _with_feed(observations_of(each), other)
+            for each, other in zip(sessions, job.sessions, strict=True)
+        ]
+        try:
+            together = held_together(own, list(zip(names, others, strict=True)))
+        except ModelError as error:
+            raise InputError(Problem(job.place_of(_SESSIONS), each) for each in error.sentences) from error
+        return cls(
+            job,
+            measurements,
+            with_zeros(AxisModel(chosen_terms(job.effects, find, job.axis.kind)), together.design),
+            of_the_job(together),
+            Assumptions(instrument=instrument_error(job, float(np.ptp(measurements.target_positions)))),
+            tuple(sessions),
+            together,
+        )
+
+    def fitted(self) -> Fitted:
+        """Return the model fitted to the readings, those that stand off set aside."""
+        return self._fitted(self.model)
+
+    def diagnosis(self, effects: Sequence[Effect], told: Told = untold) -> Diagnosis:
+        """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
+        try:
+            tried = self.tried(effects)
+            return diagnose(self.model, self.together, tried, self.assumptions, self._expected(), told=told)
+        except ModelError as error:
+            raise InputError(self._problems(error)) from error
+
+    def built(self, effects: Sequence[Effect], told: Told = untold) -> Built:
+        """Return the model that comes of adding, step by step, what has evidence of its own."""
+        tried = self.tried(effects)
+
+        def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+            expected = self._expected()
+            return diagnose(model, self.together, tried, self.assumptions, expected, may_go=may_go, told=told)
+
+        try:
+            return build(self.model, diagnosing, told)
+        except ModelError as error:
+            raise InputError(self._problems(error)) from error
+
+    def _expected(self) -> Expected | None:
+        """Return what the job says that earlier tests say."""
+        return Expected.of(self.job.priors, self.job.axis) if self.job.priors else None
+
+    def titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
+        """Return what installed effects and the formulas of the job are called, by identifier."""
+        of_model = (term.effect for term in self.model.terms)
+        return {each.identifier: each.title for each in (*self.tried(effects), *of_model)}
+
+    def tried(self, effects: Sequence[Effect]) -> list[Effect]:
+        """Return the effects that are tried: those for what was measured, and the formulas of the job."""
+        by_identifier: dict[str, Effect] = {}
+        kind = self.job.axis.kind
+        formulas = (chosen_effect(each, by_identifier.__getitem__, kind) for each in self.job.candidates)
+        return [*(each for each in effects if is_for(each, self.job.axis.measurand)), *formulas]
+
+    def history(self, whole: Fitted | None = None) -> tuple[Fitted, ...]:
+        """Return the fits of no effect, of the first, of the first two …, up to the whole model.
+
+        So a history needs no record beside the job, and says of every model what is true of it today.
+
+        `whole`: The fit of the whole model, where it is there already.
+        """
+        terms = self.model.terms
+        last = whole or self.fitted()
+        # How unequally readings scatter is seen from repeats, whatever the model.
+        assumptions = replace(self.assumptions, weights=last.fit.noise.weights)
+        parts = [self._fitted(AxisModel(terms[:count]), assumptions) for count in range(len(terms))]
+        return (*parts, last)
+
+    def _fitted(self, model: AxisModel, assumptions: Assumptions | None = None) -> Fitted:
+        every = thinned(self.together)
+        kept = every.without(outliers(every.design, every.deviation).readings)
+        try:
+            found = fit(model, kept.design, kept.deviation, assumptions or self.assumptions)
+        except ModelError as error:
+            raise InputError(self._problems(error)) from error
+        return Fitted(found, error_numbers(found))
+
+    def _problems(self, error: ModelError) -> Iterator[Problem]:
+        for sentence in error.sentences:
+            yield Problem(self._place_of(sentence.partition(" ")[0]), sentence)
+
+    def _place_of(self, identifier: str) -> Place:
+        """Return where the job names an effect, or the list of effects if it does not."""
+        for choice in self.job.effects:
+            if choice.identifier == identifier:
+                return choice.place
+        return self.job.place_of(_KEY)
+
+
+def _with_feed(observed: Observations, job: Job) -> Observations:
+    """Return observations with the feed of the job beside them, where a formula has it and no log does."""
+    feed = job.keys.measurement.feed
+    used = any(
+        isinstance(each.settings, FormulaKeys) and "v" in names_in(parse_formula(each.settings.formula))
+        for each in (*job.effects, *job.candidates)
+    )
+    if not used or feed is None or "v" in observed.design.conditions:
+        return observed
+    log = read_only_floats(np.full(len(observed.deviation), feed))
+    conditions = {**observed.design.conditions, "v": log}
+    return replace(observed, design=replace(observed.design, conditions=conditions))
+
+
+def instrument_error(job: Job, length: float) -> InstrumentError:
+    """Return the error of the instrument as the budget takes it; none if it is not stated as a number.
+
+    What acts in time or at each reading differs within the test: the noise that the readings show has it
+    already. `length` is the measured one, m or rad.
+    """
+    stated = job.keys.instrument.stated_uncertainty if job.keys.instrument else None
+    constant, per_metre = stated or (0.0, 0.0)
+    u = job.axis.deviation_unit.to_si(constant) / _COVERAGE_FACTOR
+    acts = job.keys.uncertainty.instrument_acts or "at-each-position"
+    along = u / length if acts == "along-the-length" and length else 0.0
+    return InstrumentError(
+        common=u if acts == "at-the-datum" else 0.0,
+        proportional=math.hypot(MICROMETRE.to_si(per_metre) / _COVERAGE_FACTOR, along),
+        at_each_position=u if acts in _AT_POSITIONS else 0.0,
+        between_directions=u if acts == "between-directions" else 0.0,
+    )
+
+
+def addition(
+    text: str, job: Job, registry: Installed, effects: Sequence[Effect], place: Place
+) -> tuple[NamedEffect, tuple[str, ...]]:
+    """Return an effect that a person names, and the effects of the model that it takes the place of.
+
+    `text`: ``backlash``, or ``polynomial: {order: 5}`` as in a job, or the name of a formula of its
+        candidates.
+
+    Raises `InputError` if there is no such effect, or it stands in the model already; of those that may be
+    several, the next is meant.
+    """
+    named = _listed(text.strip(), job) or named_effect(text, registry, place)
+    identifier = named.choice.identifier
+    if any(each.identifier == identifier for each in job.effects) and not named.choice.is_formula:
+        again = next_number(named.choice.installed, job.effects)
+        if registry.effect(named.choice.installed).several and text.strip().startswith(identifier):
+            text = text.replace(identifier, numbered(named.choice.installed, again), 1)
+            named = named_effect(text, registry, place)
+            identifier = named.choice.identifier
+    for choice in job.effects:
+        if _meaning(choice) == _meaning(named.choice):
+            raise InputError.at(choice.place, f"{identifier} stands in the model already")
+    contains = next((each.contains for each in effects if each.identifier == identifier), ())
+    replaced = {identifier, *contains}
+    return named, tuple(each.identifier for each in job.effects if each.identifier in replaced)
+
+
+def _listed(name: str, job: Job) -> NamedEffect | None:
+    """Return a formula of a job's candidates by its name."""
+    nodes = listed_items(job, CANDIDATES)
+    pairs = zip(nodes, job.candidates, strict=True)
+    return next((NamedEffect(node, choice) for node, choice in pairs if choice.identifier == name), None)
+
+
+def refuse_useless(added: str, before: Fitted, after: Fitted, job: Job) -> None:
+    """Refuse an effect that does not lower the error.
+
+    Raises `InputError` with both errors.
+    """
+    if after.error.rms >= before.error.rms:
+        raise InputError.at(
+            job.place_of(_KEY),
+            f"{added} explains nothing here: the error would be {_rms(after)} with it and is "
+            f"{_rms(before)} without; the job was left as it is",
+        )
+
+
+def _rms(fitted: Fitted) -> str:
+    """Write an error with so many digits that a slight change shows."""
+    unit = fitted.fit.design.axis.deviation_unit
+    digits = significant_words(unit.from_si(fitted.error.rms), 4)
+    return with_unit(digits.in_language(Language.ENGLISH), unit.symbol)
+
+
+def _meaning(choice: EffectChoice) -> tuple[object, ...]:
+    return choice.identifier, choice.settings, dict(choice.values)
+
+
+def corrected(measurements: MeasurementSet, observed: Observations, fitted: Fit) -> MeasurementSet:
+    """Return the readings less what a model explains of them; none is left out, flagged ones neither.
+
+    `observed`: The same as the model sees them, none set aside.
+    """
+    left = measurements.deviation.copy()
+    taken = []
+    solution = fitted.solution
+    for term, theta, gamma in zip(fitted.model.terms, solution.thetas, solution.coefficients, strict=True):
+        left[observed.reading] -= term.effect.columns(observed.design, theta) @ gamma
+        taken.append(term.effect.identifier)
+    if not taken:
+        return measurements
+    provenance = measurements.provenance
+    remark = _CORRECTED.given(effects=", ".join(taken))
+    return replace(
+        measurements,
+        deviation=read_only_floats(left),
+        provenance=replace(provenance, remarks=(*provenance.remarks, remark)),
+    )
+
+
+def moves_with_time(fitted: Fit) -> tuple[str, ...]:
+    """Return the effects of a model that no table of positions takes away."""
+    return tuple(term.effect.identifier for term in fitted.model.terms if term.effect.shape not in BY_TABLE)
+
+
+def one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
+    """Yield the polynomial of each direction in powers of the position itself, with its covariance.
+
+    M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (2): a, b,
+    c, d, deviation and position both in mm or in degrees. It is fitted to the readings of that direction
+    alone, whatever else stands in the model; nothing where the model has no polynomial.
+    """
+    own = fitted.of_the_job
+    for term in fitted.model.terms:
+        for approach in Approach if term.effect.identifier == _POLYNOMIAL else ():
+            chosen = np.flatnonzero(own.design.direction == approach)
+            design = of_readings(own.design, chosen)
+            if not len(chosen) or term.effect.untestable(design):
+                continue
+            alone = fit(
+                AxisModel((Term(term.effect),)),
+                design,
+                own.deviation[chosen],
+                Assumptions(fitted.assumptions.instrument),
+            )
+            powers = np.arange(len(term.effect.linear))
+            scale = design.axis.position_unit.per_si ** (1.0 - powers)
+            turn = scale[:, np.newaxis] * of_position(len(powers) - 1, design.span)
+            yield (
+                approach,
+                turn @ alone.solution.coefficients[0],
+                turn @ alone.uncertainties.covariance @ turn.T,
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class Wave:
+    """A harmonic of a periodic effect."""
+
+    effect: str  #: Identifier of the effect.
+    harmonic: Harmonic  #: Its amplitude and phase with standard uncertainties, SI.
+    coverage_factor: float  #: k for 95 %, of both.
+
+
+def waves(fitted: Fit) -> tuple[Wave, ...]:
+    """Return the harmonics of all periodic effects of a model; one with a given parameter is left out."""
+    return tuple(_waves(fitted))
+
+
+def _waves(fitted: Fit) -> Iterator[Wave]:
+    covariance = fitted.uncertainties.covariance
+    first = 0
+    for term in fitted.model.terms:
+        solved = int(np.count_nonzero(term.is_solved))
+        columns = slice(first, first + solved)
+        first += solved
+        if solved < len(term.effect.linear):
+            continue
+        own: list[Estimate] = [
+            each
+            for each in fitted.estimates
+            if each.effect == term.effect.identifier and each.parameter in term.effect.linear
+        ]
+        values = np.array([each.value for each in own])
+        for harmonic in harmonics(term.effect.linear, values, covariance[columns, columns]):
+            yield Wave(term.effect.identifier, harmonic, own[0].coverage_factor)

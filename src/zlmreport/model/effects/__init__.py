@@ -1,0 +1,1 @@
+"""What effects are, and an axis as their sum."""

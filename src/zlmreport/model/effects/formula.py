@@ -1,0 +1,380 @@
+"""Effects that are written as formulas, without Python: in a job, or in a catalogue of effects."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from zlmreport.job.formula import Call, Number, Tree, calls_in, computed, names_in, parse_formula
+from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys, FormulaParameter, Search
+from zlmreport.job.formula_parts import AXIS_KEYS, TABLES, UNITS, Formula, kinds_of
+from zlmreport.job.types import Options
+from zlmreport.language import Words, same
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import STATE_OF_AIR
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import (
+    CHOSEN_RANGES,
+    Confusion,
+    Dimension,
+    Effect,
+    NamedValue,
+    Parameter,
+    Shape,
+    needs_both_directions,
+    needs_linear_axis,
+    needs_logged,
+    needs_moments,
+    needs_passing_time,
+    needs_pause,
+    needs_rotary_axis,
+    needs_runs,
+    needs_stated,
+    needs_targets,
+    needs_whole_period,
+    unit_of,
+)
+from zlmreport.model.effects.formula_settings import OTHER, options_of, tried_settings
+from zlmreport.model.effects.harmonic import harmonic_parameters
+from zlmreport.model.effects.readings import logged_rise, readings_of
+from zlmreport.model.effects.searching import NOT_REFINED, search_grid, values_of
+
+#: Steps that find a joint between two positions, each to half the distance.
+_HALVINGS = 40
+#: Functions that repeat with their argument, that fade with it, and that jump or bend where it is zero.
+_WAVES = frozenset({"sin", "cos", "tan"})
+_FADING = frozenset({"exp", "tanh", "atan"})
+_JOINTS = frozenset({"step", "sign", "abs", "min", "max", "floor"})
+_STATED = Words(
+    en="stated where the formula is written; no standard states them",
+    de="dort angegeben, wo die Formel steht; keine Norm nennt sie",
+)
+_LOOK = Words(en="The residuals follow {formula}.", de="Die Residuen folgen {formula}.")
+_MEANING = Words(en="parameter of {formula}", de="Parameter von {formula}")
+_AGAIN = Words(en="{title}, number {number}", de="{title}, Nummer {number}")
+_KNOWN = {
+    "published": Words(en="published", de="veröffentlicht"),
+    "derived": Words(en="derived by algebra", de="rechnerisch hergeleitet"),
+    "experience": Words(
+        en="engineering experience; no standard states it", de="Ingenieurerfahrung; keine Norm nennt es"
+    ),
+}
+_FROM = Words(en="{known}: {source}", de="{known}: {source}")
+#: Of a value that the job states, the harmonics by which another is no other.
+_HARMONICS, _SAME = np.arange(1, 5), 1e-3
+
+
+class FormulaEffect(Effect):
+    """An effect that is written as a formula in a file.
+
+    Raises `FormulaError` if it cannot be meant for an axis of this kind.
+
+    Parameters
+    ----------
+    keys
+        What the file says of it.
+    kind
+        Of the axis; without it the effect is for every kind whose units its parameters have, and those of a
+        linear axis stand for their like on a rotary one.
+    settings
+        The values of its job keys in this form of it.
+    number
+        For which time it stands in a model.
+    """
+
+    def __init__(
+        self,
+        keys: FormulaKeys,
+        kind: AxisKind | None = None,
+        settings: Options | None = None,
+        number: int = 1,
+    ) -> None:
+        self.keys = keys  #: As the file says it.
+        self.options = options_of(keys)
+        self.settings = settings or self.options()
+        self._kind, self._number = kind, number
+        #: In SI, and parted into what is solved and what is searched.
+        self.formula = Formula.of(keys, kind or (kinds_of(keys) or list(AxisKind))[0], *self._form())
+        title = keys.title or same(keys.name)
+        self.identifier = keys.name if number == 1 else f"{keys.name}-{number}"
+        self.title = title if number == 1 else _AGAIN.given(title=title, number=number)
+        self.equation = keys.equation or keys.formula
+        self.physics = keys.physics
+        self.remedy = keys.remedy
+        self.look = keys.look or _LOOK.given(formula=keys.formula)
+        self.ranges_from = keys.ranges_from or (CHOSEN_RANGES if keys.look else _STATED)
+        self.source = _source(keys)
+        self.confusions = tuple(Confusion(*each) for each in keys.taken_for.items())
+        self.contains = keys.contains
+        self.measurands = keys.acts_on
+        self.several = keys.several
+        self._ways = self._searched()
+        parameters = {
+            each.name: each
+            for name in keys.parameters
+            for each in self._parameters(name, self.formula.parts.get(name))
+        }
+        self.linear = tuple(parameters[name] for name in self.formula.linear)
+        self.searched = tuple(parameters[name] for name in self.formula.searched)
+        self.shape = self._shape()
+
+    def _form(self) -> tuple[tuple[int, ...] | None, Mapping[str, str]]:
+        """Return the harmonics of this form, and the values of the keys that choose it."""
+        harmonics = getattr(self.settings, "harmonics", None) if self.keys.harmonics else None
+        return harmonics, {each.name: str(getattr(self.settings, each.name)) for each in self.keys.keys}
+
+    def _is_other(self, parameter: FormulaParameter) -> bool:
+        """Return whether other values of a parameter are tried than that which the axis states."""
+        return parameter.instead is not None and getattr(self.settings, parameter.instead.key) == OTHER
+
+    def _searched(self) -> dict[str, Search | FloatArray]:
+        """Return where the search for parameters begins of which not every value in a range makes sense."""
+        found: dict[str, Search | FloatArray] = {}
+        for name, each in self.keys.parameters.items():
+            values = self.formula.sensible(name)
+            if each.instead and self._is_other(each):
+                found[name] = np.array(each.instead.values) / self.formula.units[name].per_si
+            elif values is not None:
+                found[name] = values
+            elif each.search:
+                found[name] = each.search
+        return found
+
+    def _parameters(self, name: str, parts: tuple[str, ...] | None) -> tuple[Parameter, ...]:
+        own, per_si = self.keys.parameters[name], self.formula.units[name].per_si
+        low, high = (None if each is None else each / per_si for each in own.range or (None, None))
+        usual = None if own.usual is None else (own.usual[0] / per_si, own.usual[1] / per_si)
+        on_rotary = own.usual_on_rotary
+        if on_rotary is not None:
+            there = UNITS[AxisKind.ROTARY][UNITS_OF_PARAMETERS.get(own.spelled, own.spelled)].per_si
+            on_rotary = (on_rotary[0] / there, on_rotary[1] / there)
+        if parts:
+            sizes = harmonic_parameters(self._form()[0] or (1,), high or np.inf)
+            return tuple(
+                replace(each, usual=usual, usual_on_rotary=on_rotary, question=own.question) for each in sizes
+            )
+        kind = self._kind or (AxisKind.LINEAR if AxisKind.LINEAR in kinds_of(self.keys) else AxisKind.ROTARY)
+        way = self._ways.get(name)
+        of_list = way is not None and not isinstance(way, Search)
+        return (
+            Parameter(
+                name,
+                own.notation or name,
+                next(each for each in Dimension if unit_of(each, kind).ascii == own.spelled),
+                own.meaning or _MEANING.given(formula=self.keys.formula),
+                low,
+                high,
+                is_refined=own.instead is not None if of_list else way not in NOT_REFINED,
+                usual=usual,
+                usual_on_rotary=on_rotary,
+                question=own.question,
+                question_below=own.question_below,
+                named=tuple(
+                    NamedValue(each.between[0] / per_si, each.between[1] / per_si, each.says)
+                    for each in own.meanings
+                ),
+            ),
+        )
+
+    def _shape(self) -> Shape:
+        names = self.formula.names
+        if {"t", "v", "air_index"} & {*names} or self.formula.columns:
+            return Shape.TIME
+        if "run" in names:
+            return Shape.RUN
+        return Shape.DIRECTION if "D" in names else Shape.POSITION
+
+    def with_settings(self, settings: Any) -> Effect:
+        """Return the form of the effect that its job keys ask for."""
+        if settings == self.settings:
+            return self
+        return FormulaEffect(self.keys, self._kind, settings, self._number)
+
+    def repeated(self, number: int) -> Effect:
+        """Return the effect as it stands in a model for the second time, or the third."""
+        if not self.several or number == self._number:
+            return self
+        return FormulaEffect(self.keys, self._kind, self.settings, number)
+
+    def forms(self) -> tuple[Effect, ...]:
+        """Return a form for each choice, for each set of harmonics that is tried, and for other periods."""
+        return tuple(map(self.with_settings, tried_settings(self.keys, self.options)))
+
+    def further_forms(self) -> tuple[Effect, ...]:
+        """Return the forms with more harmonics."""
+        further = self.keys.harmonics.further if self.keys.harmonics else ()
+        return tuple(self.with_settings(self.options.model_validate({"harmonics": each})) for each in further)
+
+    def untestable(self, design: Design) -> Words | None:
+        """Demand what stands in the formula, and what the file says that it needs beside."""
+        needs, names = self.keys.needs, self.formula.names
+        logs = (
+            *self.formula.columns,
+            *(STATE_OF_AIR if "air_index" in names else ()),
+            *(("v",) if "v" in names else ()),
+        )
+        return (
+            (needs_rotary_axis(design) if "turn" in names or needs.axis == "rotary" else None)
+            or (needs_linear_axis(design) if needs.axis == "linear" else None)
+            or (needs_both_directions(design) if needs.both_directions else None)
+            or self._unstated(design.axis)
+            or self._without_period(design)
+            or needs_logged(design, *logs)
+            or (needs_passing_time(design) if "t" in names else None)
+            or needs_targets(design, needs.targets or 1)
+            or needs_runs(design, needs.runs or 1)
+            or (needs_moments(design) if self._searches(Search.MOMENT) else None)
+            or (needs_pause(design) if self._searches(Search.PAUSE) else None)
+        )
+
+    def _searches(self, way: Search) -> bool:
+        return any(each is way for each in self._ways.values())
+
+    def _unstated(self, axis: Axis) -> Words | None:
+        """Return which key of the axis a formula has and the job does not state."""
+        known = {*AXIS_KEYS, *TABLES} - self.keys.parameters.keys()
+        keys = [TABLES.get(name, name) for name in self.formula.names if name in known]
+        for parameter in self.searched:
+            own = self.keys.parameters[parameter.name]
+            if own.stated and (parameter.name not in self._ways or self._is_other(own)):
+                keys.extend(name for name in names_in(parse_formula(own.stated)) if name in AXIS_KEYS)
+        return next((why for key in keys if (why := needs_stated(getattr(axis, key), f"axis.{key}"))), None)
+
+    def _without_period(self, design: Design) -> Words | None:
+        """Return that the measured travel holds no whole period of those that are tried."""
+        key = self.keys.needs.whole_period
+        if key is None or any(map(self._is_other, self.keys.parameters.values())):
+            return None
+        return needs_whole_period(design, getattr(design.axis, key), f"axis.{key}")
+
+    def forbids(self, design: Design, values: Mapping[str, float]) -> Words | None:
+        """Return why physics and the log of a test forbid values of parameters, SI."""
+        rise = logged_rise(design)
+        for name, value in values.items():
+            low, high = self.formula.possible(name, rise)
+            possible = self.keys.parameters[name].possible if name in self.keys.parameters else None
+            if possible is not None and not low <= value <= high:
+                return possible.because
+        return None
+
+    def tried_in(self, design: Design) -> Words | None:
+        """Return which values of a parameter are tried where no key of the axis states it."""
+        known = self._of_axis(design.axis)
+        notes = (self.keys.parameters[each.name].unstated for each in self.searched if each.name not in known)
+        return next((note for note in notes if note is not None), None)
+
+    def grid(self, design: Design) -> FloatArray:
+        """Return values that a search begins with; those that are given or stated are known."""
+        stated = self._of_axis(design.axis)
+        ways, known = dict(self._ways), self.formula.given | stated
+        for name, own in self.keys.parameters.items():
+            if own.instead is None:
+                continue
+            usual = np.array(own.instead.values) / self.formula.units[name].per_si
+            if self._is_other(own):
+                ways[name] = _but_for(usual, known.pop(name), is_count=own.spelled == "1")
+            elif name not in known:
+                ways[name] = np.union1d(values_of(ways[name], design), usual)
+        found = search_grid(design, self.searched, known, ways)
+        skipped = self._number - 1  # which of several is which says their order
+        return found[skipped:] if skipped < len(found) else found
+
+    def expected(self, axis: Axis) -> dict[str, float]:
+        """Return what the job states of parameters, and the values that they have if this is the cause."""
+        expected = {
+            name: each.expected / self.formula.units[name].per_si
+            for name, each in self.keys.parameters.items()
+            if each.expected is not None
+        }
+        return self._of_axis(axis) | expected
+
+    def _of_axis(self, axis: Axis) -> dict[str, float]:
+        """Return the values of parameters that keys of the axis state, SI."""
+        keys = {name: getattr(axis, name) for name in AXIS_KEYS} | {"turn": 2 * np.pi}
+        found = {}
+        for parameter in (*self.linear, *self.searched):
+            value = self.formula.stated(parameter.name, keys)
+            if value is not None:
+                whole = self.keys.parameters[parameter.name].search is Search.WHOLE_NUMBER
+                found[parameter.name] = float(round(value)) if whole else value
+        return found
+
+    def columns(self, design: Design, theta: FloatArray) -> FloatArray:
+        """Return what each linear parameter is multiplied with."""
+        return self.formula.values(self._readings(design), self._named(theta))
+
+    def shortest_wave(self, along: Design, theta: FloatArray) -> float:
+        """Return the length of the shortest wave at rising positions, m or rad; infinite without any."""
+        calls = calls_in(self.formula.tree, _WAVES)
+        phases = [self._over_position(call.arguments[0], along, theta)(along.position) for call in calls]
+        return 2 * np.pi * _shortest(along, phases)
+
+    def shortest_fading(self, along: Design, theta: FloatArray) -> float:
+        """Return the shortest length over which a part of it comes or goes, m or rad; infinite without."""
+        calls = calls_in(self.formula.tree, _FADING)
+        values = [self._over_position(call, along, theta)(along.position) for call in calls]
+        return _shortest(along, [value / np.abs(value).max() for value in values if value.any()])
+
+    def joints(self, along: Design, theta: FloatArray) -> list[float]:
+        """Return where it jumps or bends between rising positions, m or rad."""
+        found: list[float] = []
+        for call in calls_in(self.formula.tree, _JOINTS):
+            zero = Call("-", call.arguments) if len(call.arguments) > 1 else call.arguments[0]
+            if call.operation == "floor":  # it jumps at every whole number
+                zero = Call("sin", (Call("*", (Number(np.pi), zero)),))
+            value = self._over_position(zero, along, theta)
+            signs = np.nan_to_num(np.sign(value(along.position)))
+            before = np.flatnonzero(np.diff(signs))
+            low, high = along.position[before], along.position[before + 1]
+            for _ in range(_HALVINGS):
+                middle = (low + high) / 2
+                is_low = np.sign(value(middle)) == signs[before]
+                low, high = np.where(is_low, middle, low), np.where(is_low, high, middle)
+            found += low.tolist()
+        for key in {TABLES[name] for name in self.formula.names if name in TABLES}:
+            found += getattr(along.axis, key).positions
+        return found
+
+    def _over_position(
+        self, part: Tree, along: Design, theta: FloatArray
+    ) -> Callable[[FloatArray], FloatArray]:
+        """Return a part of the formula as a function of the position, all else being as in a design."""
+        readings = {name: np.ravel(values)[0] for name, values in self._readings(along).items()}
+        known = readings | self._named(theta)
+        return lambda places: np.broadcast_to(computed(part, {**known, "P": places}), places.shape)
+
+    def _named(self, theta: FloatArray) -> dict[str, float]:
+        names = [parameter.name for parameter in self.searched]
+        return dict(zip(names, theta.tolist(), strict=True))
+
+    def _readings(self, design: Design) -> dict[str, FloatArray | float]:
+        """Return what stands in the formula, but for its parameters; positions in any case."""
+        own = {*self.formula.linear, *self.formula.searched}
+        names = (name for name in self.formula.names if name not in own)
+        return readings_of(design, names, self.formula.units)
+
+
+def _source(keys: FormulaKeys) -> Words | None:
+    """Return how the form of an effect is known; nothing of a formula that a job tries."""
+    if keys.look is None and keys.source is None:
+        return None
+    known = _KNOWN[keys.known]
+    return known if keys.source is None else _FROM.given(known=known, source=keys.source)
+
+
+def _but_for(values: FloatArray, stated: float, *, is_count: bool) -> FloatArray:
+    """Return values that are not the stated one, nor one of its harmonics."""
+    order = values / stated if is_count else stated / values
+    is_same = np.any(np.abs(order[:, np.newaxis] - _HARMONICS) < _SAME * _HARMONICS, axis=1)
+    return values[~is_same] if not np.all(is_same) else values
+
+
+def _shortest(along: Design, values: list[FloatArray]) -> float:
+    """Return the shortest length in which one of some values changes by 1; infinite if none does."""
+    with np.errstate(all="ignore"):
+        slopes = np.abs(np.diff(np.array(values)) / np.diff(along.position)) if values else np.zeros(1)
+        return float(1.0 / slopes[np.isfinite(slopes)].max(initial=0.0))

@@ -1,0 +1,1 @@
+"""From readings to parameters: the scatter, the fit, and how sure it is."""

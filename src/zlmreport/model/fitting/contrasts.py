@@ -1,0 +1,237 @@
+"""Error contrasts: what is left of the readings when a model's columns are projected out.
+
+Restricted likelihood and comparison see nothing else, so the base model is removed once and for all. In this
+space V(φ) is the unit matrix plus parts of low rank, and every product with its inverse is one with r × r
+matrices (Woodbury), r the number of targets, runs and drift terms; the number of readings does not matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.noise import Noise, NoisePart
+
+#: Columns that add less than this share of their length to those before them add nothing.
+_DEPENDENT = 1e-11
+_REFINEMENTS = (4.0, 2.0, 1.4, 1.15)
+#: Likelihood that a further step must gain.
+_WORTHWHILE = 1e-3
+_SMALLEST_RATIO = 1e-3
+#: Sum of squares of a residual that is no residual at all, m² or rad².
+_NOTHING = 1e-60
+#: Correlation of a reading with the one before it at most: two at the same moment are still two.
+_MOST_KEPT = 0.999
+#: Share of the readings' squares below which what a covariance leaves of them is rounding.
+_ROUNDING = 1e-13
+
+
+@dataclass(frozen=True, slots=True)
+class Metric:
+    """The inner product of error contrasts under one covariance: aᵀ·V⁻¹·b = aᵀb − (R·Zᵀa)ᵀ(R·Zᵀb)."""
+
+    active: IntArray  #: (a,) integer: Columns of the factors that have a share in the covariance.
+    root: FloatArray  #: (a, a): R, of these alone.
+    log_determinant: float  #: ln|V| within the space of contrasts.
+
+    def coordinates(self, products: FloatArray) -> FloatArray:
+        """Return R·Zᵀa from Zᵀa, shape (r, …)."""
+        return np.asarray(self.root @ products[self.active])
+
+
+@dataclass(frozen=True, slots=True)
+class SingleReadings:
+    """How readings scatter singly: unequally, and each for a short time like the one before it.
+
+    W with W·V·Wᵀ the unit matrix, V = D·R·D, R_ab = exp(−|t_a − t_b|/τ): a reading depends on that before it
+    alone (J. L. Doob, Annals of Mathematics 43 (1942) 351).
+    """
+
+    scale: FloatArray  #: (N,): 1/√w.
+    #: (N − 1,): The correlation of each reading with the one before it; None where there is none.
+    kept: FloatArray | None = None
+
+    @property
+    def log_determinant(self) -> float:
+        """ln|R|."""
+        return 0.0 if self.kept is None else float(np.log1p(-(self.kept**2)).sum())
+
+    def whitened(self, columns: FloatArray) -> FloatArray:
+        """Return W times columns over the readings, shape (N, …)."""
+        scaled = (columns.T * self.scale).T
+        if self.kept is None:
+            return scaled
+        found = scaled.copy()
+        found[1:] = ((scaled[1:].T - scaled[:-1].T * self.kept) / np.sqrt(1.0 - self.kept**2)).T
+        return found
+
+    def coloured(self, columns: FloatArray) -> FloatArray:
+        """Return W⁻¹ times columns: what was made independent as it was read."""
+        found = columns.copy()
+        for later, share in enumerate([] if self.kept is None else self.kept.tolist(), 1):
+            found[later] = found[later] * np.sqrt(1.0 - share**2) + share * found[later - 1]
+        return np.asarray((found.T / self.scale).T)
+
+
+def single_readings(design: Design, weights: FloatArray, memory: float = 0.0) -> SingleReadings:
+    """Return how readings scatter singly.
+
+    `weights`, (N,): w, the variance of each reading over the mean one.
+    `memory`: τ, the time over which a reading is forgotten, in the unit of the design's time; 0 for none.
+    """
+    scale = 1.0 / np.sqrt(weights)
+    if not memory:
+        return SingleReadings(scale)
+    steps = np.maximum(np.diff(design.time), 0.0)
+    kept = np.where(np.diff(design.session) == 0, np.exp(-steps / memory), 0.0)
+    return SingleReadings(scale, np.minimum(kept, _MOST_KEPT))
+
+
+@dataclass(frozen=True, slots=True)
+class Contrasts:
+    """The space of error contrasts of a base model."""
+
+    base: FloatArray  #: (N, q): Orthonormal columns that span the model, single readings made independent.
+    single: SingleReadings  #: How these scatter by themselves.
+    parts: tuple[NoisePart, ...]  #: The sources of shared scatter.
+    factors: FloatArray  #: (N, r): Their factors Z side by side, as contrasts.
+    gram: FloatArray  #: (r, r): ZᵀZ.
+
+    @property
+    def scale(self) -> FloatArray:
+        """1/√w, shape (N,)."""
+        return self.single.scale
+
+    @property
+    def degrees(self) -> int:
+        """The dimension of the space: readings less columns."""
+        return int(self.base.shape[0] - self.base.shape[1])
+
+    def of(self, columns: FloatArray) -> FloatArray:
+        """Return the contrasts of columns over the readings, shape (N, …)."""
+        flat = self.single.whitened(columns.reshape(len(columns), -1))
+        flat = flat - self.base @ (self.base.T @ flat)
+        return flat.reshape(columns.shape)
+
+    def metric(self, ratios: FloatArray) -> Metric:
+        """Return the inner product for one φ, shape (parts,)."""
+        active, roots, gram = self._active(ratios)
+        factor = np.linalg.cholesky(np.eye(len(active)) + gram)
+        logarithms = np.log(np.diagonal(factor))
+        return Metric(active, np.linalg.inv(factor) * roots, 2.0 * float(logarithms.sum()))
+
+    def restricted(
+        self, contrast: FloatArray, known: float = 0.0
+    ) -> Callable[[FloatArray], tuple[float, float]]:
+        """Return what gives −2 ln(restricted likelihood) and the residual sum of squares for one φ, (parts,).
+
+        σ is profiled out.
+
+        `contrast`, (N,): Of the deviations.
+        `known`: Residual sum of squares of a noise of known size that stands beside σ.
+        """
+        total, products = float(contrast @ contrast), self.factors.T @ contrast
+        length = np.sqrt(max(total, _NOTHING))
+
+        def criterion(ratios: FloatArray) -> tuple[float, float]:
+            active, roots, gram = self._active(ratios)
+            # A border of products with the readings: the last pivot of the root is what these leave.
+            bordered = np.zeros((len(active) + 1, len(active) + 1))
+            bordered[:-1, :-1] = gram
+            bordered[-1, :-1] = roots * products[active] / length
+            bordered[np.diag_indices(len(active))] += 1.0
+            bordered[-1, -1] = 1.0 + _ROUNDING
+            pivots = np.diagonal(np.linalg.cholesky(bordered))
+            squares = total * float(pivots[-1]) ** 2 + known
+            logarithms = self.degrees * np.log(max(squares, _NOTHING)) + 2.0 * np.log(pivots[:-1]).sum()
+            return float(logarithms), squares
+
+        return criterion
+
+    def _active(self, ratios: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+        """Return the columns of the factors with a share in the covariance, √φ of each, and √φ·ZᵀZ·√φ."""
+        spread = np.repeat(ratios, [part.factor.shape[1] for part in self.parts])
+        active = np.flatnonzero(spread)
+        roots = np.sqrt(spread[active])
+        return active, roots, roots[:, np.newaxis] * self.gram[np.ix_(active, active)] * roots
+
+    def criterion(self, metric: Metric, squares: FloatArray) -> FloatArray:
+        """Return −2 ln(restricted likelihood) of residual sums of squares, σ profiled out."""
+        return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant
+
+
+def contrasts_of(
+    base: FloatArray, parts: Sequence[NoisePart], weights: FloatArray | SingleReadings
+) -> Contrasts:
+    """Return the space of error contrasts.
+
+    `base`, (N, q): Columns of the model; those that depend on others count once.
+    `weights`: w, the variance of each reading over the mean one, shape (N,); or how readings scatter singly.
+    """
+    single = weights if isinstance(weights, SingleReadings) else SingleReadings(1.0 / np.sqrt(weights))
+    weighted = single.whitened(base)
+    lengths = np.linalg.norm(weighted, axis=0)
+    left, singular, _ = np.linalg.svd(weighted[:, lengths > 0] / lengths[lengths > 0], full_matrices=False)
+    orthonormal = left[:, singular > _DEPENDENT * singular[:1].max(initial=0.0)]
+    factors = np.concatenate([np.empty((len(base), 0)), *(part.factor for part in parts)], axis=1)
+    factors = single.whitened(factors)
+    factors -= orthonormal @ (orthonormal.T @ factors)
+    return Contrasts(orthonormal, single, tuple(parts), factors, factors.T @ factors)
+
+
+def restricted_estimate(
+    space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray, known: float = 0.0
+) -> tuple[FloatArray, float]:
+    """Return φ̂ and σ̂² by restricted maximum likelihood.
+
+    `contrasts`, (N,): Of the deviations.
+    `grid`, (f, parts): Ratios that the search begins with.
+    `largest`, (parts,): Ratios that it does not exceed.
+    `known`: Residual sum of squares of a noise of known size that stands beside σ; σ̂² contains it.
+    """
+    criterion = space.restricted(contrasts, known)
+    tried = [criterion(ratios)[0] for ratios in grid]
+    best, ratios = min(tried), grid[int(np.argmin(tried))].copy()
+    for step in _REFINEMENTS:
+        improved = True
+        while improved:
+            improved = False
+            for part, factor in product(range(len(ratios)), (step, 1 / step)):
+                changed = ratios.copy()
+                changed[part] = min(max(ratios[part], _SMALLEST_RATIO) * factor, largest[part])
+                value = criterion(changed)[0]
+                if value < best - _WORTHWHILE:
+                    best, ratios, improved = value, changed, True
+    return ratios, criterion(ratios)[1] / space.degrees
+
+
+@dataclass(frozen=True, slots=True)
+class Whitener:
+    """The symmetric root of V⁻¹, with V = diag(w) + Z·diag(φ)·Zᵀ."""
+
+    scale: FloatArray  #: (N,): 1/√w.
+    modes: FloatArray  #: (N, r): Orthonormal directions in which readings scatter together.
+    excess: FloatArray  #: (r,): 1 − 1/√(1 + λ), λ the variance of each mode over that of single readings.
+
+    def __call__(self, columns: FloatArray) -> FloatArray:
+        """Return W times columns over the readings, shape (N,) or (N, k)."""
+        scaled = (columns.T * self.scale).T
+        return scaled - self.modes @ ((self.modes.T @ scaled).T * self.excess).T
+
+
+def whitener(parts: Sequence[NoisePart], noise: Noise) -> Whitener:
+    """Return the whitener of a noise."""
+    scale = 1.0 / np.sqrt(noise.weights)
+    active = [
+        part.factor * np.sqrt(noise.ratios[part.source])
+        for part in parts
+        if noise.ratios.get(part.source, 0.0) > 0
+    ]
+    factors = np.concatenate([np.empty((len(scale), 0)), *active], axis=1) * scale[:, np.newaxis]
+    modes, singular, _ = np.linalg.svd(factors, full_matrices=False)
+    return Whitener(scale, modes, 1.0 - 1.0 / np.sqrt(1.0 + singular**2))

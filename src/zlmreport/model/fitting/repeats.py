@@ -1,0 +1,307 @@
+"""Repeats: what the readings of one cell, a target approached from one direction, say of the scatter.
+
+The spread of five readings says little about their scatter: taken as a weight, as it comes, it gives
+intervals that hold in 83 % of all cases instead of 95 %. So the variances are pooled; only where a test
+refutes that they are equal they part: those that grow along the axis by that growth, others each drawn to
+the pooled one as far as its few degrees of freedom ask.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.observations import of_readings
+
+#: Growth along the axis is seen at this level, which the other tests share among them: weights that are not
+#: needed cost more than those that are missing.
+_LEVEL = 0.01
+_FEWEST_READINGS = 3
+#: Scatter below this share of the largest deviation is the rounding of doubles: it is none.
+_NOTHING = 1e-9
+#: Share of a reading's variance that a line through its pass leaves at the least.
+_LEAST_KEPT = 0.1
+#: Steps by which the growth of the scatter is found, and the largest change of ln σ² in one.
+_STEPS, _LARGEST_STEP = 4, 1.0
+#: Decimal exponent of the finest step that is looked for, µm or ″, and what is a multiple of one.
+_FINEST, _MULTIPLE = -7, 1e-3
+_TRIALS = 1000
+_SEED = 20_261_118
+
+
+@dataclass(frozen=True, slots=True)
+class Repeats:
+    """The deviations within their cells."""
+
+    cell: IntArray  #: (N,) integer: Index of the cell of each reading.
+    count: IntArray  #: (cells,) integer: Readings in each cell.
+    centred: FloatArray  #: (N,): Each deviation less the mean of its cell, m or rad.
+
+    @property
+    def degrees(self) -> int:
+        """Degrees of freedom of the pure error: readings less cells."""
+        return len(self.cell) - len(self.count)
+
+    @property
+    def squares(self) -> float:
+        """Sum of squares of the pure error."""
+        return float(np.sum(self.centred**2))
+
+
+def cells(design: Design) -> IntArray:
+    """Return for each reading the index of its cell, shape (N,); each session has its own."""
+    target = design.target + design.session * (design.target.max() + 1)
+    _, index = np.unique(2 * target + (design.direction > 0), return_inverse=True)
+    return np.asarray(index, dtype=np.int64)
+
+
+def repeats(design: Design, deviation: FloatArray) -> Repeats:
+    """Return the deviations of a test within their cells."""
+    cell = cells(design)
+    count = np.bincount(cell)
+    means = np.bincount(cell, weights=deviation) / count
+    return Repeats(cell, count.astype(np.int64), deviation - means[cell])
+
+
+def apart_in_time(design: Design) -> bool:
+    """Whether the readings of a cell lie apart in time, as in the linear method.
+
+    Then slow drift is within the cells, and neighbours in time are in different ones. In pendulum and
+    quasi-pilgrim tests a cell is measured within a short time, and drift is between the cells.
+    """
+    cell = cells(design)
+    order = np.lexsort((np.arange(len(cell)), cell))
+    gaps = np.diff(order)[np.diff(cell[order]) == 0]
+    return bool(gaps.size and np.median(gaps) > 0.5 * len(np.unique(cell)))
+
+
+def resolution(values: FloatArray) -> float:
+    """Return the step of which readings are multiples, in their unit; 0 where they are not of any.
+
+    >>> resolution(np.array([0.4, 1.2, -0.6])), resolution(np.array([5.0, 10.0, 20.0]))
+    (0.2, 5.0)
+    """
+    largest = float(np.abs(values).max(initial=0.0))
+    if largest == 0:
+        return 0.0
+    for exponent in range(int(np.floor(np.log10(largest))), _FINEST, -1):
+        for digit in (5, 2, 1):
+            step = float(f"{digit}e{exponent}")
+            multiples = values / step
+            if np.all(np.abs(multiples - np.rint(multiples)) < _MULTIPLE):
+                return step
+    return 0.0
+
+
+def noise_floor(design: Design, deviation: FloatArray) -> float | None:
+    """Return the standard deviation σ_f of a single reading, drift left out; None without repeats.
+
+    Where the readings of a cell lie apart in time, neighbours within a run are compared: what drifts more
+    slowly than a reading drops out. Otherwise the pure error is drift-free as it is. The standard deviations
+    of ISO 230-2 contain the drift and are no floor.
+
+    `deviation`, (N,): x, m or rad.
+    """
+    within = repeats(design, deviation)
+    if within.degrees < 1:
+        return None
+    if apart_in_time(design):
+        neighbours = (np.diff(within.cell) != 0) & (np.diff(design.cycle) == 0)
+        steps = np.diff(within.centred)[neighbours]
+        # A mean of n̄ readings is subtracted from each, and takes a share of 1/n̄ of its variance along.
+        shares = 1.0 - 1.0 / within.count[within.cell]
+        expected = (shares[1:] + shares[:-1])[neighbours].sum()
+        if steps.size and expected > 0:
+            return float(np.sqrt(np.sum(steps**2) / expected))
+    return float(np.sqrt(within.squares / within.degrees))
+
+
+class SpreadFactor(Enum):
+    """By what the scatter may differ."""
+
+    GROWTH = "growth"
+    POSITION = "position"
+    DIRECTION = "direction"
+    RUN = "run"
+
+    @property
+    def words(self) -> Words:
+        """What it is."""
+        return _WORDS[self]
+
+
+_WORDS = {
+    SpreadFactor.GROWTH: Words(en="along the axis", de="entlang der Achse"),
+    SpreadFactor.POSITION: Words(en="from position to position", de="von Position zu Position"),
+    SpreadFactor.DIRECTION: Words(en="up and down", de="aufwärts und abwärts"),
+    SpreadFactor.RUN: Words(en="from run to run", de="von Durchlauf zu Durchlauf"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class SpreadTest:
+    """A test of equal scatter, on absolute residuals: Levene's by groups, or their slope along the axis."""
+
+    factor: SpreadFactor  #: By what the readings are grouped.
+    p_value: float  #: Of equal scatter.
+    widest: int  #: The label of the group that scatters most: target index, direction or run.
+
+    @property
+    def is_refuted(self) -> bool:
+        """Whether the scatter is so unequal that readings are weighted by it."""
+        others = len(SpreadFactor) - 1
+        return self.p_value < (_LEVEL if self.factor is SpreadFactor.GROWTH else _LEVEL / others)
+
+
+def spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest, ...]:
+    """Return the tests of equal scatter that the design allows; of growth first, the others beside it.
+
+    Few repeats in many cells make any such statistic larger than tables have it; so it is held against
+    simulated readings of equal scatter.
+    """
+    return _tested(design, deviation)[0]
+
+
+def _tested(design: Design, deviation: FloatArray) -> tuple[tuple[SpreadTest, ...], FloatArray]:
+    """Return the tests, and the variance of each reading by its growth along the axis; 1 where it is none."""
+    random = np.random.default_rng(_SEED).standard_normal((len(deviation), _TRIALS))
+    sizes = np.abs(_drift_free(design, np.column_stack([deviation, random])))
+    grown = np.ones(len(deviation))
+    found: list[SpreadTest] = []
+    if sizes[:, 0].max() <= _NOTHING * np.abs(deviation).max():
+        return (), grown
+    if len(deviation) > len(np.unique(cells(design))):
+        away = design.position - design.middle
+        slope, p_value = _slope(away, sizes)
+        for run in np.unique(design.cycle) if p_value < _LEVEL else ():
+            # What one run alone shows is a disturbance of this run, and no growth.
+            others = np.flatnonzero(design.cycle != run)
+            part = of_readings(design, others)
+            if len(others) > len(np.unique(cells(part))):
+                without = np.abs(_drift_free(part, np.column_stack([deviation, random])[others]))
+                p_value = max(p_value, _slope(away[others], without)[1])
+        widest = int(design.target[np.argmax(away * slope)])
+        found.append(SpreadTest(SpreadFactor.GROWTH, p_value, widest))
+        if found[0].is_refuted:
+            grown = _growth(design, deviation)
+            sizes[:, 0] = np.abs(_scatter(design, deviation, grown)) / np.sqrt(grown)
+    for factor, labels in _groupings(design).items():
+        names, group = np.unique(labels, return_inverse=True)
+        if len(names) < 2 or np.bincount(group).min() < _FEWEST_READINGS:
+            continue
+        ratios, widest = _levene(sizes, group)
+        reached = int(np.count_nonzero(ratios[1:] >= ratios[0]))
+        found.append(SpreadTest(factor, (1 + reached) / (_TRIALS + 1), int(names[widest])))
+    return tuple(found), grown
+
+
+def _slope(away: FloatArray, sizes: FloatArray) -> tuple[float, float]:
+    """Return the slope of the first set's absolute residuals along the axis, and the chance of such a one."""
+    slopes = away @ (sizes - sizes.mean(axis=0)) / np.linalg.norm(sizes - sizes.mean(axis=0), axis=0)
+    by_chance = math.sqrt(float(np.mean(slopes[1:] ** 2)))  # a sum of many: normal, to its far tail
+    return float(slopes[0]), math.erfc(abs(float(slopes[0])) / (by_chance * math.sqrt(2.0)))
+
+
+def _growth(design: Design, deviation: FloatArray) -> FloatArray:
+    """Return the variance of each reading, ln σ² being a straight line over the position: likeliest, mean 1.
+
+    Notes
+    -----
+    Fisher scoring of normal scatter; what is left of the passes is taken anew with each step's weights, or
+    the loud end of a pass would shake its quiet one.
+    """
+    line = np.column_stack([np.ones(len(deviation)), design.position - design.middle])
+    line[:, 1] /= np.abs(line[:, 1]).max()
+    logarithm = np.zeros(2)
+    grown = np.ones(len(deviation))
+    for _ in range(_STEPS):
+        squares = _scatter(design, deviation, grown) ** 2
+        squares /= squares.mean()
+        for _ in range(_STEPS):
+            step = np.linalg.lstsq(line, squares / np.exp(line @ logarithm) - 1, rcond=None)[0]
+            logarithm += np.clip(step, -_LARGEST_STEP, _LARGEST_STEP)
+        grown = np.exp(line @ logarithm)
+        grown /= grown.mean()
+    return np.asarray(grown, dtype=np.float64)
+
+
+def weights(design: Design, deviation: FloatArray) -> FloatArray:
+    """Return w, the variance of each reading over the mean one, shape (N,)."""
+    tests, found = _tested(design, deviation)
+    scatter = _scatter(design, deviation, found)
+    for test in tests:
+        if test.is_refuted and test.factor in (groupings := _groupings(design)):
+            found = found * _shrunk(scatter / np.sqrt(found), groupings[test.factor])
+    return np.asarray(found / found.mean(), dtype=np.float64)
+
+
+def _groupings(design: Design) -> dict[SpreadFactor, IntArray]:
+    return {
+        SpreadFactor.POSITION: design.target,
+        SpreadFactor.DIRECTION: design.direction.astype(np.int64),
+        SpreadFactor.RUN: design.cycle,
+    }
+
+
+def _scatter(design: Design, deviation: FloatArray, variance: FloatArray) -> FloatArray:
+    """Return the scatter of readings of known relative variance as `_drift_free` does, shape (N,)."""
+    return _drift_free(design, deviation[:, np.newaxis], variance)[:, 0]
+
+
+def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None = None) -> FloatArray:
+    """Return the scatter of readings about their cells, and about offset and slope of their passes.
+
+    A pass is what one run takes in one direction. Without it, an effect that grows with position and time
+    would pass for scatter, and be given little weight just where it shows.
+
+    `values`, (N, B): Deviations of B sets.
+    `variance`, (N,) array or None: Of each reading over the mean one; the readings of a cell share it.
+    """
+    cell = cells(design)
+    count = np.bincount(cell)
+    root = np.ones(len(cell)) if variance is None else np.sqrt(variance)
+    membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
+    left = (values - (membership @ values)[cell]) / root[:, np.newaxis]
+    kept = 1.0 - 1.0 / count[cell]
+    _, passes = np.unique(2 * design.cycle + (design.direction > 0), return_inverse=True)
+    for index in range(passes.max() + 1):
+        taken = np.flatnonzero(passes == index)
+        line = np.column_stack([np.ones(len(taken)), design.position[taken] - design.middle])
+        base, _ = np.linalg.qr(line / root[taken, np.newaxis])
+        left[taken] -= base @ (base.T @ left[taken])
+        kept[taken] *= np.maximum(1.0 - np.sum(base**2, axis=1), _LEAST_KEPT)
+    return np.asarray(left * (root / np.sqrt(np.maximum(kept, 1e-3)))[:, np.newaxis], dtype=np.float64)
+
+
+def _levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
+    """Return the ratio of variances between and within groups for each set, and the first's widest group."""
+    count = np.bincount(group)
+    membership = (group == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
+    means = membership @ sizes
+    between = count @ (means - sizes.mean(axis=0)) ** 2 / (len(count) - 1)
+    within = np.sum((sizes - means[group]) ** 2, axis=0) / (len(sizes) - len(count))
+    # Readings that are all alike have no scatter, and none of them stands off.
+    ratio = np.divide(between, within, out=np.zeros_like(between), where=within > 0)
+    return ratio, int(np.argmax(means[:, 0]))
+
+
+def _shrunk(scatter: FloatArray, labels: IntArray) -> FloatArray:
+    """Return for each reading its group's variance, drawn to the pooled one: (ν₀s² + ν_i·s_i²)/(ν₀ + ν_i).
+
+    ν₀ follows from how much more the logarithms of the variances differ than chance would have it.
+    """
+    _, group = np.unique(labels, return_inverse=True)
+    degrees = np.bincount(group).astype(np.float64)
+    variance = np.bincount(group, weights=scatter**2) / degrees
+    pooled = float(np.mean(scatter**2))
+    logarithms = np.log(np.maximum(variance, 1e-3 * pooled))
+    excess = float(np.var(logarithms, ddof=1)) - float(np.mean(2.0 / degrees))
+    prior = 2.0 / max(excess, 1e-2)
+    drawn = (prior * pooled + degrees * variance) / (prior + degrees)
+    return np.asarray(drawn[group] / pooled, dtype=np.float64)

@@ -1,0 +1,209 @@
+"""A plane from jobs: each job measures one line of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from zlmreport.errors import InputError, Problem
+from zlmreport.job.job import Job
+from zlmreport.job.measurement_keys import LineOfPlane
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.model.diagnosis.report import report_error
+from zlmreport.model.diagnosis.study import instrument_error
+from zlmreport.model.effects.axis_model import ModelError
+from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.plane.surface import Line, Surface, coefficient_names, side_by_side, surface
+
+#: A job, and what it measured.
+Measured = tuple[Job, MeasurementSet]
+
+_KEY = "measurement.plane"
+SCHEMA = "zlmreport/surface/1"
+
+
+@dataclass(frozen=True, slots=True)
+class Plane:
+    """The deviation of an axis over a plane."""
+
+    axis: Axis  #: The axis that was measured.
+    second: str  #: Name of the second axis.
+    lines: tuple[Line, ...]  #: In rising order of the second axis.
+    surfaces: tuple[Surface, ...]  #: One for each direction of approach.
+
+
+def plane_of(measured: Sequence[Measured]) -> Plane:
+    """Fit the deviation over the plane that jobs have measured line by line.
+
+    Raises `InputError` with every reason why the jobs are no lines of one plane.
+    """
+    places = _places([job for job, _ in measured])
+    problems = list(_differences(measured, places))
+    if problems:
+        raise InputError(problems)
+    (first, sample), second = measured[0], places[0].axis
+    lines = tuple(
+        sorted(
+            (
+                Line(job.axis.position_unit.to_si(place.at), observations_of(measurements))
+                for (job, measurements), place in zip(measured, places, strict=True)
+            ),
+            key=lambda line: line.across,
+        )
+    )
+    length = float(np.ptp(sample.target_positions))
+    try:
+        surfaces = tuple(
+            surface(side_by_side(lines, approach, second), instrument_error(first, length))
+            for approach in sample.approaches
+        )
+    except ModelError as error:
+        raise InputError(Problem(first.place_of(_KEY), sentence) for sentence in error.sentences) from error
+    return Plane(first.axis, second, lines, surfaces)
+
+
+def _places(jobs: Sequence[Job]) -> list[LineOfPlane]:
+    """Return where the lines of jobs lie."""
+    places = [job.keys.measurement.plane for job in jobs]
+    problems = [
+        Problem(
+            job.place_of("measurement"),
+            "the job does not say where its line lies in the plane; add to measurement, for a line at "
+            "Y = 200 mm: plane: {axis: Y, at: 200}",
+        )
+        for job, place in zip(jobs, places, strict=True)
+        if place is None
+    ]
+    if problems:
+        raise InputError(problems)
+    return [place for place in places if place is not None]
+
+
+def _differences(measured: Sequence[Measured], places: Sequence[LineOfPlane]) -> Iterator[Problem]:
+    """Yield why lines do not belong together."""
+    (first, sample), leading = measured[0], places[0]
+    if len({place.at for place in places}) < 2:
+        yield Problem(
+            first.place_of(_KEY), "a plane needs lines at two positions of the second axis at least"
+        )
+    if first.axis.kind is not AxisKind.LINEAR:
+        yield Problem(first.place_of("axis.kind"), "a plane has two linear axes, and this axis is rotary")
+    if leading.axis == first.axis.name:
+        yield Problem(
+            first.place_of(f"{_KEY}.axis"),
+            f"{leading.axis} is the axis under test; name the other axis of the plane",
+        )
+    for (job, measurements), place in zip(measured[1:], places[1:], strict=True):
+        if (job.axis.name, job.axis.kind) != (first.axis.name, first.axis.kind):
+            yield Problem(
+                job.place_of("axis.name"),
+                f"this line is of axis {job.axis.name}, the first one of axis {first.axis.name}; "
+                "all lines of a plane are of the same axis",
+            )
+        if place.axis != leading.axis:
+            yield Problem(
+                job.place_of(f"{_KEY}.axis"),
+                f"the second axis is {place.axis} here and {leading.axis} in the first job",
+            )
+        if measurements.approaches != sample.approaches:
+            yield Problem(
+                job.source.place,
+                f"this line was approached {_arrows(measurements)}, the first one {_arrows(sample)}; "
+                "all lines of a plane need the same directions",
+            )
+        if instrument_error(job, 1.0) != instrument_error(first, 1.0):
+            yield Problem(
+                job.place_of("instrument.expanded_uncertainty"),
+                "the instrument's uncertainty is not that of the first job; one instrument measures a plane",
+            )
+
+
+def _arrows(measurements: MeasurementSet) -> str:
+    return " and ".join(approach.arrow for approach in measurements.approaches)
+
+
+def report(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
+    """Return a plane as plain values for a JSON file.
+
+    `points`: Where the deviation is asked for: P and R, m.
+    """
+    millimetre = plane.axis.position_unit
+    return {
+        "schema": SCHEMA,
+        "axis": plane.axis.name,
+        "second_axis": plane.second,
+        "lines": [
+            {
+                "at": millimetre.from_si(line.across),
+                "readings": len(line.observed.deviation),
+                "set_aside": len(line.aside()),
+            }
+            for line in plane.lines
+        ],
+        "directions": [_direction(each, plane.axis, points) for each in plane.surfaces],
+    }
+
+
+def _direction(surface: Surface, axis: Axis, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
+    unit = axis.deviation_unit
+    interaction = surface.interaction
+    return {
+        "direction": surface.approach.sign,
+        "along": [axis.position_unit.from_si(end) for end in surface.along],
+        "across": [axis.position_unit.from_si(end) for end in surface.across],
+        "error": report_error(surface.error, axis),
+        **_coefficients(surface, axis),
+        "interaction": {
+            "value": unit.from_si(interaction.value),
+            "expanded_uncertainty": unit.from_si(interaction.expanded_uncertainty),
+            "coverage_factor": interaction.coverage_factor,
+            "unit": unit.ascii,
+        },
+        "points": _points(surface, axis, points),
+    }
+
+
+def _coefficients(surface: Surface, axis: Axis) -> dict[str, Any]:
+    """Return the coefficients of equation (13) for positions in mm and deviations in µm."""
+    found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
+    return {
+        "coefficients": [
+            {"name": name, "value": value, "unit": _unit(axis, sum(powers))}
+            for name, value, powers in zip(
+                coefficient_names(found.orders), found.values.tolist(), found.powers, strict=True
+            )
+        ],
+        "covariance": found.covariance.tolist(),
+    }
+
+
+def _unit(axis: Axis, power: int) -> str:
+    unit = axis.deviation_unit.ascii
+    if power == 0:
+        return unit
+    return f"{unit}/{axis.position_unit.ascii}{power if power > 1 else ''}"
+
+
+def _points(surface: Surface, axis: Axis, points: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
+    unit, millimetre = axis.deviation_unit, axis.position_unit
+    found = surface.predict(points)
+    return [
+        {
+            "along": millimetre.from_si(along),
+            "across": millimetre.from_si(across),
+            "deviation": unit.from_si(deviation),
+            "expanded_uncertainty": unit.from_si(uncertainty),
+            "coverage_factor": factor,
+        }
+        for (along, across), deviation, uncertainty, factor in zip(
+            points,
+            found.deviation.tolist(),
+            found.expanded_uncertainty.tolist(),
+            found.coverage_factor.tolist(),
+            strict=True,
+        )
+    ]

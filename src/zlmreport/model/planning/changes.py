@@ -1,0 +1,198 @@
+"""What can be changed of a plan so that it sees more: targets, sequence, pace, temperatures."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.measurement.axis import Axis
+from zlmreport.model.diagnosis.report import listed
+from zlmreport.model.planning.methods import RUN_BY_RUN, Method
+from zlmreport.model.planning.plan import Pause, Plan
+from zlmreport.model.planning.targets import (
+    drawn_targets,
+    makes_whole_turns,
+    periods_at_phases,
+    usual_overrun,
+)
+
+#: With more targets than these or more runs, one more is no remedy worth the time.
+_MANY_TARGETS, _MANY_RUNS = 21, 5
+#: Twice as many of both, where two effects are to be told apart.
+_FACTOR = 2
+#: How often longer the axis rests, and by which factor farther it turns round, to part time from way.
+_LONGER, _FARTHER = 6.0, 4.0
+#: What warms by 3 K within these minutes: a machine as its hall does, a screw in motion, the air. An ordinary
+#: workshop's; no standard states them.
+_WARMING = (("axis_temperature", 60.0), ("screw_temperature", 30.0), ("air_temperature", 20.0))
+_KELVIN, _SECONDS_PER_MINUTE = 3.0, 60.0
+
+_BOUND_TO_POSITION = Words(
+    en="in this sequence time runs along with the position",
+    de="bei dieser Abfolge läuft die Zeit mit der Position mit",
+)
+_SAME_PHASE = Words(
+    en="all targets lie at the same phase of {periods}",
+    de="alle Zielpositionen liegen bei derselben Phase {periods}",
+)
+_MEASURE_BY = {
+    Method.LINEAR: Words(en="measure by the linear method", de="nach dem Linearverfahren messen"),
+    Method.PENDULUM: Words(en="measure by the pendulum method", de="nach dem Pendelverfahren messen"),
+}
+_RANDOM_FRACTIONS = Words(
+    en="choose targets with a random fraction", de="Zielpositionen mit zufälligem Anteil wählen"
+)
+_MORE_TARGETS = Words(
+    en="take {count} targets with random fractions", de="{count} Zielpositionen mit zufälligem Anteil nehmen"
+)
+_MORE_RUNS = Words(en="measure {runs} runs", de="{runs} Durchläufe messen")
+_REST = Words(
+    en="rest {seconds} s at each target, so that more time passes",
+    de="an jeder Zielposition {seconds} s ruhen, damit mehr Zeit vergeht",
+)
+_OVERRUN = Words(
+    en="turn round {times} times as far beyond the targets",
+    de="{times}-mal so weit hinter den Zielpositionen umkehren",
+)
+_SECOND_SESSION = Words(
+    en="measure again, and hold both sessions together",
+    de="noch einmal messen, und beide Messungen zusammen betrachten",
+)
+_WARMER_SESSION = Words(
+    en="measure again with the axis {change} K warmer or colder, which takes about {minutes} min, and hold "
+    "both sessions together",
+    de="noch einmal messen, wenn die Achse {change} K wärmer oder kälter ist, was etwa {minutes} min dauert, "
+    "und beide Messungen zusammen betrachten",
+)
+_PAUSE = {
+    "axis_temperature": Words(
+        en="pause half-way, about {minutes} min, until the axis is {change} K warmer or colder",
+        de="auf halbem Weg pausieren, etwa {minutes} min, bis die Achse {change} K wärmer oder kälter ist",
+    ),
+    "screw_temperature": Words(
+        en="let the axis run to and fro half-way, about {minutes} min, until its screw is {change} K warmer",
+        de="die Achse auf halbem Weg hin- und herfahren lassen, etwa {minutes} min, bis die Spindel "
+        "{change} K wärmer ist",
+    ),
+    "air_temperature": Words(
+        en="pause half-way, about {minutes} min, until the air is {change} K warmer or colder",
+        de="auf halbem Weg pausieren, etwa {minutes} min, bis die Luft {change} K wärmer oder kälter ist",
+    ),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A change of a plan."""
+
+    of: str  #: What it changes: two changes of the same do not go together.
+    #: What is wrong with the plan as it is; None where nothing better is known than that it sees too little.
+    reason: Words | None
+    advice: Words  #: What to do.
+    changed: Callable[[Plan], Plan]  #: Returns the plan with the change.
+
+
+def together(changes: Sequence[Change]) -> Change:
+    """Return several changes as one."""
+    return Change(
+        " ".join(change.of for change in changes),
+        None,
+        listed([change.advice for change in changes]),
+        lambda plan: reduce(lambda changed, change: change.changed(changed), changes, plan),
+    )
+
+
+def changes(axis: Axis, plan: Plan, seed: int) -> Iterator[Change]:
+    """Yield changes that let a plan see what it hides: each alone, and in the end all together."""
+    of_targets = list(_of_targets(axis, plan, seed, _MANY_TARGETS))
+    of_sequence = list(_of_sequence(plan, _MANY_RUNS))
+    yield from (*of_targets, *of_sequence)
+    last = [*of_targets[-1:], *of_sequence]
+    if len(last) > 1:
+        yield together(last)
+
+
+def further_changes(
+    axis: Axis, plan: Plan, seed: int, period: float | None, *, goes_on: bool = False
+) -> Iterator[Change]:
+    """Yield each change that may tell effects apart, or show one.
+
+    `period`: Of an effect in question, m or rad: the targets are to see all its phases.
+    `goes_on`: Whether the test can be held together with the one before.
+    """
+    many = max(_MANY_TARGETS, _FACTOR * len(plan.targets))
+    yield from _of_targets(axis, plan, seed, many, period)
+    yield from _of_sequence(plan, max(_MANY_RUNS, _FACTOR * plan.runs))
+    if plan.method is Method.LINEAR:
+        yield _by_method(Method.PENDULUM, None)
+    if plan.method in RUN_BY_RUN:
+        yield from (_pause(column, minutes) for column, minutes in _WARMING)
+    if goes_on:
+        yield _session(_SECOND_SESSION, 0.0, 0.0)
+        yield _session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
+    longer = float(round(_LONGER * plan.dwell)) or plan.dwell
+    yield Change("dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer))
+    yield Change(
+        "overrun",
+        None,
+        _OVERRUN.given(times=f"{_FARTHER:g}"),
+        lambda each: within_travel(axis, replace(each, overrun=_FARTHER * each.overrun)),
+    )
+
+
+def within_travel(axis: Axis, plan: Plan) -> Plan:
+    """Return a plan whose outermost targets leave room to turn round within the travel."""
+    if axis.travel is None or makes_whole_turns(axis):
+        return plan
+    first, last = axis.travel
+    moved = np.unique(np.clip(plan.targets, first + plan.overrun, last - plan.overrun))
+    return replace(plan, targets=read_only_floats(moved))
+
+
+def _session(advice: Words, minutes: float, change: float) -> Change:
+    after = Pause(minutes * _SECONDS_PER_MINUTE, change, _WARMING[0][0])
+    words = advice.given(minutes=f"{minutes:g}", change=f"{change:g}")
+    return Change("session", None, words, lambda each: replace(each, after=after))
+
+
+def _pause(column: str, minutes: float) -> Change:
+    pause = Pause(minutes * _SECONDS_PER_MINUTE, _KELVIN, column)
+    advice = _PAUSE[column].given(minutes=f"{minutes:g}", change=f"{_KELVIN:g}")
+    return Change("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))
+
+
+def _by_method(method: Method, reason: Words | None) -> Change:
+    return Change("method", reason, _MEASURE_BY[method], lambda each: replace(each, method=method))
+
+
+def _of_sequence(plan: Plan, runs: int) -> Iterator[Change]:
+    if plan.method is not Method.LINEAR:
+        yield _by_method(Method.LINEAR, None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION)
+    if plan.runs < runs:
+        advice = _MORE_RUNS.given(runs=runs)
+        yield Change("runs", None, advice, lambda each: replace(each, runs=runs))
+
+
+def _of_targets(
+    axis: Axis, plan: Plan, seed: int, many: int, period: float | None = None
+) -> Iterator[Change]:
+    """Yield other targets; the last change has all that those before it have."""
+    spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
+    overrun = min(plan.overrun, usual_overrun(spread_over))
+
+    def drawn(each: Plan, count: int, own: float | None) -> Plan:
+        return replace(each, targets=drawn_targets(spread_over, count, overrun, own, seed))
+
+    blind = periods_at_phases(axis, plan.targets, 1)
+    if blind or period is not None:
+        reason = _SAME_PHASE.given(periods=listed(blind)) if blind else None
+        count = len(plan.targets)
+        yield Change("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
+    if len(plan.targets) < many:
+        advice = _MORE_TARGETS.given(count=many)
+        yield Change("targets", None, advice, lambda each: drawn(each, many, period))

@@ -1,0 +1,127 @@
+"""A whole machine in a notebook: what its axes predict, and what they lack."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from zlmreport.errors import InputError, Place, did_you_mean, quoted
+from zlmreport.machines.choosing import with_effect
+from zlmreport.machines.comparison import compare_circles, compare_line
+from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
+from zlmreport.machines.diagnosis_report import build_values, diagnosis_values
+from zlmreport.machines.prediction import prediction_values
+from zlmreport.machines.reading import MachineFile, read_machine
+from zlmreport.machines.study import CircleStudy
+from zlmreport.plugin.registry import Registry, find_plugins
+from zlmreport.verification.carrier import results_in
+
+_PLACE = Place("z.machine")
+
+
+@dataclass(frozen=True)
+class DiagnosisOfMachine:
+    """What a diagnosis of a machine found; deviations in µm."""
+
+    values: Mapping[str, Any] = field(repr=False)  #: As ``zlmreport machine diagnose --json`` has it.
+
+    @property
+    def verdict(self) -> str:
+        """``adequate``, ``missing`` or ``unexplained``."""
+        return str(self.values["verdict"])
+
+    @property
+    def missing(self) -> tuple[str, ...]:
+        """The effects that belong in, first the one to add first."""
+        return tuple(self.values["set"])
+
+    @property
+    def candidates(self) -> tuple[Mapping[str, Any], ...]:
+        """All effects that are worth a word, best first."""
+        return tuple(self.values["candidates"])
+
+    def __str__(self) -> str:
+        """Return the verdict in a sentence."""
+        return str(self.values["statement"])
+
+
+@dataclass(frozen=True)
+class BuiltMachine:
+    """The steps by which a model of a machine came about."""
+
+    machine: Machine  #: With all effects that were found.
+    steps: tuple[Mapping[str, Any], ...]  #: Each effect with the RMS before and after it, µm.
+    verdict: str
+
+
+@dataclass(frozen=True)
+class Machine:
+    """A machine as its file describes it, and what its circles say; `add` and `remove` write no file."""
+
+    file: MachineFile = field(repr=False)
+    registry: Registry = field(repr=False)
+    study: CircleStudy = field(repr=False)
+
+    @property
+    def effects(self) -> tuple[str, ...]:
+        """The effects of its model."""
+        return self.study.names
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of what axes and effects leave of the circles, µm."""
+        return float((self.study.residual**2).mean() ** 0.5 * 1e6)
+
+    def predict(self) -> dict[str, Any]:
+        """Return what the axes predict of tests, work space and diagonals, as ``--json`` has it."""
+        machine = self.file.machine
+        compared = (
+            *compare_circles(machine, self.file.measured, self.registry),
+            *(compare_line(machine, each) for each in self.file.lines),
+        )
+        return prediction_values(machine, compared)
+
+    def diagnose(self) -> DiagnosisOfMachine:
+        """Say which effect is missing."""
+        found = self._diagnosis()
+        before, after = (
+            compare_circles(self.file.machine, self.file.measured, self.registry, study)
+            for study in (found.study, found.complete)
+        )
+        return DiagnosisOfMachine(diagnosis_values(found, before, after))
+
+    def add(self, effect: str) -> Machine:
+        """Return the machine with one effect more."""
+        found = {each.identifier: each for each in self.file.catalogue}
+        if effect not in found:
+            raise InputError.at(_PLACE, f"{quoted(effect)} is no effect; {did_you_mean(effect, list(found))}")
+        return Machine(self.file, self.registry, with_effect(self.study, found[effect]))
+
+    def remove(self, effect: str) -> Machine:
+        """Return the machine with one effect less."""
+        if effect not in self.effects:
+            raise InputError.at(_PLACE, f"{effect} does not stand in the model")
+        return Machine(self.file, self.registry, self.study.without(effect))
+
+    def build(self) -> BuiltMachine:
+        """Add effect after effect, as long as each has evidence of its own."""
+        found = self._diagnosis()
+        values = build_values(found)
+        return BuiltMachine(
+            Machine(self.file, self.registry, found.complete), tuple(values["steps"]), values["verdict"]
+        )
+
+    def _diagnosis(self) -> MachineDiagnosis:
+        return diagnosed(self.study, self.file.catalogue)
+
+
+def machine(path: str | Path) -> Machine:
+    """Read a machine file with all that it names.
+
+    Raises `InputError` with every mistake; if it names no circle.
+    """
+    registry = find_plugins()
+    file = read_machine(Path(path), registry, results_in)
+    return Machine(file, registry, file.study())

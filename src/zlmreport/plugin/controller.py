@@ -1,0 +1,15 @@
+"""The door of controls that take compensation tables."""
+
+from __future__ import annotations
+
+from zlmreport.model.compensation.curve import (
+    CompensationTable,
+)
+from zlmreport.plugin.protocols import (
+    Controller,
+)
+
+__all__ = [
+    "CompensationTable",
+    "Controller",
+]

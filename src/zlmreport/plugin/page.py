@@ -1,0 +1,81 @@
+"""The door of formats that lay out pages: graphs drawn on a canvas, style sheets, fonts."""
+
+from __future__ import annotations
+
+from zlmreport.document.figures.canvas import (
+    Canvas,
+    Colour,
+    Face as FontFace,
+    Fill,
+    Label as TextLabel,
+    Run as TextRun,
+    Segment,
+    Stroke,
+    SvgCanvas,
+    hexadecimal as hexadecimal_colour,
+)
+from zlmreport.document.figures.draw import (
+    draw as draw_figure,
+    to_svg as figure_to_svg,
+)
+from zlmreport.document.figures.layout import (
+    WIDTH as GRAPH_WIDTH,
+    figure_size,
+)
+from zlmreport.document.figures.metrics import (
+    advance as text_advance,
+    has_letter,
+    mark_offset,
+    plain_label,
+)
+from zlmreport.document.figures.scale import (
+    round_ticks,
+)
+from zlmreport.document.figures.shapes import (
+    INK as INK_COLOUR,
+    ROLES as ROLE_STYLES,
+    TEXT_SIZE as GRAPH_TEXT_SIZE,
+)
+from zlmreport.document.typesetting.resources import (
+    FACES as FONT_FACES,
+    fingerprint as script_fingerprint,
+    font as font_file,
+    font_faces as font_face_rules,
+    linked_script,
+    linked_style,
+    own_style,
+    style_sheet,
+)
+
+__all__ = [
+    "FONT_FACES",
+    "GRAPH_TEXT_SIZE",
+    "GRAPH_WIDTH",
+    "INK_COLOUR",
+    "ROLE_STYLES",
+    "Canvas",
+    "Colour",
+    "Fill",
+    "FontFace",
+    "Segment",
+    "Stroke",
+    "SvgCanvas",
+    "TextLabel",
+    "TextRun",
+    "draw_figure",
+    "figure_size",
+    "figure_to_svg",
+    "font_face_rules",
+    "font_file",
+    "has_letter",
+    "hexadecimal_colour",
+    "linked_script",
+    "linked_style",
+    "mark_offset",
+    "own_style",
+    "plain_label",
+    "round_ticks",
+    "script_fingerprint",
+    "style_sheet",
+    "text_advance",
+]

@@ -1,0 +1,30 @@
+"""The door of part programs: the motion of a planned test."""
+
+from __future__ import annotations
+
+from zlmreport.model.planning.circle_path import CirclePath, PathBlock, PlannedTurn, circle_heading
+from zlmreport.model.planning.programs import (
+    Motion,
+    ProgramOptions,
+    axis_address,
+    heading as program_heading,
+    program_number,
+    remark as reading_remark,
+)
+from zlmreport.plugin.protocols import (
+    PartProgram,
+)
+
+__all__ = [
+    "CirclePath",
+    "Motion",
+    "PartProgram",
+    "PathBlock",
+    "PlannedTurn",
+    "ProgramOptions",
+    "axis_address",
+    "circle_heading",
+    "program_heading",
+    "program_number",
+    "reading_remark",
+]

@@ -1,0 +1,55 @@
+"""The door of data sources: texts with places, readings, and journals of captures."""
+
+from __future__ import annotations
+
+from zlmreport.measurement.axis import (
+    refuse_other_than_positions,
+)
+from zlmreport.measurement.collect import (
+    Reading,
+    collect as collect_readings,
+    is_run as is_run_number,
+    no_run as no_run_number,
+)
+from zlmreport.measurement.provenance import (
+    Averaging,
+    Correction,
+    Provenance,
+    SourceFile,
+)
+from zlmreport.measurement.text_file import (
+    TextCell,
+    TextFile,
+    known_encoding,
+    likely_encodings,
+    parse_number,
+    read_text,
+    sheets_of,
+)
+from zlmreport.plugin.protocols import (
+    DataSource,
+    SourceContext,
+    SourceProposal,
+)
+
+__all__ = [
+    "Averaging",
+    "Correction",
+    "DataSource",
+    "Provenance",
+    "Reading",
+    "SourceContext",
+    "SourceFile",
+    "SourceProposal",
+    "TextCell",
+    "TextFile",
+    "collect_readings",
+    "is_run_number",
+    "known_encoding",
+    "likely_encodings",
+    "no_run_number",
+    "parse_number",
+    "read_text",
+    "refuse_other_than_positions",
+    "sheets_of",
+]

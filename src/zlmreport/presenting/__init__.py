@@ -1,1 +1,0 @@
-"""How results read: values, uncertainties, a fitted model, a diagnosis, as texts that doors only lay out."""

@@ -1,1 +1,0 @@
-"""Units, numbers as they are written, and symbols as they are printed."""

@@ -1,0 +1,143 @@
+"""A file of a certificate by itself: its results, its digital certificate, its page, its workbook.
+
+Only the PDF carries what a certificate was made from. So such a file is held against the PDF that lies beside
+it: it is made again from what that carries, and compared byte by byte. Without one, nothing of it is decided;
+the digest that it states, if it does, can be held against the PDF's, also over the telephone.
+"""
+
+from __future__ import annotations
+
+import re
+import zipfile
+from collections.abc import Callable
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
+
+from zlmreport import pipeline
+from zlmreport.errors import InputError, Place
+from zlmreport.job.loading import load
+from zlmreport.language import Words
+from zlmreport.plugin.registry import Registry
+from zlmreport.verification.attached import laid_out, stated_by
+from zlmreport.verification.carrier import opened, read_file
+from zlmreport.verification.findings import Finding, Identity, Outcome, Verdict, Verification
+
+#: Beginnings of a file that tell what it is, without its first bytes of white space.
+_LONGEST_HEAD = 4000
+_DIGEST = re.compile(r"(?<![0-9A-Z-])[0-9A-HJKMNP-TV-Z]{4}(?:-[0-9A-HJKMNP-TV-Z]{4}){3}(?![0-9A-Z-])")
+_UNSIGNED = Words(
+    en="a file of this kind bears no signature: nothing tells who made it",
+    de="eine Datei dieser Art trägt keine Signatur: nichts sagt, wer sie hergestellt hat",
+)
+_NO_PDF = Words(
+    en="nothing of it is compared: it does not carry what it was made from. Put the PDF of the certificate "
+    "beside it, as {name}, and verify it once more",
+    de="nichts davon ist verglichen: sie enthält nicht, woraus sie hergestellt ist. Die PDF-Datei des "
+    "Dokuments als {name} daneben legen und noch einmal prüfen",
+)
+_BY_DIGEST = Words(
+    en="it states the digest {digest}; verify the PDF of the certificate, and hold the digest that it gives "
+    "against this one",
+    de="sie gibt das Prüfzeichen {digest} an; die PDF-Datei des Dokuments prüfen und das Prüfzeichen, das "
+    "dabei herauskommt, mit diesem vergleichen",
+)
+_BESIDE = Words(en="held against {name}, which lies beside it", de="gehalten gegen {name}, die daneben liegt")
+_OTHER_PROGRAMS = Words(
+    en="made by other releases, or in a look of the laboratory's own: not compared",
+    de="von anderen Ausgaben hergestellt oder im eigenen Aussehen des Laboratoriums: nicht verglichen",
+)
+
+
+def _is_workbook(content: bytes) -> bool:
+    try:
+        return "xl/workbook.xml" in zipfile.ZipFile(BytesIO(content)).namelist()
+    except (zipfile.BadZipFile, ValueError, OSError):
+        return False
+
+
+#: What each kind of file is by its content, with the format that makes it.
+_KINDS: tuple[tuple[str, Callable[[bytes], bool]], ...] = (
+    ("json", lambda head: head.startswith(b"{") and b'"zlmreport/results/1"' in head),
+    ("dcc", lambda head: head.startswith(b"<") and b"https://ptb.de/dcc" in head),
+    ("html", lambda head: head[:15].lower() == b"<!doctype html>" and b"<title>" in head),
+    ("csv", lambda head: head.startswith(b"standard,symbol,target,quantity,value,unit")),
+)
+
+
+def format_of(content: bytes) -> str | None:
+    """Return the format that makes files like this one; None if none of a certificate is like it."""
+    head = content[:_LONGEST_HEAD].lstrip()
+    for identifier, is_kind in _KINDS:
+        if is_kind(head):
+            return identifier
+    return "xlsx" if content.startswith(b"PK") and _is_workbook(content) else None
+
+
+def verify_alone(
+    path: Path, content: bytes, made_by: str, registry: Registry, verify: Callable[[Path], Verification]
+) -> Verification:
+    """Say of a file of a certificate what can be said.
+
+    `made_by`: The format that makes such files.
+    `verify`: Verifies the PDF beside it.
+
+    Raises as `zlmreport.verification.verify.verify` does for the PDF; `InputError` if no plugin makes such
+    files here.
+    """
+    digest = _digest(content) if made_by not in {"csv", "xlsx"} else ""
+    beside = path.with_suffix(".pdf")
+    found = Verification(Identity(), Finding("signature", Verdict.OPEN, _UNSIGNED))
+    if not beside.is_file():
+        told = [_BY_DIGEST.given(digest=digest)] if digest else []
+        unknown = Finding(path.name, Verdict.OPEN, _NO_PDF.given(name=beside.name))
+        return replace(found, files=(unknown,), remarks=tuple(told))
+    of_pdf = verify(beside)
+    remark = _BESIDE.given(name=beside.name)
+    whole = Finding(beside.name, _verdict(of_pdf), _first(of_pdf))
+    if of_pdf.outcome is Outcome.DOES_NOT_HOLD:
+        return replace(found, identity=of_pdf.identity, files=(whole,), remarks=(remark,))
+    own = Finding(path.name, Verdict.OPEN, _OTHER_PROGRAMS) if of_pdf.remarks else None
+    if own is None:
+        again = _made_again(beside, made_by, registry)
+        own = Finding.of(path.name, "" if again == content else "is not what the PDF beside it gives")
+    return replace(
+        found,
+        identity=of_pdf.identity,
+        files=(own, whole),
+        own_words=of_pdf.own_words,
+        remarks=(*of_pdf.remarks, remark),
+    )
+
+
+def _digest(content: bytes) -> str:
+    """Return the digest that a file states; empty where it states none, or several."""
+    found = set(_DIGEST.findall(content.decode("utf-8", "replace")))
+    return found.pop() if len(found) == 1 else ""
+
+
+def _verdict(found: Verification) -> Verdict:
+    return {
+        Outcome.HOLDS: Verdict.HOLDS,
+        Outcome.DOES_NOT_HOLD: Verdict.DIFFERS,
+        Outcome.UNDECIDED: Verdict.OPEN,
+    }[found.outcome]
+
+
+def _first(found: Verification) -> Words | str:
+    """Return the first that does not hold of a certificate."""
+    findings = (*found.files, *found.pages, *found.document)
+    wanted = Verdict.DIFFERS if found.differences else Verdict.OPEN
+    return next((each.detail for each in findings if each.verdict is wanted), "")
+
+
+def _made_again(pdf: Path, made_by: str, registry: Registry) -> bytes:
+    """Make a file again from what a PDF carries, which holds."""
+    carrier = opened(read_file(pdf), Place(str(pdf)))
+    stated = stated_by(carrier)
+    if stated is None:
+        raise InputError.at(carrier.place, "carries no results file")
+    renderer = registry.renderer(made_by)
+    with laid_out(stated.results.provenance.sources, carrier.carried) as layout:
+        job = load(layout.job, registry, formats=(made_by,))
+        return renderer.render(pipeline.compose(job, registry))

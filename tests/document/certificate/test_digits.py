@@ -1,0 +1,91 @@
+"""Digits of a whole document: U has two, its value as many, and no number contradicts another."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from document.certificate.documents import certificate, having
+from zlmreport.document.blocks import Symbol, Table
+from zlmreport.language.formatting import plain
+
+TARGETS = range(0, 401, 40)
+
+
+def _deviation(target: int, way: str, run: int) -> float:
+    return 0.01 * target + 2.3137 * ((7 * run + target // 40) % 5) + (1.7 if way == "-" else 0.0)
+
+
+def _tables(folder: Path, decimals: int, expanded: float) -> list[Table]:
+    """Return the tables of the results of a test whose readings have so many decimals."""
+    folder.mkdir(exist_ok=True)
+    rows = [
+        f"{target},{way},{run},{_deviation(target, way, run):.{decimals}f}"
+        for run in range(1, 6)
+        for way in "+-"
+        for target in (TARGETS if way == "+" else reversed(TARGETS))
+    ]
+    (folder / "x.csv").write_text(
+        "\n".join(["target,direction,run,deviation", *rows]) + "\n", encoding="utf-8"
+    )
+    keys = having("measurement.source", {"plugin": "laser-csv", "file": "x.csv"})
+    keys = having("axis", {"name": "X", "kind": "linear"}, keys)
+    keys = having("instrument.expanded_uncertainty", expanded, keys)
+    keys = having("certificate.layout", "full", keys)
+    (section,) = (each for each in certificate(folder, keys).sections if each.key == "iso230-2-2014")
+    return [block for block in section.blocks if isinstance(block, Table)]
+
+
+def _rows(table: Table) -> list[dict[str, str]]:
+    heads = [
+        plain(each.heading.notation) if isinstance(each.heading, Symbol) else each.heading
+        for each in table.columns
+    ]
+    return [
+        dict(
+            zip(
+                heads,
+                (plain(cell.notation) if isinstance(cell, Symbol) else str(cell) for cell in row),
+                strict=True,
+            )
+        )
+        for group in table.groups
+        for row in group.rows
+    ]
+
+
+def _decimals(number: str) -> int:
+    return len(number.partition(".")[2])
+
+
+def _unit(number: str) -> float:
+    """Return one unit of the last digit of a number that was rounded."""
+    whole = number.lstrip("−")
+    zeros = len(whole) - len(whole.rstrip("0")) if "." not in whole else 0
+    return 10.0 ** (zeros if zeros and len(whole) > 2 else -_decimals(number))
+
+
+@pytest.mark.parametrize("expanded", [0.06, 0.432, 2.0, 43.2])
+@pytest.mark.parametrize("decimals", [0, 1, 3])
+def test_digits_of_values_follow_u_those_of_means_the_readings_and_none_contradicts(
+    tmp_path: Path, decimals: int, expanded: float
+) -> None:
+    parameters, _, positions, *_ = _tables(tmp_path, decimals, expanded)
+    of_page = _rows(parameters)
+    for row in of_page:
+        assert len(re.sub(r"^0[.0]*|\D", "", row["U"])) == 2, row
+        assert _decimals(row["Value"]) == _decimals(row["U"]), row
+    by_position = _rows(positions)
+    for row in by_position:
+        assert {_decimals(row[name]) for name in ("x̄i↑", "si↑", "x̄i↓", "si↓", "x̄i", "Bi")} == {decimals + 1}
+        # 4s as a reader computes it from the page: off by what both were rounded, and no more.
+        for way in "↑↓":
+            allowed = 2 * _unit(row[f"si{way}"]) + _unit(row[f"Ri{way}"]) / 2
+            assert abs(4 * float(row[f"si{way}"]) - float(row[f"Ri{way}"])) <= allowed * (1 + 1e-9)
+    values = {row["Symbol"]: row["Value"] for row in of_page}
+    for symbol, column in (("R", "Ri"), ("R↑", "Ri↑"), ("R↓", "Ri↓")):
+        largest = max((row[column] for row in by_position), key=float)
+        allowed = (_unit(values[symbol]) + _unit(largest)) / 2
+        assert abs(float(values[symbol]) - float(largest)) <= allowed * (1 + 1e-9)

@@ -1,0 +1,131 @@
+"""A laboratory's own look: its typeface, its templates, and what neither can do."""
+
+from __future__ import annotations
+
+import io
+import re
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import pypdf
+import pytest
+from fontTools.ttLib import TTFont
+
+from document.certificate.documents import certificate, having, registry
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.errors import AccessError, InputError
+
+FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
+TYPEFACE = {"regular": str(FONTS / "DejaVuSerif.ttf"), "semibold": str(FONTS / "DejaVuSerif-Bold.ttf")}
+NOTICE = '<div class="house">{% include "usual/notice.html" %}</div>'
+
+
+def styled(folder: Path, **style: Any) -> Certificate:
+    return certificate(folder, having("certificate.style", style))
+
+
+def templates(folder: Path, **files: str) -> Path:
+    house = folder / "house"
+    house.mkdir()
+    for name, text in files.items():
+        (house / name.replace("_", ".")).write_text(text, encoding="utf-8")
+    return house
+
+
+def pdf(of: Certificate) -> pypdf.PdfReader:
+    return pypdf.PdfReader(io.BytesIO(registry().renderer("pdf").render(of)))
+
+
+def refusal(of: Certificate, renderer: str = "html") -> str:
+    with pytest.raises(InputError) as caught:
+        registry().renderer(renderer).render(of)
+    return str(caught.value)
+
+
+def test_text_is_set_in_the_typeface_and_graphs_in_the_bundled_one(tmp_path: Path) -> None:
+    found = styled(tmp_path, typeface=TYPEFACE)
+    reader = pdf(found)
+    names = {str(font.get_object()["/BaseFont"]) for font in reader.pages[0]["/Resources"]["/Font"].values()}
+    assert any("own-" in each for each in names)
+    assert any("IBM-Plex-Sans-Italic" in each for each in names)
+    assert "data:font/sfnt" in registry().renderer("html").render(found).decode()
+
+
+def test_it_takes_no_more_room_than_the_bundled_one(tmp_path: Path) -> None:
+    (tmp_path / "usual").mkdir()
+    pages = len(pdf(certificate(tmp_path / "usual")).pages)
+    assert len(pdf(styled(tmp_path, typeface=TYPEFACE)).pages) == pages
+
+
+def test_its_figures_stand_in_columns_by_their_own_width(tmp_path: Path) -> None:
+    typeface = styled(tmp_path, typeface=TYPEFACE).look.typeface
+    assert typeface is not None
+    font = TTFont(io.BytesIO(typeface.regular))
+    figure = font["hmtx"].metrics[font.getBestCmap()[ord("0")]][0] / font["head"].unitsPerEm
+    assert typeface.figure == figure <= 0.6
+
+
+def test_a_font_that_lacks_letters_is_refused_at_its_key(tmp_path: Path) -> None:
+    signs = {**TYPEFACE, "regular": str(FONTS / "STIXSizOneSymReg.ttf")}
+    with pytest.raises(InputError, match=r"job\.yaml:\d+.*STIXSizOneSymReg\.ttf has no .a"):
+        styled(tmp_path, typeface=signs)
+
+
+def test_what_is_no_font_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "logo.ttf").write_bytes(b"\x89PNG")
+    with pytest.raises(InputError, match=r"logo\.ttf is no font"):
+        styled(tmp_path, typeface={**TYPEFACE, "regular": "logo.ttf"})
+
+
+def test_a_font_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(AccessError, match=r"none\.ttf cannot be read"):
+        styled(tmp_path, typeface={**TYPEFACE, "semibold": "none.ttf"})
+
+
+def test_a_font_that_must_not_be_embedded_is_refused(tmp_path: Path) -> None:
+    font = TTFont(TYPEFACE["regular"])
+    font["OS/2"].fsType = 2
+    font.save(tmp_path / "closed.ttf")
+    with pytest.raises(InputError, match="must not be embedded"):
+        styled(tmp_path, typeface={**TYPEFACE, "regular": "closed.ttf"})
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "html"])
+def test_a_template_takes_the_place_of_one_kind_of_block(tmp_path: Path, renderer: str) -> None:
+    house = templates(tmp_path, notice_html=NOTICE, style_css=".house { background: #fbeef2 }")
+    content = registry().renderer(renderer).render(styled(tmp_path, templates=str(house)))
+    if renderer == "html":
+        assert content.decode().count('<div class="house">') == content.decode().count('class="notice"') > 0
+        assert ".house { background: #fbeef2 }" in content.decode()
+
+
+@pytest.mark.parametrize(
+    ("template", "told"),
+    [
+        ("{{ heading }}", r"notice\.html: this template leaves out"),
+        ("<p>{{ headline }}</p>", r"notice\.html: this template does not work: 'headline' is undefined"),
+        ("\n{% if %}", r"notice\.html:2:1: this template does not work"),
+        ("<p>" + NOTICE, r"notice\.html: this template does not work: mismatched tag"),
+        ("{{ ''.__class__.__mro__ }}" + NOTICE, r"notice\.html: this template does not work: access"),
+        ('{% include "../../secret" %}', r"notice\.html: this template does not work"),
+    ],
+)
+def test_a_template_that_is_wrong_or_leaves_out_is_refused(tmp_path: Path, template: str, told: str) -> None:
+    found = styled(tmp_path, templates=str(templates(tmp_path, notice_html=template)))
+    assert re.match(told, refusal(found)), refusal(found)
+
+
+def test_a_picture_cannot_be_left_out_either(tmp_path: Path) -> None:
+    house = templates(tmp_path, graph_html="<p>{{ label }} {{ caption }}</p>")
+    assert "leaves out <" in refusal(styled(tmp_path, templates=str(house)), "pdf")
+
+
+def test_a_file_that_stands_for_no_block_is_refused(tmp_path: Path) -> None:
+    house = templates(tmp_path, notices_html="")
+    with pytest.raises(InputError, match=r"house/notices\.html stands for no block.*notice\.html"):
+        styled(tmp_path, templates=str(house))
+
+
+def test_typst_takes_neither(tmp_path: Path) -> None:
+    assert "ask for the format pdf" in refusal(styled(tmp_path, typeface=TYPEFACE), "pdf-typst")

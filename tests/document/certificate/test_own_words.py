@@ -1,0 +1,98 @@
+"""The look of a document, the order of its sections, and texts of one's own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pypdfium2
+import pytest
+
+from document.certificate.documents import COMPLETE, certificate, job, registry
+from zlmreport import pipeline
+from zlmreport.document.blocks import Notice
+from zlmreport.errors import InputError
+from zlmreport.verification.verify import verify
+
+LEAST = ["results", "uncertainty", "conditions"]
+
+
+def having(**keys: Any) -> Mapping[str, Any]:
+    return {**COMPLETE, "certificate": {**COMPLETE["certificate"], **keys}}
+
+
+def refusal(folder: Path, **keys: Any) -> str:
+    with pytest.raises(InputError) as refused:
+        certificate(folder, having(**keys))
+    return str(refused.value)
+
+
+@pytest.mark.parametrize("layout", ["standard", "full"])
+def test_sections_stand_in_the_order_of_the_job_with_its_texts(tmp_path: Path, layout: str) -> None:
+    note = {"title": "On {certificate.number}", "text": "For {customer.name}.\nSecond paragraph."}
+    made = certificate(tmp_path, having(layout=layout, sections=["origin", note, *LEAST]))
+    keys = [each.key for each in made.sections if each.key != "conditions"]
+    assert keys == ["origin", "text-2", "iso230-2-2014", "uncertainty"]
+    assert made.sections[1].title == "On CAL-1"
+    said = Notice("The laboratory's own words", ("For A Customer.", "Second paragraph."), is_quoted=True)
+    assert made.sections[1].blocks == (said,)
+
+
+def test_a_placeholder_is_looked_up_and_nothing_is_executed(tmp_path: Path) -> None:
+    harmless = "{0} {} {certificate} {{customer.name}} %s ${x}"
+    made = certificate(tmp_path, having(style={"footer": harmless}))
+    assert made.page_words.foot == harmless.replace("{customer.name}", "A Customer")
+    for named in ("customer.nme", "customer.name.__class__", "certificate.__init__"):
+        assert f"{{{named}}} stands for no value" in refusal(tmp_path, style={"header": f"{{{named}}}"})
+
+
+def test_what_a_customer_is_called_is_no_placeholder(tmp_path: Path) -> None:
+    customer = {**COMPLETE["customer"], "name": "{certificate.number} Ltd"}
+    keys = {**having(style={"header": "{customer.name}"}), "customer": customer}
+    assert certificate(tmp_path, keys).running_head == "{certificate.number} Ltd"
+
+
+@pytest.mark.parametrize("name", ["uncertainty", "conditions"])
+def test_a_certificate_cannot_leave_out_what_is_mandatory(tmp_path: Path, name: str) -> None:
+    sections = [each for each in LEAST if each != name]
+    assert f"add {name} to certificate.sections" in refusal(tmp_path, sections=sections)
+    assert certificate(tmp_path, having(kind="report", sections=sections))
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"sections": ["uncertainty"]}, "a document has its results"),
+        ({"sections": [*LEAST, "results"]}, "more than once: results"),
+        ({"sections": LEAST, "layout": "sheet"}, "no sections"),
+        ({"style": {"accent": "#ffcc00"}}, "its contrast is 1.5, and 4.5 is the least"),
+        ({"style": {"accent": "red; }"}}, "is no colour"),
+    ],
+)
+def test_what_cannot_be_printed_is_refused(tmp_path: Path, keys: Mapping[str, Any], message: str) -> None:
+    assert message in refusal(tmp_path, **keys)
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst", "html"])
+def test_each_renderer_has_the_colour_and_the_lines(tmp_path: Path, renderer: str) -> None:
+    style = {"accent": "#5c1a33", "logo": "left", "footer": "Order 4711"}
+    made = registry().renderer(renderer).render(certificate(tmp_path, having(style=style)))
+    if renderer == "html":
+        assert b"#5c1a33" in made
+        assert b"#0d4a63" not in made
+        assert b'class="logo-left"' in made
+        return
+    document = pypdfium2.PdfDocument(made)
+    for page in document:
+        assert "Order 4711" in page.get_textpage().get_text_range()
+    picture = document[0].render(scale=2).to_numpy().reshape(-1, 3)
+    assert (abs(picture.astype(int) - (0x33, 0x1A, 0x5C)).max(axis=1) < 9).any(), "blue, green, red"
+
+
+def test_a_certificate_of_a_look_and_an_order_of_its_own_holds(tmp_path: Path) -> None:
+    sections = [*LEAST, {"title": "Note", "text": "For {customer.name}."}]
+    keys = having(sections=sections, style={"accent": "#5c1a33", "header": "{machine.serial}"})
+    (pdf, _) = pipeline.run(job(tmp_path, keys), registry()).documents
+    pdf.path.write_bytes(pdf.content)
+    assert verify(pdf.path, registry()).holds

@@ -1,0 +1,262 @@
+"""The layout `sheet`: one page for each standard, and one of details for what they do not hold."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pypdf
+import pytest
+from hypothesis import HealthCheck, given, settings, strategies as st
+
+from document.certificate.documents import COMPLETE, certificate, having, registry
+from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
+from zlmreport.document.certificate import columns
+from zlmreport.document.certificate.document import Certificate
+
+SEVEN = (
+    {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
+    "iso230-2:2006",
+    "iso230-2:1997",
+    "iso230-2:1988",
+    "vdi-dgq-3441",
+    "vdi-vde-2617",
+    "nmtba",
+)
+#: An axis that drifts by no more than is said, by an instrument whose calibration has a date.
+_NEGLECTED = {
+    name: reason
+    for name, reason in COMPLETE["uncertainty"]["negligible"].items()
+    if name != "environmental_variation"
+}
+SOUND = having(
+    "uncertainty",
+    {"environmental_variation": 15, "negligible": _NEGLECTED},
+    having("instrument.calibrated", "2022-01-10"),
+)
+SHEET = having("certificate.layout", "sheet", SOUND)
+REPORT = having("certificate.kind", "report", SHEET)
+OPINION = [{"statement": "The axis is worn.", "basis": "The reversal error grew."}]
+
+
+def pages(of: Certificate, renderer: str = "pdf-typst") -> list[str]:
+    reader = pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of)))
+    return [page.extract_text() for page in reader.pages]
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_each_standard_has_one_page(tmp_path: Path, renderer: str) -> None:
+    found = certificate(tmp_path, {**SHEET, "evaluate": list(SEVEN)})
+    *sheets, details = found.sections
+    assert details.key == "details"
+    assert len(sheets) == 5
+    assert len(pages(found, renderer)) == 6
+
+
+def test_a_page_says_who_what_and_how_well(tmp_path: Path) -> None:
+    found = certificate(tmp_path, SHEET)
+    section = found.sections[0]
+    kinds = [type(block) for block in section.blocks]
+    assert kinds.count(Table) == kinds.count(Graph) == 1
+    text = " ".join(" ".join(pages(found)).split())
+    for stated in (
+        "Calibration Certificate",
+        "CAL-1",
+        "Some Laboratory",
+        "Street 1",
+        "A Customer",
+        "Lane 2",
+        "Maker M1",
+        "S-1",
+        "2022-04-07",
+        "2026-11-20",
+        "A. Person, Head",
+        "20.5 °C",
+        "C-1",
+        "simple acceptance",
+        "relate only to the item calibrated",
+        "reproduced only in full",
+    ):
+        assert stated in text, stated
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+def test_its_graph_has_the_brackets_and_is_at_least_90_mm_high_whatever_is_stated(
+    tmp_path: Path, paper: str
+) -> None:
+    for remarks in ("None.", "Words of a remark. " * 20):
+        keys = having("certificate.paper", paper, having("measurement.remarks", remarks, SHEET))
+        (figure,) = certificate(tmp_path, keys).figures
+        assert figure.panels[0].brackets
+        assert figure.height is not None
+        assert 90 <= figure.height <= 130 or paper == "Letter"
+
+
+def test_the_verdict_stands_before_the_graph_the_gravest_first(tmp_path: Path) -> None:
+    blocks = certificate(tmp_path, SHEET).sections[0].blocks
+    graph = next(at for at, block in enumerate(blocks) if isinstance(block, Graph))
+    said = [
+        (block.verdict.word, block.text)
+        for block in blocks[:graph]
+        if isinstance(block, Paragraph) and block.verdict
+    ]
+    assert said == [("does not conform", "E"), ("conforms", "A")]
+
+
+def test_no_verdict_is_told_where_nothing_is_limited(tmp_path: Path) -> None:
+    blocks = certificate(tmp_path, having("evaluate", ["iso230-2:2014"], SHEET)).sections[0].blocks
+    assert not any(isinstance(block, Paragraph) and block.verdict for block in blocks)
+
+
+def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) -> None:
+    rows = [
+        f"{target},{sign},{run},{target % 7 + run / 5}"
+        for run in (1, 2)
+        for sign in "+-"
+        for target in (0, 9, 19)
+    ]
+    (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
+    source = {"plugin": "laser-csv", "file": "x.csv"}
+    keys = having("evaluate", ["nmtba"], having("measurement.source", source, REPORT))
+    section = certificate(tmp_path, keys).sections[0]
+    tables = [block for block in section.blocks if isinstance(block, Table)]
+    assert len(tables) == 2
+
+
+def test_a_table_by_position_that_does_not_fit_is_left_out(tmp_path: Path) -> None:
+    rows = [
+        f"{target},{sign},{run},{target % 7}" for run in (1, 2) for sign in "+-" for target in range(-20, 21)
+    ]
+    (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
+    source = {"plugin": "laser-csv", "file": "x.csv"}
+    found = certificate(tmp_path, having("measurement.source", source, REPORT))
+    section = found.sections[0]
+    assert sum(isinstance(block, Table) for block in section.blocks) == 1
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_what_a_page_does_not_hold_stands_on_the_page_of_details(tmp_path: Path, renderer: str) -> None:
+    words = "The run was interrupted. " * 40
+    found = certificate(tmp_path, having("measurement.deviations_from_method", words, SHEET))
+    sheet, details = found.sections
+    assert not any(isinstance(block, Notice) and "deviations" in block.heading for block in sheet.blocks)
+    assert any(isinstance(block, Notice) and words.strip() in block.items for block in details.blocks)
+    (told,) = [b.text for b in sheet.blocks if isinstance(b, Paragraph) and "“Details”" in b.text]
+    assert "what must not be overlooked" in told
+    assert len(pages(found, renderer)) == 2
+
+
+def test_opinions_have_a_page_of_their_own(tmp_path: Path) -> None:
+    found = certificate(tmp_path, {**SHEET, "opinions": OPINION})
+    assert found.sections[-1].key == "opinions"
+    assert found.sections[-1].new_page
+
+
+_WORDS = st.text(st.sampled_from("abcdefghijklmnoprstuvwzäöüß ABKM"), min_size=1, max_size=60).map(str.strip)
+_LINES = st.lists(_WORDS.filter(bool), min_size=1, max_size=4)
+
+
+@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(
+    language=st.sampled_from(["en", "de"]),
+    paper=st.sampled_from(["A4", "Letter"]),
+    customer=_LINES,
+    model=_WORDS.filter(bool),
+    person=_WORDS.filter(bool),
+    warm_up=_LINES,
+    line=_WORDS.filter(bool),
+    remarks=_LINES,
+)
+def test_a_standard_has_one_page_whatever_the_length_of_what_is_stated(  # noqa: PLR0913, PLR0917 - drawn
+    tmp_path: Path,
+    language: str,
+    paper: str,
+    customer: list[str],
+    model: str,
+    person: str,
+    warm_up: list[str],
+    line: str,
+    remarks: list[str],
+) -> None:
+    stated = {
+        "certificate.language": language,
+        "certificate.paper": paper,
+        "certificate.authorised_by.name": person,
+        "customer.name": customer[0],
+        "customer.address": ", ".join(customer),
+        "machine.model": model,
+        "measurement.warm_up": " ".join(warm_up),
+        "measurement.line": line,
+        "measurement.deviations_from_method": " ".join(remarks),
+    }
+    keys: Mapping[str, Any] = {**SHEET, "evaluate": ["vdi-dgq-3441", *SEVEN[:1]]}
+    for dotted, value in stated.items():
+        keys = having(dotted, value, keys)
+    found = certificate(tmp_path, keys)
+    printed = pages(found)
+    assert len(printed) == len(found.sections)
+    for section, text in zip(found.sections, printed, strict=True):
+        assert section.title in text
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_of_an_adjusted_axis_the_comparison_has_a_page_and_each_state_another(
+    tmp_path: Path, renderer: str
+) -> None:
+    as_found = {"adjustment": "New compensation table", "measurement": COMPLETE["measurement"]}
+    found = pages(certificate(tmp_path, {**REPORT, "as_found": as_found}), renderer)
+    headings = [section.title for section in certificate(tmp_path, {**REPORT, "as_found": as_found}).sections]
+    assert len(found) == len(headings) == 3
+    for text, heading in zip(found, headings, strict=True):
+        assert heading in text
+
+
+def test_a_report_with_more_to_say_goes_on(tmp_path: Path) -> None:
+    assert len(pages(certificate(tmp_path, {**REPORT, "opinions": OPINION}))) == 3
+
+
+def test_what_departs_from_the_standard_stands_on_the_page(tmp_path: Path) -> None:
+    section = certificate(tmp_path, SHEET).sections[0]
+    assert any(isinstance(block, Notice) and "deviates" in block.heading for block in section.blocks)
+
+
+def _lowest(of: Certificate, renderer: str) -> float:
+    """Return how high the text of the first page stands, in points, from its top margin."""
+    reader = pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of)))
+    page = reader.pages[0]
+    found: list[float] = []
+
+    def visit(text: str, page: list[float], line: list[float], *_: object) -> None:
+        height = line[4] * page[1] + line[5] * page[3] + page[5]
+        if text.strip() and height > 54:
+            found.append(height)
+
+    page.extract_text(visitor_text=visit)
+    return 842 - 21 * 72 / 25.4 - min(found)
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, renderer: str) -> None:
+    found = certificate(tmp_path, SHEET)
+    section = found.sections[0]
+    estimate = columns.head_height(found.letterhead, found.title) + columns.heading_height(section.title)
+    estimate += columns.height(section.blocks)
+    taken = _lowest(found, renderer)
+    assert taken < estimate + 12
+    assert estimate < 1.15 * taken
+
+
+def test_words_that_do_not_share_a_line_take_one_each() -> None:
+    one, four = (columns.height([Paragraph(" ".join(["n" * 60] * words))]) for words in (1, 4))
+    both = columns.height([Paragraph("n" * 60), Paragraph("n" * 60)])
+    assert four - one == pytest.approx(3 * (both - one - 3.0))
+
+
+@pytest.mark.parametrize(
+    "block", [Paragraph("word " * 100), Notice("Heading", ("item " * 60,)), Facts((("name", "value " * 40),))]
+)
+def test_more_text_takes_more_room(block: Block) -> None:
+    assert columns.height([block]) > 20
+    assert list(columns.gather_facts([block]))

@@ -1,0 +1,186 @@
+"""The layout `standard`: a page or so for each standard, with all that the layout `full` states."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pypdf
+import pytest
+
+from document.certificate.documents import COMPLETE, certificate, registry
+from document.certificate.everything import EVERYTHING, write_tables
+from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Paragraph, Table
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.standard_layout import in_less_room
+
+SEVEN = (
+    {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
+    "iso230-2:2006",
+    "iso230-2:1997",
+    "iso230-2:1988",
+    "vdi-dgq-3441",
+    "vdi-vde-2617",
+    "nmtba",
+)
+#: Points of a page that hold text: between the margins, and where the running head and foot stand.
+_TOP, _BOTTOM = 782.0, 54.0
+
+
+def laid_out(folder: Path, layout: str, **keys: Any) -> Certificate:
+    job = {**COMPLETE, **keys}
+    return certificate(folder, {**job, "certificate": {**job["certificate"], "layout": layout}})
+
+
+@cache
+def _of_seven(layout: str, folder: Path) -> Certificate:
+    return laid_out(folder, layout, evaluate=list(SEVEN))
+
+
+@pytest.fixture(scope="module")
+def seven(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
+    return _of_seven("standard", tmp_path_factory.mktemp("standard"))
+
+
+@pytest.fixture(scope="module")
+def seven_in_full(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
+    return _of_seven("full", tmp_path_factory.mktemp("full"))
+
+
+def pages(of: Certificate, renderer: str = "pdf-typst") -> list[pypdf.PageObject]:
+    return list(pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of))).pages)
+
+
+def blocks(of: Certificate) -> list[Block]:
+    return [*of.cover, *(block for section in of.sections for block in section.blocks)]
+
+
+def facts(of: Certificate) -> set[str]:
+    return {value for block in blocks(of) if isinstance(block, Facts) for _, value in block.pairs}
+
+
+def _fill(page: pypdf.PageObject) -> float:
+    """Return how far down a page text stands, as a part of the room between its margins."""
+    lowest = _TOP
+
+    def visit(text: str, matrix: Any, *_: Any) -> None:
+        nonlocal lowest
+        if text.strip() and matrix[5] > _BOTTOM:
+            lowest = min(lowest, matrix[5])
+
+    page.extract_text(visitor_text=visit)
+    return (_TOP - lowest) / (_TOP - _BOTTOM)
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_seven_standards_take_no_more_than_eleven_pages(seven: Certificate, renderer: str) -> None:
+    assert len(pages(seven, renderer)) <= 11
+
+
+def test_one_standard_takes_no_more_than_four_pages(tmp_path: Path) -> None:
+    targets = [10.0 + 48.0 * number + number % 3 for number in range(11)]
+    rows = [
+        f"{target},{sign},{run},{0.01 * target + run % 3 + (1.5 if sign == '+' else 0):.1f}"
+        for run in range(1, 6)
+        for sign, order in (("+", targets), ("-", targets[::-1]))
+        for target in order
+    ]
+    (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
+    measurement = {**COMPLETE["measurement"], "source": {"plugin": "laser-csv", "file": "x.csv"}}
+    axis = {"name": "X", "travel": [0, 500]}
+    assert len(pages(laid_out(tmp_path, "standard", axis=axis, measurement=measurement))) <= 4
+
+
+def test_no_page_but_the_last_is_emptier_than_a_third(seven: Certificate) -> None:
+    *others, _ = map(_fill, pages(seven))
+    assert min(others) > 0.35
+
+
+def test_editions_that_give_the_same_numbers_share_a_page(seven: Certificate) -> None:
+    titles = [section.title for section in seven.sections]
+    assert titles[:3] == [
+        "Results by ISO 230-2:2014, ISO 230-2:2006, ISO 230-2:1997",
+        "Results by ISO 230-2:1988",
+        "Results by VDI/DGQ 3441",
+    ]
+    first = seven.sections[0].blocks[0]
+    assert first == Paragraph(
+        "These readings give the same numbers by ISO 230-2:2006, ISO 230-2:1997; names and limits are those "
+        "of ISO 230-2:2014."
+    )
+
+
+def test_an_edition_with_limits_of_its_own_has_a_page_of_its_own(tmp_path: Path) -> None:
+    other = {"standard": "iso230-2:2006", "tolerances": {"A": 10}}
+    found = laid_out(tmp_path, "standard", evaluate=[SEVEN[0], other])
+    assert [section.key for section in found.sections[:2]] == ["iso230-2-2014", "iso230-2-2006"]
+
+
+@pytest.mark.parametrize("keys", [COMPLETE, EVERYTHING], ids=["complete", "everything"])
+def test_it_states_what_the_full_layout_states(keys: Mapping[str, Any], tmp_path: Path) -> None:
+    write_tables(tmp_path)
+    standard, full = (laid_out(tmp_path, layout, **keys) for layout in ("standard", "full"))
+    assert facts(full) - facts(standard) <= _of_machine(keys)
+    for kind in (Paragraph, Notice):
+        stated = {str(block) for block in full.cover if isinstance(block, kind)}
+        assert stated <= {str(block) for block in standard.cover}
+
+
+def _of_machine(keys: Mapping[str, Any]) -> set[str]:
+    """Return what the first page says in one line of the machine."""
+    return {str(value) for value in keys["machine"].values()} | {"machine tool"}
+
+
+def test_every_value_of_every_standard_is_printed(seven: Certificate, seven_in_full: Certificate) -> None:
+    def numbers(of: Certificate) -> set[tuple[Any, ...]]:
+        tables = [block for block in blocks(of) if isinstance(block, Table)]
+        rows = (row for table in tables for group in table.groups for row in group.rows)
+        return {row[2:] for row in rows if len(row) == 7}
+
+    assert numbers(seven_in_full) - numbers(seven) <= {
+        # editions without limits that share the page of one with limits
+        row
+        for row in numbers(seven_in_full)
+        if row[3:] == ("–", "–")
+    }
+
+
+def test_definitions_and_requirements_stand_once(seven: Certificate) -> None:
+    (section,) = [each for each in seven.sections if each.key == "definitions"]
+    assert sum(isinstance(block, Formulas) for block in section.blocks) == 5
+    others = [block for each in seven.sections if each is not section for block in each.blocks]
+    assert not any(isinstance(block, Formulas) for block in others)
+
+
+def test_no_graph_draws_the_curves_of_another_again(seven: Certificate, seven_in_full: Certificate) -> None:
+    def of_first(of: Certificate) -> list[str]:
+        section = next(each for each in of.sections if each.key == "iso230-2-2014")
+        return [block.figure.key for block in section.blocks if isinstance(block, Graph)]
+
+    assert len(of_first(seven_in_full)) > len(of_first(seven)) == 2
+
+
+def test_the_graph_that_is_kept_shows_the_single_readings(seven_in_full: Certificate) -> None:
+    section = next(each for each in seven_in_full.sections if each.key == "iso230-2-2014")
+    figures = [block.figure for block in section.blocks if isinstance(block, Graph)]
+    main, *_ = in_less_room(figures)
+    assert main.panels[0].brackets
+    assert main.panels[0].readings
+
+
+def test_what_is_said_of_a_standard_stands_below_its_own_definitions(seven: Certificate) -> None:
+    (section,) = (each for each in seven.sections if each.key == "definitions")
+    under = ""
+    said: dict[str, str] = {}
+    for block in section.blocks:
+        if isinstance(block, Formulas):
+            under = block.caption
+        elif isinstance(block, Paragraph):
+            said[under] = said.get(under, "") + str(block)
+    (of_1988,) = (words for caption, words in said.items() if "ISO 230-2:1988" in caption)
+    (of_2014,) = (words for caption, words in said.items() if "ISO 230-2:2014" in caption)
+    assert "The limits lie 3 standard deviations" in of_1988
+    assert "The limits lie 2 standard deviations" in of_2014

@@ -1,0 +1,116 @@
+"""A panel about a circle: where values stand, and what is drawn with them."""
+
+import numpy as np
+import pytest
+
+from zlmreport.document.figures.draw import legend_shapes, sketch, to_svg
+from zlmreport.document.figures.figure import Curve, Figure, Level, Panel, Role
+from zlmreport.document.figures.layout import figure_size, lay_out
+from zlmreport.document.figures.polar import on_circle, polar_grid, square
+from zlmreport.document.figures.shapes import Box, Marks
+from zlmreport.language import Language, same
+from zlmreport.language.formatting import DecimalSign
+
+ANGLES = np.linspace(0.0, 360.0, 361)
+
+
+def figure(values, **of_panel):
+    of_panel = {"projection": "polar", **of_panel}
+    panel = Panel(curves=(Curve("G", Role.MEAN_POSITIVE, ANGLES, values),), **of_panel)
+    return Figure(
+        "circle",
+        same("Circle"),
+        same("A circle."),
+        same("Angle"),
+        same("Radial"),
+        "°",
+        "µm",
+        (panel,),
+    )
+
+
+def test_values_stand_so_far_outside_the_nominal_circle_as_they_are_large():
+    panel = figure(3.0 * np.cos(np.radians(ANGLES))).panels[0]
+    grid = polar_grid(panel, DecimalSign.POINT)
+    curve = on_circle(panel, grid).curves[0]
+    radius = np.hypot(curve.x, curve.y)
+    assert radius[0] - radius[180] == pytest.approx(6.0)
+    assert np.degrees(np.arctan2(curve.y[90], curve.x[90])) == pytest.approx(90.0)
+    assert 0.0 in grid.ticks
+    assert grid.ticks[0] <= -3.0
+    assert grid.ticks[-1] >= 3.0
+    assert float(grid.radius(grid.ticks[0])) > 0
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 3e4])
+def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
+    shown = figure(size * np.sin(2 * np.radians(ANGLES)))
+    layout = lay_out(shown, Language.ENGLISH)
+    (panel,) = layout.panels
+    assert panel.frame.box.width == pytest.approx(panel.frame.box.height)
+    assert panel.frame.x_factor == pytest.approx(panel.frame.y_factor)
+    width, height = figure_size(shown)
+    box = panel.frame.box
+    assert 0 <= box.left < box.right <= width
+    assert 0 <= box.bottom < box.top <= height
+    (curve,) = [shape for shape in sketch(layout) if shape.kind == "curve mean_positive"]
+    assert np.abs(curve.parts[0]).max() <= panel.frame.x_scale.upper
+
+
+def test_a_curve_shows_its_sense_by_an_arrow_along_it():
+    forwards, backwards = figure(0 * ANGLES), figure(0 * ANGLES)
+    turned = Curve("G", Role.MEAN_POSITIVE, ANGLES[::-1], 0 * ANGLES)
+    backwards = figure(0 * ANGLES)
+    panel = Panel(curves=(turned,), projection="polar")
+    backwards = Figure(
+        *[getattr(forwards, each) for each in ("key", "title", "alternative")],
+        forwards.x_title,
+        forwards.y_title,
+        "°",
+        "µm",
+        (panel,),
+    )
+
+    def tip_and_base(shown):
+        (head,) = [each for each in sketch(lay_out(shown, Language.ENGLISH)) if each.kind == "sense"]
+        corners = head.parts[0]
+        return corners[0], (corners[1] + corners[2]) / 2
+
+    for shown, sense in ((forwards, 1.0), (backwards, -1.0)):
+        tip, base = tip_and_base(shown)
+        frame = lay_out(shown, Language.ENGLISH).panels[0].frame
+        middle = np.array([frame.x_point(0.0), frame.y_point(0.0)])
+        arm, way = base - middle, tip - base
+        assert np.sign(arm[0] * way[1] - arm[1] * way[0]) == sense
+
+
+def test_the_distance_of_circles_is_told_in_words_of_the_language():
+    image = to_svg(figure(3.0 * np.cos(np.radians(ANGLES))), Language.GERMAN)
+    assert "von Kreis zu Kreis" in image
+    assert "°" in image
+
+
+def test_a_level_is_a_circle_and_a_gap_stays_a_gap():
+    values = np.where(ANGLES < 180, 1.0, np.nan)
+    shapes = list(
+        sketch(lay_out(figure(values, levels=(Level("F", Role.TOLERANCE, 4.0),)), Language.ENGLISH))
+    )
+    (level,) = [each for each in shapes if each.kind == "level"]
+    middle = level.parts[0].mean(axis=0)
+    distances = np.hypot(*(level.parts[0][:-1] - level.parts[0][:-1].mean(axis=0)).T)
+    assert np.ptp(distances) < 1e-6
+    assert np.isfinite(middle).all()
+    assert square(Box(0, 0, 4, 2)) == Box(1, 0, 3, 2)
+
+
+def test_an_entry_of_its_legend_has_no_mark():
+    about, over = figure(0 * ANGLES), figure(0 * ANGLES, projection="straight")
+    marks = [
+        [
+            each
+            for each in legend_shapes(lay_out(shown, Language.ENGLISH).panels[0])
+            if isinstance(each, Marks)
+        ]
+        for shown in (about, over)
+    ]
+    assert list(map(len, marks)) == [0, 1]

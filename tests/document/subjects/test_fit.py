@@ -1,0 +1,78 @@
+"""What is said of a fitted model: its error, its parameters and its polynomials, in both languages."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from model.hidden_effect import LAST, example_history, study, written
+from zlmreport.document.blocks import Paragraph, Table, text_of
+from zlmreport.document.subjects.fit import (
+    fit_sections,
+    in_a_sentence,
+    parameter_rows,
+    parameters,
+    polynomial,
+)
+from zlmreport.language import Language
+
+ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
+
+
+def _cells(table: Table, key: str) -> list[str]:
+    (number,) = [number for number, column in enumerate(table.columns) if column.key == key]
+    return [text_of(row[number]) for group in table.groups for row in group.rows]
+
+
+def test_sections_are_the_same_in_both_languages(tmp_path: Path) -> None:
+    effects = f"    - offset\n    - scale-error\n{LAST}"
+    fitted = study(written(tmp_path, (effects, "    - polynomial: {order: 3}\n"))).fitted()
+    english, german = (fit_sections(fitted, each) for each in (ENGLISH, GERMAN))
+    keys = ["error", "model", "polynomials"]
+    assert [each.key for each in english] == [each.key for each in german] == keys
+    assert not {each.title for each in english} & {each.title for each in german}
+    curves = [each.text for each in german[-1].blocks if isinstance(each, Paragraph) and "Δ" in each.text]
+    assert [text[:4] for text in curves] == ["Δ↑ =", "Δ↓ =", "Δ un"]
+    assert all("." not in text for text in curves)
+
+
+def test_a_table_of_parameters_without_a_column_keeps_the_others() -> None:
+    whole = parameters(example_history()[-1].fit, ENGLISH)
+    narrow = whole.without("symbol", "value")
+    assert [each.key for each in narrow.columns] == [
+        each.key for each in whole.columns if each.key not in {"symbol", "value"}
+    ]
+    for key in ("name", "parameter", "uncertainty", "unit"):
+        assert _cells(narrow, key) == _cells(whole, key)
+
+
+def test_each_parameter_has_its_value_and_its_uncertainty() -> None:
+    fit = example_history()[-1].fit
+    table = parameters(fit, ENGLISH)
+    rows = parameter_rows(fit, ENGLISH)
+    assert _cells(table, "name") == [each.name for each in rows]
+    assert _cells(table, "value") == [each.value for each in rows]
+    assert _cells(table, "uncertainty") == [each.uncertainty for each in rows]
+
+
+@pytest.mark.parametrize(
+    ("stated", "english", "german"),
+    [
+        ("lost_motion: -3", "lost_motion −3 µm (given)", "lost_motion −3 µm (vorgegeben)"),
+        ("lost_motion: {min: -3}", "lost_motion −3 µm (held at min)", "lost_motion −3 µm (gehalten bei min)"),
+    ],
+    ids=["given", "held"],
+)
+def test_a_value_without_uncertainty_says_how_it_is_known(
+    tmp_path: Path, stated: str, english: str, german: str
+) -> None:
+    fit = study(written(tmp_path, (LAST, f"    - backlash: {{{stated}}}\n"))).fitted().fit
+    for language, expected in ((ENGLISH, english), (GERMAN, german)):
+        (row,) = [each for each in parameter_rows(fit, language) if each.effect == "backlash"]
+        assert in_a_sentence(row, language) == expected
+
+
+def test_a_polynomial_has_the_decimal_sign_of_its_language() -> None:
+    powers = [("X", 0), ("X", 1)]
+    assert polynomial([-0.5, 2e-5], powers, GERMAN) == "−0,5 + 2e−5·X"

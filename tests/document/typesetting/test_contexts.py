@@ -1,0 +1,89 @@
+"""Templates and their documented contexts are the same."""
+
+from __future__ import annotations
+
+import dataclasses
+from importlib.resources import files
+from typing import get_args
+
+import pytest
+from jinja2 import UndefinedError, meta, nodes
+from jinja2.exceptions import SecurityError
+
+from zlmreport.document.blocks import Facts
+from zlmreport.document.certificate import document
+from zlmreport.document.typesetting import overview, templates
+from zlmreport.document.typesetting.resources import PACKAGE
+from zlmreport.document.typesetting.templates import environment
+from zlmreport.language.formatting import Span
+
+CONTEXTS = get_args(templates.Context)
+TEMPLATES = sorted(file.name for file in (files(PACKAGE) / "templates").iterdir())
+
+#: What templates may look into, beside the contexts themselves.
+PARTS = (
+    templates.CellContext,
+    templates.RowGroupContext,
+    Facts,
+    document.Certificate,
+    document.Letterhead,
+    document.Look,
+    document.PageWords,
+    document.Party,
+    overview.LinkContext,
+    overview.OverviewCellContext,
+    overview.OverviewGroupContext,
+    overview.TileContext,
+    Span,
+)
+
+
+def parsed(template: str) -> nodes.Template:
+    loader = environment().loader
+    assert loader is not None
+    return environment().parse(loader.get_source(environment(), template)[0])
+
+
+def test_each_template_has_one_context_and_each_context_its_template() -> None:
+    assert sorted(templates.template_of(context) for context in CONTEXTS) == TEMPLATES
+
+
+@pytest.mark.parametrize("context", CONTEXTS, ids=templates.template_of)
+def test_a_template_uses_what_its_context_documents_and_all_of_it(context: type) -> None:
+    used = meta.find_undeclared_variables(parsed(templates.template_of(context)))
+    assert used == {field.name for field in dataclasses.fields(context)}
+
+
+@pytest.mark.parametrize("template", TEMPLATES)
+def test_a_template_looks_only_into_fields_that_a_part_documents(template: str) -> None:
+    of_loop = {"index", "first", "last", "revindex"}
+    documented = (
+        {field.name for part in PARTS for field in dataclasses.fields(part)} | of_loop | {"running_head"}
+    )
+    looked_at = {node.attr for node in parsed(template).find_all(nodes.Getattr)}
+    assert looked_at <= documented
+
+
+@pytest.mark.parametrize("template", TEMPLATES)
+def test_a_template_holds_layout_and_no_words(template: str) -> None:
+    text = "".join(node.data for node in parsed(template).find_all(nodes.TemplateData))
+    between_tags = "".join(part.rpartition(">")[2] for part in text.split("<"))
+    assert not [character for character in between_tags if character.isalpha()]
+
+
+@pytest.mark.parametrize("template", TEMPLATES)
+def test_a_template_never_trusts_a_value_of_its_context(template: str) -> None:
+    trusted = [
+        node.node for node in parsed(template).find_all(nodes.Filter) if node.name in {"safe", "forceescape"}
+    ]
+    assert all(isinstance(node, nodes.CondExpr | nodes.Const) for node in trusted)
+
+
+def test_a_template_that_asks_for_what_it_is_not_given_fails() -> None:
+    with pytest.raises(UndefinedError, match="nothing_such"):
+        environment().from_string("{{ nothing_such }}").render()
+
+
+def test_a_template_cannot_reach_behind_its_values() -> None:
+    with pytest.raises(SecurityError):
+        environment().from_string("{{ text.__class__.__mro__ }}").render(text="x")

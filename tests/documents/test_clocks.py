@@ -1,0 +1,30 @@
+"""Every module that reads a clock is on the list that says why load changes no number."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+from documents.pages import ROOT
+
+#: What reads a clock, as it is called.
+_READ = {"monotonic", "time", "now", "today", "utcnow", "perf_counter", "process_time", "time_ns"}
+_OF = {"time", "dt", "datetime", "date"}
+
+
+def _reads_a_clock(module: Path) -> bool:
+    for node in ast.walk(ast.parse(module.read_bytes())):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in _READ:
+            holder = ast.unparse(node.func.value).split(".")
+            if holder[0] in _OF and holder[-1] in _OF:
+                return True
+    return False
+
+
+def test_who_reads_a_clock_is_listed_and_nobody_else() -> None:
+    modules = [*ROOT.glob("src/**/*.py"), *ROOT.glob("plugins/zlmreport_*/**/*.py")]
+    reading = {path.relative_to(ROOT).as_posix() for path in modules if _reads_a_clock(path)}
+    page = (ROOT / "docs/architecture.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"`((?:src|plugins)/\S+\.py)`", page.partition("## Who reads a clock")[2]))
+    assert reading == listed

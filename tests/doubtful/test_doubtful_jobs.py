@@ -1,0 +1,376 @@
+"""Jobs that an assessor would write up: each is refused, marked where it is read, or right."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from document.certificate.documents import text_of, without
+from doubtful.doubtful_jobs import (
+    REPORT,
+    SOUND,
+    TARGETS,
+    changed,
+    composed,
+    cover,
+    order,
+    parameter,
+    readings,
+    refusals,
+)
+
+_RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
+_SHOWN = "What readings and calibrations show"
+
+
+def test_a_sound_job_is_neither_refused_nor_marked(tmp_path: Path) -> None:
+    document = composed(tmp_path, SOUND)
+
+    assert document.doubts == document.evidence == ()
+    assert _SHOWN not in cover(document)
+    assert parameter(document, "A").conforms
+
+
+# 1. Zero is not a statement.
+
+
+@pytest.mark.parametrize("name", _RANGES)
+def test_a_range_of_zero_states_nothing(name: str, tmp_path: Path) -> None:
+    keys = changed((f"uncertainty.{name}", 0))
+
+    assert f"uncertainty.{name} (0 states nothing)" in refusals(tmp_path, keys)
+    budget = composed(tmp_path, changed(REPORT, of=keys)).budget
+    assert budget is not None
+    assert budget.missing == (name,)
+
+
+@pytest.mark.parametrize(
+    "reason", ["-", "none", "n/a", "negligible", "...", "0", "vernachlässigbar", "klein"]
+)
+def test_a_dash_is_no_reason(reason: str, tmp_path: Path) -> None:
+    keys = changed(("uncertainty.negligible.device_temperature", reason))
+
+    assert "is no reason why it should be negligible" in refusals(tmp_path, keys)
+    document = composed(tmp_path, changed(REPORT, of=keys))
+    assert "U incomplete: Temperature measurement, measuring device not considered" in cover(document)
+
+
+def test_an_empty_reason_is_refused_outright(tmp_path: Path) -> None:
+    assert refusals(tmp_path, changed(("uncertainty.negligible.device_temperature", "")))
+
+
+def test_seven_contributors_waved_away_decide_nothing(tmp_path: Path) -> None:
+    names = (*_RANGES, "device_temperature", "device_expansion_coefficient", "resolution")
+    keys = changed(REPORT, ("decision_rule", "guard-band"))
+    keys["uncertainty"] = {"negligible": dict.fromkeys(names, "-")}
+
+    document = composed(tmp_path, keys)
+
+    assert document.budget is not None
+    assert not document.budget.is_complete
+    assert parameter(document, "R").conforms is None
+
+
+def test_u_is_never_below_what_the_last_digit_allows(tmp_path: Path) -> None:
+    quiet = dict.fromkeys(
+        (*_RANGES, "device_temperature", "device_expansion_coefficient", "resolution"),
+        "shown on 2026-11-17 to be below 1 nm",
+    )
+    document = composed(tmp_path, {**SOUND, "uncertainty": {"negligible": quiet}}, readings(decimals=1))
+
+    for symbol in ("R", "R_fwd", "B", "B_mean"):
+        # A difference of two means of five readings in steps of 0.1 µm; R has single readings in it.
+        least = 0.9 * 0.1e-6 / np.sqrt(12) * np.sqrt(2 / 5) * 2 / np.sqrt(11)
+        assert (parameter(document, symbol).expanded_uncertainty or 0.0) > least
+    assert (parameter(document, "R").expanded_uncertainty or 0.0) > 0.02e-6
+
+
+def test_the_sheet_lists_what_was_declared_negligible(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(("certificate.layout", "sheet")))
+
+    assert "laser, no length of its own" in text_of(document)
+
+
+# 2. U holds it whole.
+
+_WARM = changed(("environment.axis_temperature", 26), ("uncertainty.resolution", 0.01))
+#: A slope that the expansion of 6 K (69 µm) hides but for 2 µm.
+_HIDING = readings(slope=0.5)
+
+
+def test_a_certificate_of_a_machine_at_26_degrees_is_refused_with_the_remedy(tmp_path: Path) -> None:
+    said = refusals(tmp_path, _WARM, _HIDING)
+
+    assert "68.5 µm longer than at 20 °C (+6 K)" in said
+    assert "corrections: {material:" in said
+
+
+def test_a_report_of_it_is_not_said_to_conform_by_a_value_that_is_known_to_be_wrong(tmp_path: Path) -> None:
+    warm = composed(tmp_path, changed(REPORT, of=_WARM), _HIDING)
+    a = parameter(warm, "A")
+    corrected = composed(
+        tmp_path,
+        changed(("corrections", {"material": {"temperature": "axis_temperature"}}), of=_WARM),
+        _HIDING,
+    )
+    right = parameter(corrected, "A").value
+
+    assert a.value < 10e-6 < right
+    assert a.conforms is None
+    assert a.value + a.known_error == pytest.approx(right, abs=0.02e-6)
+    assert abs(right - a.value) < (a.expanded_uncertainty or 0.0)
+    assert 1.6 < (a.coverage_factor or 0.0) < 2.4  # biases are in no k
+    text = text_of(warm)
+    assert "Where a known error that is not corrected would turn the statement, nothing is decided." in text
+    assert "Results for 20 °C" in text
+    (finding,) = (
+        each for each in warm.evaluations[0].findings if each.requirement.en.startswith("Results for 20")
+    )
+    assert finding.met is False
+
+
+def test_a_temperature_that_moves_is_taken_reading_by_reading(tmp_path: Path) -> None:
+    """The readings of the last run stand 4 K higher than those of the first: R shows it, and U holds it."""
+    warming = np.linspace(20, 24, len(order()))
+    right = readings()
+    warm = right.copy()
+    for number, (target, direction, run) in enumerate(order()):
+        length = (TARGETS[0] - TARGETS[target]) / 1e3
+        warm[target, direction, run] -= 11.5 * (warming[number] - 20) * length
+    keys = changed(REPORT)
+
+    document = composed(tmp_path, keys, warm, temperatures=warming)
+    truth = composed(tmp_path, keys, right)
+
+    for each in truth.evaluations[0].parameters:
+        found = parameter(document, each.quantity.symbol)
+        assert abs(found.value - each.value) < (found.expanded_uncertainty or 0.0), each.quantity.symbol
+    assert refusals(tmp_path, SOUND, warm, temperatures=warming)
+
+
+# 4. Risks agree.
+
+
+def test_the_first_page_tells_the_risk_that_the_table_has(tmp_path: Path) -> None:
+    tight = [{"standard": "iso230-2:2014", "tolerances": {"A": 6.2}}]
+    document = composed(tmp_path, changed(("evaluate", tight)))
+
+    risk = parameter(document, "A").decision.risk  # type: ignore[union-attr]
+    assert risk is not None
+    assert f"the largest here is {100 * risk:.1f} %, of A" in cover(document)
+
+
+def test_a_guard_band_of_u_has_the_risk_of_95_percent(tmp_path: Path) -> None:
+    document = composed(
+        tmp_path, changed(("decision_rule", "guard-band"), ("environment.axis_temperature", 20.6))
+    )
+
+    assert "The risk of a wrong acceptance is at most 2.3 %." in cover(document)
+
+
+def test_an_uncertainty_larger_than_the_limit_is_said_under_simple_acceptance(tmp_path: Path) -> None:
+    tight = changed(("evaluate", [{"standard": "iso230-2:2014", "tolerances": {"B": 0.3}}]))
+
+    assert "U of B is larger than the limit" in text_of(composed(tmp_path, tight))
+
+
+# 5. A laser that does not look at the air, and one that has corrected the material.
+
+_AIR = {"air_temperature": 20, "air_pressure": 900, "relative_humidity": 50}
+
+
+def _blind(*more: tuple[str, object]) -> dict[str, object]:
+    environment = {**SOUND["environment"], **_AIR}
+    return changed(("instrument.compensation", "none"), ("environment", environment), *more)
+
+
+def test_a_laser_that_compensates_nothing_has_the_air_in_its_budget(tmp_path: Path) -> None:
+    stated = {**SOUND["uncertainty"], "air_temperature": 1, "air_pressure": 1, "relative_humidity": 10}
+    document = composed(tmp_path, _blind(("uncertainty", stated)))
+
+    # 113.25 hPa at 0.268 µm/m each over 0.9933 m.
+    found = parameter(document, "E").expanded_uncertainty or 0.0
+    assert abs(parameter(document, "E").known_error) > 20e-6
+    assert 25e-6 < found < 36e-6
+    assert "Refractive index of the air, not compensated" in text_of(document)
+
+
+def test_its_sensors_are_demanded(tmp_path: Path) -> None:
+    assert "uncertainty.air_pressure" in refusals(tmp_path, _blind())
+
+
+def test_a_triangulating_sensor_needs_no_air(tmp_path: Path) -> None:
+    assert not refusals(tmp_path, _blind(("instrument.name", "Laser triangulation sensor")))
+
+
+def test_a_laser_that_corrected_the_material_has_no_expansion_left(tmp_path: Path) -> None:
+    keys = changed(("instrument.compensates", {"material": 11.5, "air": True}), of=_WARM)
+    document = composed(tmp_path, keys)
+
+    a = parameter(document, "A")
+    assert a.known_error == 0.0
+    # Coefficient: 1 µm/(m·K) · 6 K · 0.9933 m /√12 = 1.72 µm; sensor: 11.5 · 0.1 · 0.9933/√12 = 0.33 µm.
+    named = {each.contributor: each.standard_uncertainty for each in document.budget.contributions}  # type: ignore[union-attr]
+    assert named["expansion_coefficient"] == pytest.approx(0.9933 * 6 * 1e-6 / np.sqrt(12), rel=1e-3)
+    assert named["machine_temperature"] == pytest.approx(0.9933 * 11.5e-6 * 0.1 / np.sqrt(12), rel=1e-3)
+    assert "longer than at 20 °C" not in cover(document)
+    assert "corrected by the instrument" in text_of(document)
+
+
+def test_another_coefficient_than_the_machines_leaves_the_difference(tmp_path: Path) -> None:
+    keys = changed(("instrument.compensates", {"material": 10.5, "air": True}), of=_WARM)
+
+    assert abs(parameter(composed(tmp_path, keys), "E").known_error) == pytest.approx(2.5e-6, rel=0.3)
+
+
+def test_nothing_is_corrected_twice(tmp_path: Path) -> None:
+    keys = changed(
+        ("instrument.compensates", {"material": 11.5}),
+        ("corrections", {"material": {"temperature": "axis_temperature"}}),
+        of=_WARM,
+    )
+
+    assert "says that the instrument has done this" in refusals(tmp_path, keys)
+
+
+# 6. Evidence in the readings.
+
+
+def _fall(deviations: np.ndarray) -> np.ndarray:
+    return deviations + np.linspace(7.5, -5.2, 5)
+
+
+def _drift(deviations: np.ndarray) -> np.ndarray:
+    moved = deviations.copy()
+    for number, at in enumerate(order()):
+        moved[at] += 28 * number / len(order())
+    return moved
+
+
+def _outlier(deviations: np.ndarray) -> np.ndarray:
+    moved = deviations.copy()
+    moved[4, 1, 2] += 60
+    return moved
+
+
+def _copied(deviations: np.ndarray) -> np.ndarray:
+    return np.repeat(deviations[..., :1], 5, axis=-1)
+
+
+def _millimetres(deviations: np.ndarray) -> np.ndarray:
+    return deviations / 1e3
+
+
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        (_fall, "Run means fall from "),
+        (_drift, "Run means rise from −11"),
+        (_outlier, "The reading of run 3 at 398.3 mm ↓ lies"),
+        (_copied, "Runs 1, 2, 3, 4, 5 are identical in every digit"),
+        (_millimetres, "state measurement.source.units: {deviation: mm}"),
+    ],
+)
+def test_what_the_readings_show_is_said_on_the_first_page(spoil, said: str, tmp_path: Path) -> None:
+    document = composed(tmp_path, SOUND, spoil(readings()))
+
+    assert said in cover(document)
+    assert any(said in each.en or said in each.in_language(document.language) for each in document.evidence)
+
+
+def test_drift_is_said_where_nothing_is_stated_of_it(tmp_path: Path) -> None:
+    keys = without("uncertainty.environmental_variation", keys=changed(REPORT))
+
+    assert "nothing is stated of drift at rest" in cover(composed(tmp_path, keys, _drift(readings())))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_sound_readings_show_nothing(seed: int, tmp_path: Path) -> None:
+    assert composed(tmp_path, SOUND, readings(seed=seed)).evidence == ()
+
+
+@pytest.mark.parametrize(("alpha", "said"), [(115, "115 µm/(m·K) is unusual"), (0.0115, "0.0115 mm/(m·K)")])
+def test_an_expansion_coefficient_that_no_machine_has_is_marked(
+    alpha: float, said: str, tmp_path: Path
+) -> None:
+    assert said in cover(composed(tmp_path, changed(("environment.expansion_coefficient", alpha))))
+
+
+def test_a_temperature_stated_otherwise_than_logged_is_said(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(REPORT), temperatures=np.full(len(order()), 23.0))
+
+    assert "20 °C is stated, and 23 °C was logged" in cover(document)
+
+
+def test_a_resolution_finer_than_the_readings_is_not_believed(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(("uncertainty.resolution", 0.001)), readings(decimals=0))
+
+    assert "the readings were given in steps of 1 µm" in cover(document)
+
+
+# 7. Traceability.
+
+
+def test_a_calibration_without_a_date_is_marked(tmp_path: Path) -> None:
+    document = composed(tmp_path, without("instrument.calibrated", keys=SOUND))
+
+    assert "Measuring instrument: date of calibration not stated" in cover(document)
+
+
+def test_one_of_2009_is_marked(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(("instrument.calibrated", "2009-05-04")))
+
+    assert "calibrated on 2009-05-04, 17 years before the measurement" in cover(document)
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("instrument.calibrated", "2026-11-19"),
+        ("instrument.due", "2026-10-01"),
+        ("instrument.certificate", "none"),
+        ("instrument.certificate", "-"),
+    ],
+)
+def test_a_broken_chain_is_refused_and_marked_in_a_report(key: str, value: str, tmp_path: Path) -> None:
+    keys = changed((key, value))
+
+    assert key in refusals(tmp_path, keys)
+    assert _SHOWN in cover(composed(tmp_path, changed(REPORT, of=keys)))
+
+
+def test_a_document_without_a_certificate_of_the_instrument_claims_no_traceability(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(REPORT, ("instrument.certificate", "none")))
+
+    assert "metrologically traceable" not in text_of(document)
+
+
+def test_the_thermometer_of_a_correction_is_asked_for(tmp_path: Path) -> None:
+    corrected = changed(("corrections", {"material": {"temperature": "axis_temperature"}}), of=_WARM)
+    keys = without("environment.thermometers", keys=corrected)
+
+    assert "no thermometer is named" in cover(composed(tmp_path, keys))
+    assert "no thermometer is named" not in cover(composed(tmp_path, corrected))
+
+
+@pytest.mark.parametrize(
+    ("scope", "said"),
+    [
+        ({"length": 500}, "results over 993.3 mm (the scope ends at 500 mm)"),
+        ({"kind": "rotary"}, "results of a linear axis"),
+        ({"standards": ["vdi-dgq-3441"]}, "results by iso230-2:2014"),
+    ],
+)
+def test_results_outside_the_accredited_scope_are_marked(scope, said: str, tmp_path: Path) -> None:
+    keys = changed(("laboratory.cmc", {"constant": 0.3, **scope}))
+
+    assert f"Outside the accredited scope: {said}" in cover(composed(tmp_path, keys))
+
+
+def test_the_source_of_limits_is_printed_or_said_to_be_missing(tmp_path: Path) -> None:
+    named = [{"standard": "iso230-2:2014", "tolerances": {"A": 10}, "specification": "Protocol 4711"}]
+
+    assert "Protocol 4711" in cover(composed(tmp_path, changed(("evaluate", named))))
+    assert "Limits as ordered; their source is not stated." in cover(composed(tmp_path, SOUND))

@@ -1,0 +1,81 @@
+"""Whether y ± U holds the true value as often as it says, for an axis whose true readings are known."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from evaluation.uncertainty.budgets import ISO, contribution, expanded
+from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.uncertainty.axis_interval import _pooled
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution
+from zlmreport.job.types import Options
+from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.testing import simulated_test
+
+TRIALS = 400
+SIMULATED = 800
+STATED = 0.9545
+#: Four standard deviations of the share of successes in so many trials.
+BY_CHANCE = 4 * math.sqrt(STATED * (1 - STATED) / TRIALS)
+
+LASER = Budget(
+    (
+        contribution(0.3, Acts.ALONG_THE_LENGTH),
+        contribution(0.1, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
+    )
+)
+MISALIGNED = Budget(
+    (
+        contribution(0.5, Acts.ALONG_THE_LENGTH, Distribution.ONE_SIDED),
+        contribution(0.1, Acts.AT_EACH_READING, Distribution.RECTANGULAR),
+    )
+)
+
+
+def errors(of: Budget, truth: MeasurementSet, generator: np.random.Generator) -> np.ndarray:
+    """Return errors of the set-up, m, drawn without the program's own draws."""
+    along, reading = of.contributions
+    share = (truth.target_positions / np.ptp(truth.target_positions))[truth.target]
+    one_sided = along.distribution is Distribution.ONE_SIDED
+    scale = generator.uniform(0, math.sqrt(3)) if one_sided else generator.normal()
+    own = generator.uniform(-math.sqrt(3), math.sqrt(3), truth.deviation.shape)
+    return along.standard_uncertainty * scale * share + reading.standard_uncertainty * own
+
+
+@pytest.mark.parametrize("of", [LASER, MISALIGNED], ids=["laser", "misaligned"])
+def test_the_interval_holds_the_true_value_as_often_as_stated(of: Budget) -> None:
+    truth = simulated_test(7)
+    true = {each.quantity.symbol: each.value for each in evaluate(ISO, truth, Options(), {}).parameters}
+    generator = np.random.default_rng(11)
+    held: Counter[str] = Counter()
+    for _ in range(TRIALS):
+        measured = replace(truth, deviation=truth.deviation - errors(of, truth, generator))
+        found = expanded(of, measured, trials=SIMULATED)
+        for each in evaluate(ISO, measured, Options(), {}).parameters:
+            symbol = each.quantity.symbol
+            held[symbol] += abs(each.value - true[symbol]) <= found[symbol].uncertainty
+
+    shares = {symbol: held[symbol] / TRIALS for symbol in true}
+    assert shares == pytest.approx(dict.fromkeys(true, STATED), abs=BY_CHANCE)
+
+
+def test_scatter_that_grows_along_the_axis_is_pooled_about_its_growth() -> None:
+    """ln σ² = 4x: its slope is known to ψ′(2)/Σx² = 0.293, which adds 0.073 to ψ′(44) at the ends."""
+    positions = np.linspace(-0.5, 0.5, 11)
+    growing = np.broadcast_to(np.exp(4 * positions), (2, 11)).copy()
+    variance, freedom = _pooled(growing, np.full((2, 11), 4.0), positions)
+    assert variance == pytest.approx(growing, rel=1e-9)
+    assert freedom.max() == pytest.approx(88.0)  # 22 places with 4 each
+    assert freedom.min() == pytest.approx(21.8, abs=0.1)  # ψ′(10.9) = 0.096
+    assert np.argmin(freedom[0]) in {0, 10}  # farthest from the middle, where the slope is known worst
+
+
+def test_equal_variances_grow_nowhere() -> None:
+    variance, freedom = _pooled(np.full((2, 11), 2.5), np.full((2, 11), 4.0), np.linspace(0, 1, 11))
+    assert variance == pytest.approx(np.full((2, 11), 2.5))
+    assert freedom == pytest.approx(np.full((2, 11), 88.0))

@@ -1,0 +1,51 @@
+"""Journals that tests write."""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterable
+from pathlib import Path
+
+from live.capture.moves import SETTINGS, planned
+from zlmreport.live.capture.events import Event
+from zlmreport.live.capture.follower import Follower
+from zlmreport.live.capture.journal import Journal, captured
+from zlmreport.live.capture.records import Header
+from zlmreport.live.capture.visits import visit_list
+from zlmreport.live.ports.reading import LiveReading
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.model.planning.plan import Plan
+
+#: Of the clock of `moves.Axis`, when a capture begins.
+BEGIN = 100.0
+
+
+def header(plan: Plan | None = None, datum: float | None = None, **changes) -> Header:
+    plan = plan or planned()
+    values = {
+        "number": "CAL-7",
+        "job": "0" * 64,
+        "axis": "X",
+        "kind": AxisKind.LINEAR,
+        "instrument": {"plugin": "umd1", "port": "/dev/ttyACM0"},
+        "tool": "zlmreport 0.1.0",
+        "started": dt.datetime(2026, 11, 20, 8, 0, tzinfo=dt.UTC),
+        "method": str(plan.method),
+        "settings": SETTINGS,
+        "datum": datum,
+        "visits": visit_list(plan),
+    }
+    return Header(**{**values, **changes})
+
+
+def recorded(readings: Iterable[LiveReading], journal: Journal) -> list[Event]:
+    """Follow readings into a journal."""
+    follower = Follower(journal.progress, SETTINGS)
+    return list(captured(readings, follower, journal, lambda time: time - BEGIN))
+
+
+def written(path: Path, readings: Iterable[LiveReading], plan: Plan | None = None, **changes) -> Path:
+    """Write the journal of a sitting."""
+    with Journal.begun(path, header(plan, **changes)) as journal:
+        recorded(readings, journal)
+    return path

@@ -1,0 +1,138 @@
+"""The command, the file and the notebook, on the project's own example."""
+
+import json
+
+import pytest
+
+import zlmreport as z
+from zlmreport.cli import main
+
+
+def values(capsys, *arguments):
+    assert main([*map(str, arguments), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_ten_minutes_tell_that_the_y_drive_lags(folder, capsys):
+    path = folder / "machine.yaml"
+    before = path.read_text(encoding="utf-8")
+    found = values(capsys, "machine", "diagnose", path)
+    assert found["schema"] == "zlmreport/diagnosis/1"
+    assert (found["verdict"], found["set"]) == ("missing", ["servo-mismatch"])
+    lag = found["candidates"][0]["parameters"][0]
+    assert (lag["name"], lag["unit"]) == ("T_X-T_Y", "ms")
+    assert lag["value"] == pytest.approx(-0.8, abs=2 * lag["expanded_uncertainty"])
+    assert lag["expanded_uncertainty"] < 0.05
+    assert any(text.startswith("Y lags behind X by 0.") for text in found["findings"])
+    beside = {each["name"]: each for group in found["beside"] for each in group["parameters"]}
+    for name in ("C0Y", "X-Y"):
+        assert abs(beside[name]["value"]) < 1.5 * beside[name]["expanded_uncertainty"]
+    (test,) = found["tests"]
+    assert test["test"] == "circle-xy"
+    assert test["rms_left"] > 4 * test["noise_rms"]
+
+    changed = values(capsys, "machine", "add", path, "servo-mismatch")
+    assert changed["after"]["error"]["rms"] < 0.1 * changed["before"]["error"]["rms"]
+    assert "[centre-offset, radius, servo-mismatch] # where" in path.read_text(encoding="utf-8")
+    assert values(capsys, "machine", "diagnose", path)["verdict"] == "adequate"
+    values(capsys, "machine", "remove", path, "servo-mismatch")
+    assert path.read_text(encoding="utf-8") == before
+
+
+def test_build_writes_what_it_found(folder, capsys):
+    path = folder / "machine.yaml"
+    built = values(capsys, "machine", "build", path, "--dry-run")
+    assert "servo-mismatch" not in path.read_text(encoding="utf-8")
+    assert values(capsys, "machine", "build", path) == built
+    assert "servo-mismatch" in path.read_text(encoding="utf-8")
+    assert [each["effect"] for each in built["steps"]] == ["servo-mismatch"]
+    assert built["verdict"] == "adequate"
+
+
+def test_predict_states_bands_bounds_and_what_lies_outside(folder, capsys):
+    found = values(capsys, "machine", "predict", folder / "machine.yaml")
+    assert found["schema"] == "zlmreport/prediction/1"
+    (test,) = found["tests"]
+    assert test["test"] == "circle-xy"
+    lists = [test[key] for key in ("at", "predicted", "expanded_uncertainty", "outside_measured_range")]
+    assert {len(each) for each in lists} == {720}
+    assert min(test["expanded_uncertainty"]) > 0.1
+    assert not any(test["outside_measured_range"])
+    assert len(found["errors"]) == 21
+    assert all(each["bound"] > 0 for each in found["errors"] if not each["known"])
+    assert found["volume"]["largest"] > 0
+    assert len(found["diagonals"]) == 4
+
+
+def test_what_lies_beyond_the_measured_range_is_marked(folder, capsys):
+    path = folder / "circle-xy.yaml"
+    path.write_text(path.read_text(encoding="utf-8").replace("[250, 200", "[400, 200"), encoding="utf-8")
+    (test,) = values(capsys, "machine", "predict", folder / "machine.yaml")["tests"]
+    beyond = [at for at, outside in zip(test["at"], test["outside_measured_range"], strict=True) if outside]
+    assert beyond
+    assert all(min(at % 360, -at % 360) < 49 for at in beyond)  # 400 + 150·cos θ > 500
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("chain: XYFZ", "chain: XYZ", "machine.yaml:7:8: chain: 'XYZ' is no chain"),
+        (
+            "xy-squareness.yaml",
+            "{COY: 1, expanded_uncertainty: 1}",
+            "machine.yaml:15:6: 'COY' is none of the 21 errors",
+        ),
+        ("centre-offset,", "center-offset,", "did you mean 'centre-offset'?"),
+        ("tests: [circle-xy.yaml]", "test: [circle-xy.yaml]", "did you mean 'tests'?"),
+        ("  - y-positioning.yaml", "  - x-positioning.yaml", "EXX was named already"),
+        ("[circle-xy.yaml]", "[circle-xz.yaml]", "circle-xz.yaml"),
+        ("xy-squareness.yaml", "{EZX: 4, expanded_uncertainty: 1}", "values by the position of X"),
+        ("xy-squareness.yaml", "circle-xy.yaml", "it is a circle, which two axes run; name it under tests"),
+    ],
+)
+def test_a_mistake_is_told_with_its_place(folder, capsys, old, new, said):
+    path = folder / "machine.yaml"
+    text = path.read_text(encoding="utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), encoding="utf-8")
+    assert main(["machine", "check", str(path)]) in {2, 3}
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("ccw,1,0.5,", "cccw,1,0.5,", "circle-xy.csv:3:1: 'cccw' is no sense of a circle"),
+        ("sense,run,angle,deviation", "sense,run,angel,deviation", "circle-xy.csv:2"),
+        ("ccw,1,0.5,", "ccw,1,nan,", "circle-xy.csv:3:7"),
+    ],
+)
+def test_a_mistake_in_a_table_is_told_with_its_place(folder, capsys, old, new, said):
+    path = folder / "circle-xy.csv"
+    path.write_text(path.read_text(encoding="utf-8").replace(old, new, 1), encoding="utf-8")
+    assert main(["machine", "check", str(folder / "machine.yaml")]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_certificate_is_read_back_with_its_uncertainty(folder, capsys):
+    assert (
+        main([str(folder / "x-positioning.yaml"), "--quiet", "--format", "pdf,json", "-o", str(folder)]) == 0
+    )
+    path = folder / "machine.yaml"
+    text = path.read_text(encoding="utf-8")
+    by_job = values(capsys, "machine", "predict", path)
+    for suffix in ("json", "pdf"):
+        path.write_text(text.replace("x-positioning.yaml", f"EXAMPLE-2026-0021.{suffix}"), encoding="utf-8")
+        found = values(capsys, "machine", "predict", path)
+        for key in ("predicted", "expanded_uncertainty"):
+            assert found["tests"][0][key] == pytest.approx(by_job["tests"][0][key], rel=1e-9)
+
+
+def test_the_notebook_says_the_same(folder):
+    machine = z.machine(folder / "machine.yaml")
+    assert machine.diagnose().missing == ("servo-mismatch",)
+    assert machine.add("servo-mismatch").rms < 0.1 * machine.rms
+    built = machine.build()
+    assert built.machine.effects == ("centre-offset", "radius", "servo-mismatch")
+    with pytest.raises(z.InputError, match="did you mean"):
+        machine.add("servo-missmatch")

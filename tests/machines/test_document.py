@@ -1,0 +1,56 @@
+"""The document on a machine: what it says, in both layouts and languages, and that it can be verified."""
+
+import json
+
+import pypdf
+
+from zlmreport.cli import main
+from zlmreport.plugin.registry import find_plugins
+from zlmreport.verification.verify import verify
+
+
+def made(folder, **certificate):
+    path = folder / "machine.yaml"
+    keys = json.dumps({"number": "M-7", "issued": "2026-11-24", **certificate})
+    path.write_text(path.read_text(encoding="utf-8") + f"certificate: {keys}\n", encoding="utf-8")
+    assert main(["machine", "certificate", str(path), "-o", str(folder)]) == 0
+    return folder / "M-7.pdf"
+
+
+def text(path):
+    return "\n".join(page.extract_text() for page in pypdf.PdfReader(path).pages)
+
+
+def test_it_says_what_is_known_and_what_is_missing_and_holds(folder):
+    path = made(folder)
+    said = text(path)
+    for part in ("Servo mismatch", "Y lags behind X by", "EXX", "assumed bound", "PPP", "6 of 21", "M-7"):
+        assert part in said
+    found = verify(path, find_plugins())
+    assert found.holds is True
+    assert len(found.values) > 0
+
+
+def test_a_changed_reading_is_found(folder):
+    """The document of other readings, with the results file of these, does not hold."""
+    path = made(folder)
+    results = json.loads((folder / "M-7.json").read_text(encoding="utf-8"))
+    assert results["schema"] == "zlmreport/machine-results/1"
+    assert {each["name"] for each in results["provenance"]["sources"]} >= {"machine.yaml", "circle-xy.csv"}
+    reader = pypdf.PdfReader(path)
+    writer = pypdf.PdfWriter(clone_from=reader)
+    embedded = writer._root_object["/Names"]["/EmbeddedFiles"]["/Names"]
+    for name, specification in zip(embedded[::2], embedded[1::2], strict=True):
+        if name == "M-7.json":
+            stream = specification.get_object()["/EF"]["/F"].get_object()
+            stream.set_data(stream.get_data().replace(b'"verdict": "missing"', b'"verdict": "adequate"'))
+    changed = folder / "changed.pdf"
+    writer.write(changed)
+    assert verify(changed, find_plugins()).holds is False
+
+
+def test_a_sheet_is_one_page_and_german_is_german(folder):
+    path = made(folder, layout="sheet", language="de")
+    assert len(pypdf.PdfReader(path).pages) <= 2
+    assert "Bericht über eine Maschine" in text(path)
+    assert "läuft X um" in text(path)

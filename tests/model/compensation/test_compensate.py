@@ -1,0 +1,236 @@
+"""A table from readings of a real control's run, its forecast, and what a second run says of it."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pypdf import PdfReader
+
+from environments import ROOT
+from zlmreport.cli import main
+
+DATA = ROOT / "tests" / "data" / "linuxcnc"
+Capture = pytest.CaptureFixture[str]
+JOB = """\
+schema: zlmreport/job/1
+certificate: {{number: LOOP-1, kind: report}}
+axis: {{name: X{table}}}
+measurement:
+  source: {{plugin: laser-csv, file: "{file}"}}
+evaluate: ["iso230-2:2014"]
+{more}
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def job(
+    folder: Path, name: str, readings: str, table: str = ", compensation_table: none", more: str = ""
+) -> str:
+    text = JOB.format(table=table, file=DATA / f"captured_{readings}.csv", more=more)
+    (folder / name).write_text(text, encoding="utf-8")
+    return name
+
+
+def run(capsys: Capture, *arguments: str) -> tuple[int, Any]:
+    code = main(["compensate", *arguments, "--json"])
+    return code, json.loads(capsys.readouterr().out)
+
+
+def test_the_table_is_the_one_that_the_control_ran(folder: Path) -> None:
+    name = job(folder, "job.yaml", "without")
+    for kind, loaded in (("0", "loop.comp"), ("1", "loop.comp1")):
+        code = main(
+            ["compensate", name, "--controller", "linuxcnc", "--set", f"type={kind}", "-o", f"out{kind}"]
+        )
+        assert code == 0
+        written = np.loadtxt(folder / f"out{kind}" / "LOOP-1.comp")
+        assert written == pytest.approx(np.loadtxt(DATA / loaded), abs=1.1e-6)
+        sheet = PdfReader(folder / f"out{kind}" / "LOOP-1-compensation.pdf")
+        text = " ".join(" ".join(page.extract_text() for page in sheet.pages).split())
+        assert "Worked row: at 300 mm the axis was off by +50.39" in text
+        assert "If it doubles, the sign is wrong" in text
+
+
+def test_json_states_the_forecast_and_writes_nothing(folder: Path, capsys: Capture) -> None:
+    name = job(folder, "job.yaml", "without", more="compensation: {controller: linuxcnc, type: 1}")
+    code, values = run(capsys, name)
+    assert code == 0
+    assert values["schema"] == "zlmreport/compensation/1"
+    assert (values["controller"], values["confidence"], values["unit"]) == ("linuxcnc", "verified", "um")
+    assert values["forecast"]["before"]["E"] == pytest.approx(65.4, abs=0.01)
+    assert values["forecast"]["after"]["E"] < 0.1
+    assert values["forecast"]["between_grid_points"]["largest"] < 0.1
+    assert [path.name for path in folder.iterdir()] == ["job.yaml"]
+
+
+def test_a_coarser_grid_states_what_it_leaves_between_its_rows(folder: Path, capsys: Capture) -> None:
+    _, values = run(capsys, job(folder, "job.yaml", "without"), "--controller", "csv", "--step", "60")
+    assert values["rows"] == 6
+    assert values["forecast"]["between_grid_points"]["largest"] > 1
+
+
+MODELLED = """\
+schema: zlmreport/simulation/1
+seed: 3
+axis: {name: X, travel: [0, 400], screw_pitch: 10}
+targets: {count: 21}
+runs: 5
+effects:
+  - scale-error: {slope: 20}
+  - backlash: {lost_motion: 5}
+  - screw-pitch: {sine: 4}
+noise: {reading: 0.5}
+output: {job: made.yaml, number: MADE-1}
+"""
+
+
+@pytest.fixture
+def modelled(folder: Path) -> str:
+    """A job with a model whose screw turns many times between two targets."""
+    (folder / "made.sim.yaml").write_text(MODELLED, encoding="utf-8")
+    assert main(["simulate", "made.sim.yaml"]) == 0
+    text = (folder / "made.yaml").read_text(encoding="utf-8")
+    text = text.replace("axis: {", "axis: {compensation_table: none, ", 1)
+    text = text.replace("- backlash", "- backlash\n    - screw-pitch")
+    (folder / "made.yaml").write_text(text, encoding="utf-8")
+    return "made.yaml"
+
+
+def test_the_model_parts_what_is_periodic_from_the_rest(modelled: str, capsys: Capture) -> None:
+    capsys.readouterr()
+    model = ["--controller", "csv", "--from", "model"]
+    _, coarse = run(capsys, modelled, *model)
+    assert coarse["left_out"] == ["screw-pitch"]
+    assert coarse["forecast"]["left_out"] == pytest.approx(4.0, abs=0.6)
+    _, fine = run(capsys, modelled, *model, "--step", "1.25")
+    assert fine["left_out"] == []
+    assert fine["forecast"]["between_grid_points"]["largest"] < 1
+    expected = fine["forecast"]["second_test"]["E"]
+    assert expected["low"] < expected["value"] < expected["high"] < 3
+    _, means = run(capsys, modelled, "--controller", "csv")
+    assert means["forecast"]["between_grid_points"]["largest"] > 5  # the wave goes on between the targets
+
+
+@pytest.mark.parametrize(
+    ("readings", "code", "verdict"),
+    [("type0", 0, "held"), ("wrong_sign", 1, "wrong-sign"), ("without", 1, "other")],
+)
+def test_a_second_run_is_held_against_the_forecast(
+    folder: Path, capsys: Capture, readings: str, code: int, verdict: str
+) -> None:
+    before = job(folder, "before.yaml", "without", more="compensation: {controller: linuxcnc}")
+    after = job(folder, "after.yaml", readings)
+    found, values = run(capsys, "--confirm", before, after)
+    assert (found, values["verdict"]) == (code, verdict)
+    if verdict != "other":
+        assert values["ratio"] == pytest.approx({"held": 0.0, "wrong-sign": 2.0}[verdict], abs=0.01)
+
+
+def test_the_forecast_is_named_beside_what_the_second_test_shows(folder: Path, capsys: Capture) -> None:
+    before = job(folder, "before.yaml", "without", more="compensation: {controller: linuxcnc}")
+    after = job(folder, "after.yaml", "type0")
+    _, values = run(capsys, "--confirm", before, after)
+    assert values["before"]["E"] == pytest.approx(65.4, abs=0.01)
+    assert values["after"]["E"] == pytest.approx(0.08, abs=0.01)
+    assert values["forecast"]["E"]["low"] < values["forecast"]["E"]["high"]
+    assert main(["compensate", "--confirm", before, after]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    row = r"  E +Systematic deviation +65\.40 +0\.\d\d … 0\.\d\d +0\.08  (within|outside)"
+    assert any(re.fullmatch(row, line) for line in lines)
+    assert lines[-1] == "the certificate of both tests, as found and as left: --output DIR writes the job"
+
+
+def test_both_tests_make_one_certificate(folder: Path, capsys: Capture) -> None:
+    more = "environment: {air_temperature: 21.5}\ncompensation: {controller: linuxcnc}"
+    before = job(folder, "before.yaml", "without", more=more)
+    after = job(folder, "after.yaml", "type0", more="output: {formats: [json]}")
+    Path("before.yaml").write_text(Path("before.yaml").read_text().replace(str(DATA), "readings"))
+    (folder / "readings").symlink_to(DATA)
+    assert main(["compensate", "--confirm", before, after, "-o", "both"]) == 0
+    assert capsys.readouterr().out.endswith("as found and as left: zlmreport both/LOOP-1-as-left.yaml\n")
+    assert main(["both/LOOP-1-as-left.yaml"]) == 0
+    results = json.loads((folder / "both" / "LOOP-1.json").read_text(encoding="utf-8"))
+    found, left = (
+        {each["symbol"]: each["value"] for each in evaluations[0]["parameters"]}
+        for evaluations in (results["as_found"]["evaluations"], results["evaluations"])
+    )
+    assert (found["E"], left["E"]) == (pytest.approx(65.4, abs=0.01), pytest.approx(0.08, abs=0.01))
+    assert (
+        main(["compensate", "--confirm", before, after, "-o", "both"]) == 2
+    )  # nobody's work is written over
+    assert main(["compensate", "--confirm", before, "both/LOOP-1-as-left.yaml"]) == 0
+    assert capsys.readouterr().out.endswith("as found and as left: zlmreport both/LOOP-1-as-left.yaml\n")
+
+
+def test_a_table_that_was_active_is_part_of_the_new_one(folder: Path) -> None:
+    (folder / "old.csv").write_text("position,deviation\n0,10\n300,10\n", encoding="utf-8")
+    name = job(folder, "job.yaml", "without", table=", compensation_table: old.csv")
+    assert main(["compensate", name, "--controller", "linuxcnc", "-o", "out"]) == 0
+    written, without = np.loadtxt(folder / "out" / "LOOP-1.comp"), np.loadtxt(DATA / "loop.comp")
+    assert written[:, 1:] - without[:, 1:] == pytest.approx(np.full((11, 2), 0.010), abs=1.1e-6)
+
+
+def test_a_table_that_csv_wrote_was_active_in_both_directions(folder: Path) -> None:
+    first = job(folder, "job.yaml", "without")
+    assert main(["compensate", first, "--controller", "csv", "--set", "decimals=6", "-o", "old"]) == 0
+    second = job(folder, "second.yaml", "type0", table=", compensation_table: old/LOOP-1-compensation.csv")
+    assert main(["compensate", second, "--controller", "linuxcnc", "-o", "new"]) == 0
+    written, without = np.loadtxt(folder / "new" / "LOOP-1.comp"), np.loadtxt(DATA / "loop.comp")
+    assert written[:, 1:] == pytest.approx(without[:, 1:], abs=0.1e-3)
+
+
+@pytest.mark.parametrize(
+    ("table", "arguments", "message"),
+    [
+        ("", ["--controller", "linuxcnc"], "axis.compensation_table is missing"),
+        (", compensation_table: none", [], "which control?"),
+        (", compensation_table: none", ["--controller", "linuxcncc"], "did you mean 'linuxcnc'?"),
+        (
+            ", compensation_table: none",
+            ["--controller", "linuxcnc", "--set", "tipe=1"],
+            "did you mean 'type'?",
+        ),
+        (", compensation_table: none", ["--controller", "linuxcnc", "--set", "type"], "write KEY=VALUE"),
+        (", compensation_table: none", ["--controller", "linuxcnc", "--step", "1"], "takes 256 rows"),
+        (", compensation_table: none", ["--controller", "isg"], "--unconfirmed writes it all the same"),
+        (
+            ", compensation_table: none",
+            ["--controller", "fanuc", "--unconfirmed"],
+            "raise magnification (3623)",
+        ),
+        (", compensation_table: none", ["--controller", "csv", "--confirm"], "--confirm takes two jobs"),
+    ],
+)
+def test_a_mistake_ends_with_2_and_writes_nothing(
+    folder: Path, capsys: Capture, table: str, arguments: list[str], message: str
+) -> None:
+    name = job(folder, "job.yaml", "without", table=table)
+    assert main(["compensate", name, *arguments, "-o", "out"]) == 2
+    assert message in capsys.readouterr().err
+    assert not (folder / "out").exists()
+
+
+def test_before_the_table_u_is_that_of_the_certificate(folder: Path, capsys: Capture) -> None:
+    more = "instrument: {name: Laser, expanded_uncertainty: 1.0}\ncompensation: {controller: csv}"
+    name = job(folder, "job.yaml", "without", more=f"{more}\noutput: {{formats: [json]}}")
+    _, values = run(capsys, name)
+    assert main([name, "--quiet"]) == 0
+    evaluation = json.loads((folder / "LOOP-1.json").read_text(encoding="utf-8"))["evaluations"][0]
+    certified = {each["symbol"]: each["expanded_uncertainty"] for each in evaluation["parameters"]}
+    stated = values["forecast"]["expanded_uncertainty"]
+    assert stated["before"] == {symbol: pytest.approx(certified[symbol]) for symbol in "EMBA"}
+    assert stated["after"]["E"] > 0
+    _, without = run(capsys, job(folder, "no-budget.yaml", "without"), "--controller", "csv")
+    assert without["forecast"]["expanded_uncertainty"] == {"before": {}, "after": {}}
+    low, high = (each["forecast"]["second_test"]["E"]["high"] for each in (without, values))
+    assert high > low  # the errors of two set-ups widen what a second test may show

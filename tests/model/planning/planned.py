@@ -1,0 +1,61 @@
+"""A job whose test is still to be done, to be changed in parts."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from zlmreport import pipeline
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.model.planning.planned_test import PlannedTest, planned_test
+from zlmreport.model.planning.visibility import SeenEffect
+from zlmreport.plugin.registry import Plugin, collect
+from zlmreport_plugins import effects, part_programs
+from zlmreport_plugins.renderers import json_results
+from zlmreport_plugins.sources import laser_csv
+from zlmreport_plugins.standards import iso230_2, vdi
+
+JOB = """\
+schema: zlmreport/job/1
+certificate: {number: PLAN-1, kind: report}
+axis: {name: X, travel: [0, 600], screw_pitch: 10}
+measurement:
+  method: linear
+  feed: 3000
+  dwell: 4
+  source: {plugin: laser-csv, file: not-measured-yet.csv}
+plan: {}
+evaluate: ["iso230-2:2014"]
+output: {formats: [json]}
+"""
+#: On whole pitches, as customers like to prescribe them.
+WHOLE_PITCHES = "plan: {targets: {positions: [0, 60, 120, 180, 240, 300, 360, 420, 480, 540, 600]}}"
+REGISTRY = collect(
+    (Plugin(module.__name__), module)
+    for module in (effects, laser_csv, iso230_2, vdi, json_results, part_programs)
+)
+
+
+def job_text(*changes: tuple[str, str]) -> str:
+    """Return the job with parts of its text replaced."""
+    text = JOB
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+def planned_job(*changes: tuple[str, str]) -> Job:
+    return load(Path("job.yaml"), REGISTRY, content=job_text(*changes).encode())
+
+
+@cache
+def plan_of_test(*changes: tuple[str, str]) -> PlannedTest:
+    job = planned_job(*changes)
+    return planned_test(job, pipeline.standards(job, REGISTRY), REGISTRY.effects)
+
+
+def sight_of(planned: PlannedTest, effect: str) -> SeenEffect:
+    (found,) = (each for each in planned.seen_effects if each.effect.identifier == effect)
+    return found

@@ -1,0 +1,183 @@
+"""The plan that tells effects apart: simulated, within the travel, and right when it is followed."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from model.axis_tests import EFFECTS, INSTALLED, noise
+from model.planning.planned import REGISTRY, WHOLE_PITCHES, planned_job
+from zlmreport import pipeline
+from zlmreport.errors import InputError
+from zlmreport.job.loading import load
+from zlmreport.language import Language
+from zlmreport.model.diagnosis.diagnosis import diagnose
+from zlmreport.model.fitting.observations import Observations
+from zlmreport.model.planning.changes import within_travel
+from zlmreport.model.planning.deciding import deciding_experiment, deciding_text, experiment_values
+from zlmreport.model.planning.experiment import Experiment
+from zlmreport.model.planning.methods import Method, half_way
+from zlmreport.model.planning.plan import Expected, Pause, Plan, propose
+from zlmreport.model.planning.planned_test import model_of
+from zlmreport.model.planning.programs import motion_of
+from zlmreport.model.planning.visibility import expected_design, planned_visits
+
+ON_WHOLE_PITCHES = ("plan: {}", WHOLE_PITCHES)
+ROOM_AT_THE_ENDS = ("[0, 600]", "[-10, 610]")
+#: Both follow the position alone at a constant temperature.
+COOL = ("plan: {}", "plan: {temperature_change: 0.01}")
+
+
+@cache
+def _experiment(names: str, *changes: tuple[str, str]) -> Experiment:
+    job = planned_job(*changes)
+    standards = pipeline.standards(job, REGISTRY)
+    return deciding_experiment(names.split(","), job, None, REGISTRY.effects, standards)
+
+
+def _said(experiment: Experiment) -> str:
+    return experiment.statement.in_language(Language.ENGLISH)
+
+
+def test_targets_on_whole_pitches_are_changed_to_tell_a_wave_of_the_pitch() -> None:
+    found = _experiment("screw-pitch,scale-kink", ON_WHOLE_PITCHES, ROOM_AT_THE_ENDS)
+    assert found.plan is not None
+    assert found.decides >= 0.9
+    phases = np.mod(found.plan.targets, 0.01)
+    assert np.ptp(phases) > 0.005
+    assert "random fraction" in _said(found)
+
+
+def test_constant_temperature_is_changed_to_tell_expansion_from_a_wrong_scale() -> None:
+    found = _experiment("scale-error,scale-expansion", COOL)
+    assert found.plan is not None
+    assert found.plan.pause is not None
+    assert found.decides >= 0.95
+    assert "axis_temperature" in found.logs
+    assert found.minutes == pytest.approx(found.plan.duration / 60)
+
+
+@pytest.mark.parametrize("truth", ["scale-error", "scale-expansion"])
+def test_who_follows_the_advice_learns_the_truth(truth: str) -> None:
+    found = _experiment("scale-error,scale-expansion", COOL)
+    assert found.plan is not None
+    job = planned_job(COOL)
+    design = expected_design(job.axis, found.plan, Expected(1e-6, 0.01))
+    columns = EFFECTS[truth].columns(design, np.empty(0))
+    deviation = 3e-6 * columns[:, 0] / np.std(columns[:, 0]) + noise(design, 5, 1e-6)
+    model = model_of(job, INSTALLED).without("scale-error")
+    readings = np.arange(len(deviation))
+    leading = diagnose(model, Observations(design, deviation, readings, ()), INSTALLED).candidates[0]
+    named = {leading.identifier, *leading.equals}
+    assert truth in named
+    assert not named & ({"scale-error", "scale-expansion"} - {truth})
+
+
+def test_what_no_plan_decides_is_said_with_what_would() -> None:
+    found = _experiment("scale-error,cosine-error")
+    assert found.plan is None
+    assert found.decides < 0.5
+    assert "To tell scale-error and cosine-error apart: none of the" in _said(found)
+    assert "align the beam anew" in _said(found)
+    job = planned_job()
+    assert experiment_values(found, job, Language.ENGLISH)["job"] is None
+
+
+def test_a_wave_that_whole_pitches_hide_is_shown_by_other_phases() -> None:
+    found = _experiment("screw-pitch", ON_WHOLE_PITCHES, ROOM_AT_THE_ENDS)
+    assert found.plan is not None
+    assert found.decides >= 0.95
+    assert np.ptp(np.mod(found.plan.targets, 0.01)) > 0.005
+    assert _said(found).startswith("To show screw-pitch: ")
+
+
+def test_an_expansion_that_a_steady_temperature_hides_is_shown_by_a_change_of_temperature() -> None:
+    found = _experiment("scale-expansion", COOL)
+    assert found.plan is not None
+    assert found.decides >= 0.95
+    assert found.plan.pause is not None
+
+
+def test_what_no_plan_shows_is_said() -> None:
+    found = _experiment("cosine-error")
+    assert found.plan is None
+    assert _said(found).startswith("To show cosine-error: none of the")
+
+
+def test_an_effect_that_the_job_leaves_untestable_is_said_with_what_is_missing() -> None:
+    found = _experiment("encoder-interpolation")
+    assert found.plan is None
+    assert "encoder-interpolation: the job does not state axis.signal_period." in _said(found)
+
+
+def test_experiment_stays_within_the_travel() -> None:
+    for names in ("scale-error,scale-expansion", "backlash,reversal-relaxation"):
+        plan = _experiment(names, COOL).plan
+        assert plan is not None
+        assert 0 <= min(plan.stops) <= max(plan.stops) <= 0.6
+
+
+def test_outermost_targets_move_in_by_the_overrun() -> None:
+    plan = Plan(np.array([0.0, 0.3, 0.6]), overrun=0.01)
+    np.testing.assert_allclose(within_travel(planned_job().axis, plan).targets, [0.01, 0.3, 0.59])
+
+
+def test_job_of_an_experiment_is_planned_as_it_was_simulated(tmp_path: Path) -> None:
+    found = _experiment("scale-error,scale-expansion", COOL)
+    assert found.plan is not None
+    path = tmp_path / "job.yaml"
+    job = planned_job(COOL)
+    assert job.files[0].content is not None
+    path.write_bytes(job.files[0].content)
+    decide = tmp_path / "decide.yaml"
+    decide.write_text(deciding_text(found, job, "job.yaml"), encoding="utf-8")
+    planned = propose(load(decide, REGISTRY), ()).plan
+    np.testing.assert_allclose(planned.targets, found.plan.targets, atol=1e-12)
+    assert (planned.method, planned.runs, planned.pause) == (
+        found.plan.method,
+        found.plan.runs,
+        found.plan.pause,
+    )
+    assert planned.duration == pytest.approx(found.plan.duration)
+
+
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        ("scale-error,scale-error", "name an effect, or several once each"),
+        ("scale-error,scale-expantion", "did you mean 'scale-expansion'"),
+    ],
+)
+def test_names_that_make_no_question_are_refused(names: str, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        _experiment(names)
+
+
+def test_pause_lies_between_the_halves_of_the_runs() -> None:
+    plan = Plan(np.array([0.1, 0.3]), runs=3, pause=Pause(600.0, 3.0, "axis_temperature"))
+    visits = planned_visits(plan)
+    assert [visit.run for visit in visits[half_way(visits) :]] == [2] * 4 + [3] * 4
+    design = expected_design(planned_job().axis, plan, Expected(1e-6, 0.0))
+    without = expected_design(planned_job().axis, Plan(plan.targets, runs=3), Expected(1e-6, 0.0))
+    np.testing.assert_allclose(design.time - without.time, [0.0] * 4 + [600.0] * 8)
+    change = design.conditions["axis_temperature"] - without.conditions["axis_temperature"]
+    np.testing.assert_allclose(change, [0.0] * 4 + [3.0] * 8)
+    air = design.conditions["air_temperature"] - without.conditions["air_temperature"]
+    np.testing.assert_allclose(air, [0.0] * 4 + [1.0] * 8)
+
+
+def test_pause_needs_two_runs_one_after_another() -> None:
+    paused = ("plan: {}", "plan: {pause: {minutes: 60, change: 3}}")
+    with pytest.raises(InputError, match=r"job.yaml:9:8: plan.pause lies between two runs"):
+        propose(planned_job(paused, ("method: linear", "method: pendulum")), ())
+
+
+def test_programs_wait_in_the_pause() -> None:
+    plan = Plan(np.array([0.1, 0.3]), runs=2, pause=Pause(600.0, 3.0, "axis_temperature"))
+    job = planned_job()
+    motion = motion_of("P", job.axis, plan, job.place_of("plan"))
+    assert [stop.begins for stop in motion.stops if stop.begins] == ["test", "second half"]
+    assert plan.method is Method.LINEAR

@@ -1,0 +1,122 @@
+"""Each positioning method leads the axis as its description says: small tests, written out by hand."""
+
+from __future__ import annotations
+
+import itertools
+
+import pytest
+from hypothesis import given, strategies as st
+
+from zlmreport.measurement.approach import Approach
+from zlmreport.model.planning.methods import Method, Stop, path, visits
+
+TARGETS = (10.0, 20.0, 40.0)
+OVERRUN = 5.0
+BOTH = [Method.LINEAR, Method.PENDULUM, Method.QUASI_PILGRIM]
+
+
+def _read(method: Method, runs: int = 2) -> str:
+    """Return the readings in their order, as target (from 1), direction, run."""
+    signs = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
+    listed = visits(path(method, TARGETS, runs, OVERRUN))
+    return " ".join(f"{visit.target + 1}{signs[visit.approach]}{visit.run}" for visit in listed)
+
+
+def _since_reversal(method: Method) -> list[float]:
+    return [visit.since_reversal for visit in visits(path(method, TARGETS, 2, OVERRUN))]
+
+
+def test_linear_method_goes_up_and_down_in_each_run() -> None:
+    assert _read(Method.LINEAR) == "1+1 2+1 3+1 3-1 2-1 1-1 1+2 2+2 3+2 3-2 2-2 1-2"
+
+
+def test_unidirectional_method_goes_up_only() -> None:
+    assert _read(Method.UNIDIRECTIONAL) == "1+1 2+1 3+1 1+2 2+2 3+2"
+
+
+def test_pendulum_method_ends_with_a_target_before_the_next() -> None:
+    assert _read(Method.PENDULUM) == "1+1 1-1 1+2 1-2 2+1 2-1 2+2 2-2 3+1 3-1 3+2 3-2"
+
+
+def test_quasi_pilgrim_method_goes_to_and_fro_between_neighbours() -> None:
+    assert _read(Method.QUASI_PILGRIM) == "1+1 1+2 2+1 1-1 2+2 1-2 3+1 2-1 3+2 2-2 3-1 3-2"
+
+
+@pytest.mark.parametrize("method", Method)
+def test_every_method_reads_each_target_as_often_in_each_direction(method: Method) -> None:
+    readings = _read(method, runs=3).split()
+    directions = "+" if method is Method.UNIDIRECTIONAL else "+-"
+    wanted = {f"{target}{sign}{run}" for target in (1, 2, 3) for sign in directions for run in (1, 2, 3)}
+    assert len(readings) == len(wanted)
+    assert set(readings) == wanted
+
+
+def test_linear_method_turns_beyond_its_ends() -> None:
+    assert _since_reversal(Method.LINEAR) == [5, 15, 35, 5, 25, 35] * 2
+
+
+def test_unidirectional_method_turns_before_its_start() -> None:
+    assert _since_reversal(Method.UNIDIRECTIONAL) == [5, 15, 35] * 2
+
+
+def test_pendulum_method_comes_from_the_overrun_or_straight_from_the_target_before() -> None:
+    assert _since_reversal(Method.PENDULUM) == [5, 5, 5, 5, 10, 5, 5, 5, 20, 5, 5, 5]
+
+
+def test_quasi_pilgrim_method_comes_from_the_neighbour() -> None:
+    assert _since_reversal(Method.QUASI_PILGRIM) == [5, 5, 15, 10, 10, 10, 30, 20, 20, 20, 5, 5]
+
+
+def test_the_way_between_readings_holds_the_loops() -> None:
+    listed = visits(path(Method.LINEAR, TARGETS, 2, OVERRUN))
+    assert [visit.travelled for visit in listed] == [5, 10, 20, 10, 20, 10, 10, 10, 20, 10, 20, 10]
+
+
+def test_pendulum_has_the_shortest_way_for_targets_far_apart() -> None:
+    ways = {
+        method: sum(visit.travelled for visit in visits(path(method, (0.0, 100.0, 200.0, 300.0), 5, OVERRUN)))
+        for method in BOTH
+    }
+    assert min(ways, key=ways.__getitem__) is Method.PENDULUM
+
+
+@given(
+    method=st.sampled_from(Method),
+    intervals=st.lists(st.integers(1, 5000), min_size=1, max_size=12),
+    overrun=st.integers(1, 5000),
+    runs=st.integers(1, 6),
+)
+def test_every_reading_comes_from_its_side_whatever_the_targets(
+    method: Method, intervals: list[int], overrun: int, runs: int
+) -> None:
+    targets = [float(position) for position in itertools.accumulate(intervals)]
+    listed = visits(path(method, targets, runs, float(overrun)))
+    approaches = [Approach.POSITIVE] if method is Method.UNIDIRECTIONAL else list(Approach)
+    wanted = set(itertools.product(range(len(targets)), approaches, range(1, runs + 1)))
+    assert {(visit.target, visit.approach, visit.run) for visit in listed} == wanted
+    assert len(listed) == len(wanted)
+    assert all(visit.since_reversal >= min(overrun, *intervals) for visit in listed)
+
+
+@pytest.mark.parametrize("method", Method)
+def test_a_single_target_is_approached_from_its_overrun(method: Method) -> None:
+    listed = visits(path(method, (10.0,), 2, OVERRUN))
+    assert {visit.since_reversal for visit in listed} == {OVERRUN}
+
+
+@pytest.mark.parametrize("overrun", [0.0, -1.0, 1e-16])
+@pytest.mark.parametrize("method", Method)
+def test_overrun_that_leaves_no_approach_is_refused(method: Method, overrun: float) -> None:
+    with pytest.raises(ValueError, match="leaves no approach"):
+        path(method, TARGETS, 2, overrun)
+
+
+@pytest.mark.parametrize("targets", [(10.0, 10.0), (20.0, 10.0)])
+def test_targets_that_do_not_rise_are_refused(targets: tuple[float, ...]) -> None:
+    with pytest.raises(ValueError, match="must rise"):
+        path(Method.LINEAR, targets, 1, OVERRUN)
+
+
+def test_a_reading_where_nothing_has_moved_has_no_direction() -> None:
+    with pytest.raises(ValueError, match="no direction of approach"):
+        visits([Stop(1.0, 0, 1)])

@@ -1,0 +1,159 @@
+"""What is left beside a model is proposed as the plainest formula that follows it, and fits when tried."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from model.axis_tests import (
+    SIGMA,
+    known,
+    linear_test,
+    model_of,
+    noise,
+    pendulum_test,
+)
+from zlmreport.job.formula_keys import FormulaKeys
+from zlmreport.language import Language
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.model.diagnosis.contest import Contest
+from zlmreport.model.diagnosis.forms import unnamed_forms
+from zlmreport.model.diagnosis.remainder import Remainder, remainder_of
+from zlmreport.model.diagnosis.sets import SetSearch
+from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.formula import FormulaEffect
+from zlmreport.model.fitting.fit import Assumptions, fit
+from zlmreport.model.fitting.observations import of_readings
+from zlmreport_plugins.effects.polynomial import Polynomial
+
+BASE = model_of("offset", "scale-error", "backlash")
+DESIGN = linear_test()
+UM = 1e-6
+
+
+def _left(added: FloatArray | float, design: Design = DESIGN, seed: int = 2) -> Remainder | None:
+    return _remainder(1e-6 * (2.0 + 10.0 * design.position - 1.5 * design.direction) + added, design, seed)
+
+
+def _remainder(
+    true: FloatArray, design: Design, seed: int = 2, model: AxisModel = BASE, sigma: float = SIGMA
+) -> Remainder | None:
+    """Return what is left where nothing is installed."""
+    deviation = true + noise(design, seed, sigma)
+    fitted = fit(model, design, deviation, Assumptions(parts=()))
+    search = SetSearch(Contest.of(design, fitted.base(), (), deviation, forms=unnamed_forms(design)))
+    return remainder_of(search, search.found(), fitted)
+
+
+def _formula(left: Remainder) -> FormulaKeys:
+    assert left.formula is not None
+    return left.formula
+
+
+def _bump(at: float, width: float) -> FloatArray:
+    return np.asarray(np.exp(-4 * np.log(2) * ((DESIGN.position - at) / width) ** 2))
+
+
+def _saw(period: float) -> FloatArray:
+    return np.asarray(DESIGN.position / period % 1 - 0.5)
+
+
+@pytest.mark.parametrize("at", [0.42, 0.7])
+@pytest.mark.parametrize("width", [0.1, 0.2])
+@pytest.mark.parametrize("size", [5.0, -4.0])
+def test_a_bump_is_found_at_its_place_with_its_width(at: float, width: float, size: float) -> None:
+    left = _left(size * UM * _bump(at, width))
+    assert left is not None
+    assert _formula(left).name.startswith("bump-")
+    assert left.low == pytest.approx(at - width / 2, abs=0.25 * width)
+    assert left.high == pytest.approx(at + width / 2, abs=0.25 * width)
+    assert left.size == pytest.approx(size * UM, rel=0.3)
+    assert left.share > 0.4
+
+
+CASES: dict[str, Callable[[], FloatArray]] = {
+    "bump-up": lambda: 8 * UM * _bump(0.42, 0.15) * (DESIGN.direction > 0),
+    "saw": lambda: 5 * UM * _saw(0.24),
+    "wave-d": lambda: 2 * UM * DESIGN.direction * np.sin(2 * np.pi * DESIGN.position / 0.333),
+    "wave": lambda: 2 * UM * np.sin(2 * np.pi * DESIGN.position / 0.25 + 1),
+    "step-d": lambda: 3 * UM * DESIGN.direction * (DESIGN.position > 0.5),
+    "kink-up": lambda: 30 * UM * np.maximum(0, DESIGN.position - 0.6) * (DESIGN.direction > 0),
+    "fading": lambda: 8 * UM * np.exp(-DESIGN.position / 0.15),
+    "bow-d": lambda: 3 * UM * DESIGN.direction * (1 - (2 * DESIGN.position - 1) ** 2),
+    "bump-time": lambda: 4 * UM * np.exp(-4 * np.log(2) * ((DESIGN.time - 900) / 300) ** 2),
+    "wave-time": lambda: 2 * UM * np.sin(2 * np.pi * DESIGN.time / 240),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_form_is_named_with_its_carrier(name: str) -> None:
+    left = _left(CASES[name]())
+    assert left is not None
+    assert re.sub(r"(-[0-9]+-(mm|s))?$", "", _formula(left).name) == name
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_formula_takes_it_away_when_it_is_tried(name: str) -> None:
+    left = _left(CASES[name]())
+    assert left is not None
+    tried = FormulaEffect(_formula(left), AxisKind.LINEAR)
+    deviation = known(DESIGN) + noise(DESIGN) + CASES[name]()
+    fitted = fit(model_of(Polynomial(3), "backlash", tried), DESIGN, deviation, Assumptions(parts=()))
+    assert fitted.rms < 1.15 * SIGMA
+
+
+@pytest.mark.parametrize(
+    ("name", "period"), [("saw", 0.24), ("wave-d", 0.333), ("wave", 0.25), ("wave-time", 240.0)]
+)
+def test_a_period_is_in_the_words_in_both_languages(name: str, period: float) -> None:
+    left = _left(CASES[name]())
+    assert left is not None
+    assert re.search(r"with a period of [0-9.]+ (mm|s)", left.shape.in_language(Language.ENGLISH))
+    assert re.search(r"mit [0-9,]+ (mm|s) Periode", left.shape.in_language(Language.GERMAN))
+    low, high = _formula(left).parameters["L"].range or (0.0, 0.0)
+    assert low / (1e3 if period < 1 else 1) < period < high / (1e3 if period < 1 else 1)
+    assert (low * high) ** 0.5 == pytest.approx(period * (1e3 if period < 1 else 1), rel=0.06)
+
+
+def test_noise_alone_is_rarely_given_a_form() -> None:
+    assert sum(_left(0.0, seed=100 + seed) is not None for seed in range(20)) <= 1
+
+
+def test_a_bump_of_the_pendulum_method_is_one_of_position() -> None:
+    design = pendulum_test()
+    bump = 6 * UM * np.exp(-4 * np.log(2) * ((design.position - 0.42) / 0.15) ** 2)
+    left = _left(bump, design)
+    assert left is not None
+    assert _formula(left).name.startswith("bump-4")
+
+
+def test_a_rotary_axis_has_its_units() -> None:
+    axis = Axis("C", kind=AxisKind.ROTARY, travel=(0.0, 2 * np.pi))
+    turned = replace(DESIGN, axis=axis, position=2 * np.pi * DESIGN.position, span=(0.0, 2 * np.pi))
+    wave = 2e-6 * np.sin(2 * turned.position)
+    left = _remainder(wave, turned, 2, model_of("offset"), 0.3e-6)
+    assert left is not None
+    assert re.fullmatch(r"wave-1(79|80|81)-deg", _formula(left).name)
+    assert _formula(left).parameters["a"].unit == "arcsec"
+    assert _formula(left).parameters["L"].unit == "deg"
+
+
+def test_one_direction_has_no_form_of_the_reversal() -> None:
+    up = of_readings(DESIGN, np.flatnonzero(DESIGN.direction > 0))
+    bump = 6 * UM * np.exp(-4 * np.log(2) * ((up.position - 0.42) / 0.15) ** 2)
+    left = _remainder(bump, up, model=model_of("offset"))
+    assert left is not None
+    assert _formula(left).name.startswith("bump-4")
+
+
+def test_the_formula_is_accepted_by_a_job_at_any_place_and_time() -> None:
+    late = replace(DESIGN, time=DESIGN.time + 80_000.0)
+    left = _left(4 * UM * np.exp(-4 * np.log(2) * ((late.time - 80_900) / 300) ** 2), late)
+    assert left is not None
+    assert FormulaKeys.model_validate(_formula(left).model_dump()) == left.formula

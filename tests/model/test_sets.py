@@ -1,0 +1,131 @@
+"""The search over sets: causes together, beside what has no name; stand-ins that go out again."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.candidates import effects_to_try
+from zlmreport.model.diagnosis.contest import Contest
+from zlmreport.model.diagnosis.forms import unnamed_forms
+from zlmreport.model.diagnosis.sets import EffectSet, SetSearch
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
+
+DESIGN = linear_test()
+EMPTY = model_of("offset")
+
+
+def _contest(
+    deviation: FloatArray, design: Design = DESIGN, effects: tuple[Effect, ...] = INSTALLED
+) -> Contest:
+    tried = effects_to_try(EMPTY, design, effects).forms
+    base = np.ones((len(design.position), 1))
+    return Contest.of(design, base, tried, deviation, forms=unnamed_forms(design))
+
+
+def _found(deviation: FloatArray, design: Design = DESIGN) -> EffectSet:
+    return SetSearch(_contest(deviation, design)).found()
+
+
+def _names(found: EffectSet) -> set[str]:
+    return {each.identifier for each in found.named}
+
+
+def _hiding(*effects: tuple[str, list[float]], design: Design = DESIGN, size: float = 2.0) -> FloatArray:
+    parts = [hidden(design, name, theta, size=size, model=EMPTY) for name, theta in effects]
+    return np.asarray(np.sum(parts, axis=0) + 4e-6 + noise(design))
+
+
+def test_three_causes_are_found_from_an_empty_model() -> None:
+    found = _found(_hiding(("backlash", []), ("screw-pitch", [0.01]), ("thermal-drift", [300.0])))
+    assert _names(found) == {"backlash", "screw-pitch", "thermal-drift"}
+    assert found.unnamed == ()
+
+
+def test_causes_are_found_beside_a_bump_that_nobody_knows() -> None:
+    bump = 6 * SIGMA * np.exp(-4 * np.log(2) * ((DESIGN.position - 0.42) / 0.12) ** 2)
+    found = _found(_hiding(("backlash", []), ("thermal-drift", [300.0])) + bump)
+    assert _names(found) == {"backlash", "thermal-drift"}
+    (left,) = found.unnamed
+    assert left.identifier == "bump"
+    assert left.theta == pytest.approx([0.42, 0.12], abs=0.03)
+
+
+def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
+    random = np.random.default_rng(3)
+    values = np.convolve(random.standard_normal(60), np.hanning(9), "valid")
+    curve = np.interp(DESIGN.position, np.linspace(0.0, 1.0, len(values)), values)
+    search = SetSearch(_contest(_hiding(("backlash", [])) + 2e-6 * curve))
+    found = search.found()
+    assert "backlash" in _names(found)
+    assert "polynomial" not in _names(found)
+    assert search.has_nameless(found)
+
+
+def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
+    found = _found(_hiding(("backlash-bow", []), ("time-periodic", [290.0])))
+    assert _names(found) == {"backlash-bow", "time-periodic"}
+
+
+def test_an_effect_that_is_not_needed_goes_out_again() -> None:
+    contest = _contest(_hiding(("screw-pitch", [0.01]), ("backlash", [])))
+    search = SetSearch(contest)
+    start = search.member_of(EFFECTS["first-run"], np.empty(0))
+    assert _names(search.found([start])) == {"screw-pitch", "backlash"}
+
+
+def test_without_any_effect_there_is_nothing_but_noise() -> None:
+    search = SetSearch(_contest(4e-6 + noise(DESIGN)))
+    found = search.found()
+    assert found.members == ()
+    assert not search.has_nameless(found)
+
+
+def test_evidence_of_its_own_is_what_the_set_loses_without_an_effect() -> None:
+    search = SetSearch(_contest(_hiding(("screw-pitch", [0.01]), ("backlash", []))))
+    found = search.found()
+    for number, evidence in enumerate(search.own_evidence(found)):
+        assert evidence == pytest.approx(search.without(found, number).score - found.score)
+        assert evidence > 5
+
+
+def test_a_searched_parameter_need_not_lie_on_the_grid() -> None:
+    places = EFFECTS["scale-kink"].grid(DESIGN)[:, 0]
+    between = float(places[7] + places[8]) / 2
+    found = _found(_hiding(("scale-kink", [between]), size=4.0))
+    (kink,) = found.named
+    assert kink.identifier == "scale-kink"
+    assert kink.theta[0] == pytest.approx(between, abs=(places[8] - places[7]) / 4)
+
+
+def test_a_jump_within_the_readings_of_one_target_is_found_where_it_is() -> None:
+    design = pendulum_test()
+    moment = float((design.time[103] + design.time[104]) / 2)
+    deviation = noise(design) + 8 * SIGMA * (design.time > moment)
+    (step,) = _found(deviation, design).named
+    assert step.identifier == "datum-step"
+    assert design.time[103] < step.theta[0] < design.time[104]
+
+
+def test_a_value_beyond_what_is_usual_costs_evidence_and_is_found_all_the_same() -> None:
+    huge = 400e-6 * DESIGN.direction + noise(DESIGN)
+    found = _found(huge)
+    assert _names(found) == {"backlash"}
+    usual = _found(huge / 10)
+    assert found.score > usual.score
+
+
+def test_of_the_forms_of_an_effect_one_is_chosen() -> None:
+    deviation = _hiding(("screw-pitch", [0.01]))
+    (member,) = _found(deviation).named
+    assert member.effect.settings.model_dump()["harmonics"] in {(1,), (1, 2)}
+
+
+def test_a_search_gives_the_same_set_whatever_the_unit() -> None:
+    deviation = _hiding(("backlash", []), ("thermal-drift", [300.0]))
+    one, other = (_found(each) for each in (deviation, 7 * deviation))
+    assert [each.identifier for each in one.members] == [each.identifier for each in other.members]
+    assert other.score - one.score == pytest.approx(2 * (len(deviation) - 1) * np.log(7), abs=1e-4)

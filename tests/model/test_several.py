@@ -1,0 +1,142 @@
+"""Effects that may stand in a model more than once: a scale has more than one joint."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import zlmreport as z
+from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
+from zlmreport.cli import main
+from zlmreport.errors import InputError
+from zlmreport.model.diagnosis.candidates import effects_to_try
+from zlmreport.model.fitting.fit import fit
+from zlmreport.plugin.registry import find_plugins
+
+_DESIGN = linear_test(21, 5)
+_TARGETS = _DESIGN.target_positions
+_GAPS = (_TARGETS[:-1] + _TARGETS[1:]) / 2
+_FIRST, _SECOND = _GAPS[5], _GAPS[14]
+_DEVIATION = (
+    4e-6 * (_DESIGN.position > _FIRST) - 6e-6 * (_DESIGN.position > _SECOND) + noise(_DESIGN, sigma=4e-7)
+)
+_JOINT = EFFECTS["scale-joint"]
+
+
+def test_two_joints_are_found_side_by_side() -> None:
+    found = fit(model_of("offset", "scale-joint", _JOINT.repeated(2)), _DESIGN, _DEVIATION)
+    values = {(each.effect, each.parameter.name): each.value for each in found.estimates}
+    names = ("scale-joint", "scale-joint-2")
+    joints = sorted((values[name, "joint"], values[name, "step"]) for name in names)
+    assert [place for place, _ in joints] == pytest.approx([_FIRST, _SECOND])
+    assert [step for _, step in joints] == pytest.approx([4e-6, -6e-6], abs=4e-7)
+
+
+def test_the_next_joint_is_tried_beside_the_first() -> None:
+    forms = effects_to_try(model_of("offset", "scale-joint"), _DESIGN, INSTALLED).forms
+    tried = {form.identifier for form in forms}
+    assert {"scale-joint-2", "scale-kink"} <= tried
+    assert "scale-joint" not in tried
+
+
+def test_search_for_the_second_begins_at_another_place() -> None:
+    first, second = _JOINT.grid(_DESIGN), _JOINT.repeated(2).grid(_DESIGN)
+    assert first[0] != second[0]  # else nothing would tell the two apart where a model is checked
+    assert len(second) == len(first) - 1
+
+
+def test_effect_that_may_stand_there_once_stays_what_it_is() -> None:
+    assert EFFECTS["backlash"].repeated(2) is EFFECTS["backlash"]
+
+
+def test_registry_knows_the_second_by_its_number() -> None:
+    registry = find_plugins()
+    assert registry.effect("scale-joint-2").identifier == "scale-joint-2"
+    with pytest.raises(InputError, match="backlash-2"):
+        registry.effect("backlash-2")
+
+
+_JOB = """schema: zlmreport/job/1
+certificate: {number: JOINTS-1, kind: report}
+axis: {name: X, travel: [0, 1000]}
+measurement: {source: {plugin: laser-csv, file: x.csv}}
+evaluate: [iso230-2:2014]
+model:
+  effects:
+    - offset
+    - scale-joint
+"""
+
+
+@pytest.fixture
+def job(tmp_path: Path) -> Path:
+    rows = zip(_DESIGN.position * 1e3, _DESIGN.direction, _DESIGN.run, _DEVIATION * 1e6, strict=True)
+    lines = ["target,direction,run,deviation", *(",".join(f"{each:.9g}" for each in row) for row in rows)]
+    (tmp_path / "x.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    path = tmp_path / "job.yaml"
+    path.write_text(_JOB, encoding="utf-8")
+    return path
+
+
+def _effects(job: Path, capsys: pytest.CaptureFixture[str]) -> list[str]:
+    capsys.readouterr()
+    assert main(["model", "fit", str(job), "--json"]) == 0
+    found: list[str] = json.loads(capsys.readouterr().out)["model"]["effects"]
+    return found
+
+
+def test_joint_is_added_a_second_time(job: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["model", "add", str(job), "scale-joint"]) == 0
+    assert "+ scale-joint-2" in capsys.readouterr().out
+    assert job.read_text(encoding="utf-8").endswith("    - scale-joint\n    - scale-joint-2\n")
+    assert _effects(job, capsys) == ["offset", "scale-joint", "scale-joint-2"]
+    assert main(["model", "remove", str(job), "scale-joint-2"]) == 0
+    assert _effects(job, capsys) == ["offset", "scale-joint"]
+
+
+def test_job_may_list_a_joint_twice(job: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    job.write_text(_JOB + "    - scale-joint: {joint: 730}\n", encoding="utf-8")
+    assert _effects(job, capsys) == ["offset", "scale-joint", "scale-joint-2"]
+
+
+def test_second_backlash_is_still_refused(job: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    job.write_text(_JOB.replace("scale-joint", "backlash"), encoding="utf-8")
+    assert main(["model", "add", str(job), "backlash"]) == 2
+    assert "backlash stands in the model already" in capsys.readouterr().err
+
+
+def test_notebook_adds_a_second_joint() -> None:
+    up, down = (
+        _DEVIATION[_DESIGN.direction == sign].reshape(5, 21)[:, :: int(sign)] * 1e6 for sign in (1.0, -1.0)
+    )
+    model = z.fit(z.test(_TARGETS * 1e3, up, down), ["offset", "scale-joint"])
+    assert model.add("scale-joint").effects == ("offset", "scale-joint", "scale-joint-2")
+
+
+def test_period_that_the_data_contradict_is_tried_as_another_form_of_the_screw() -> None:
+    effect = EFFECTS["screw-pitch"]
+    other = effect.with_settings(effect.options(harmonics=(1,), pitch="other"))
+    assert other.settings in [form.settings for form in effect.forms()]
+    deviation = 4e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.012) + noise(_DESIGN, sigma=4e-7)
+    found = fit(model_of("offset", other), _DESIGN, deviation)
+    period = next(each for each in found.estimates if each.parameter.name == "period")
+    assert period.value == pytest.approx(0.012, rel=1e-3)
+    assert effect.expected(_DESIGN.axis) == {"period": 0.01}
+
+
+def test_other_pitches_are_none_that_the_stated_one_has_as_a_harmonic() -> None:
+    effect = EFFECTS["screw-pitch"]
+    other = effect.with_settings(effect.options(pitch="other"))
+    tried = set(np.round(other.grid(_DESIGN)[:, 0] * 1e3, 6))
+    assert {12.0, 8.0, 20.0, 25.4} <= tried
+    assert not {10.0, 5.0, 2.5} & tried
+
+
+def test_other_pitches_are_not_tried_where_the_job_states_none() -> None:
+    effect = EFFECTS["screw-pitch"]
+    other = effect.with_settings(effect.options(pitch="other"))
+    assert other.untestable(replace(_DESIGN, axis=replace(_DESIGN.axis, screw_pitch=None))) is not None

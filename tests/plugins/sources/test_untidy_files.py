@@ -1,0 +1,142 @@
+"""Files as they come are read as they are: what is proposed reads them, and the same readings come of all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings, strategies as st
+
+from plugins.sources import untidy_files
+from plugins.sources.untidy_files import FILES, Untidy, german, rows, text
+from zlmreport.cli import main
+from zlmreport.looking import looked_at
+from zlmreport.plugin.registry import find_plugins
+
+REGISTRY = find_plugins({})
+
+
+@pytest.fixture(params=FILES, ids=[each.__name__.lstrip("_") for each in FILES])
+def untidy(request: pytest.FixtureRequest) -> Untidy:
+    make: Callable[[], Untidy] = request.param
+    return make()
+
+
+def test_a_file_is_read_as_it_is(untidy: Untidy, tmp_path: Path) -> None:
+    path = tmp_path / untidy.name
+    path.write_bytes(untidy.content)
+    looked = looked_at(path, REGISTRY)
+    axis = looked.read.axis
+    np.testing.assert_allclose(
+        axis.deviation_unit.from_si(looked.read.deviations()), untidy.grid, rtol=0, atol=1e-5
+    )
+    assert (looked.proposal.axis, axis.kind.value) == (untidy.axis, untidy.kind)
+    assert dict(looked.proposal.keys) == untidy.keys
+
+
+def test_the_job_that_is_written_reads_it(
+    untidy: Untidy, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path(untidy.name).write_bytes(untidy.content)
+    assert main(["init", "--from", untidy.name, "job"]) == 0
+    assert main(["check", "job/job.yaml"]) == 0, capsys.readouterr().err
+    name = untidy.axis or "X"
+    assert f"axis: {{name: {name}, kind: {untidy.kind}," in Path("job", "job.yaml").read_text("utf-8")
+
+
+def test_the_sheet_that_is_named_is_looked_at(tmp_path: Path) -> None:
+    path = tmp_path / "two.xlsx"
+    head = ["target", "1+", "1-"]
+    path.write_bytes(
+        untidy_files.workbook(Before=[head, [0, 1, 2], [9, 1, 2]], After=[head, [0, 3, 4], [9, 3, 4]])
+    )
+    assert [question for question in looked_at(path, REGISTRY).proposal.asks if "Before" in question] == [
+        "Is 'Before' the right sheet? 'After' holds a table, too."
+    ]
+    after = looked_at(path, REGISTRY, "After")
+    assert after.proposal.keys["sheet"] == "After"
+    np.testing.assert_allclose(after.read.deviations()[:, 0, 0], [3e-6, 4e-6])
+
+
+def test_deviations_beside_positions_tell_their_sign(tmp_path: Path) -> None:
+    path = tmp_path / "both.csv"
+    path.write_text("Soll;Ist;Richtung;Lauf;Abw. (µm)\n0;0,002;+;1;2\n9;9,003;+;1;3\n", encoding="utf-8")
+    proposal = looked_at(path, REGISTRY).proposal
+    assert "sign" not in proposal.keys
+    assert not [question for question in proposal.asks if "nominal" in question]
+
+
+@pytest.mark.parametrize(
+    ("line", "unit"), [("Abweichungen in mm", "mm"), ("Values [nm]", "nm"), ("Einheit: µm", "µm")]
+)
+def test_a_unit_that_stands_above_the_table_is_taken(line: str, unit: str, tmp_path: Path) -> None:
+    path = tmp_path / "above.csv"
+    path.write_text(f"{line}\ntarget;1+;1-\n0;0,001;0,002\n9;0,001;0,002\n", encoding="utf-8")
+    assert looked_at(path, REGISTRY).proposal.keys["units"] == {"deviation": unit}
+
+
+def test_values_too_small_for_micrometres_are_taken_for_millimetres_and_asked(tmp_path: Path) -> None:
+    path = tmp_path / "small.csv"
+    path.write_text("target,1+,1-\n0,0.0012,0.0003\n50,0.0018,0.0011\n", encoding="utf-8")
+    proposal = looked_at(path, REGISTRY).proposal
+    assert proposal.keys["units"] == {"deviation": "mm"}
+    assert [question for question in proposal.asks if "rarely in µm" in question]
+
+
+def test_a_whole_turn_of_an_unnamed_axis_is_asked(tmp_path: Path) -> None:
+    path = tmp_path / "turn.csv"
+    path.write_text("target,1+,1-\n0,1,2\n180,3,4\n360,5,6\n", encoding="utf-8")
+    assert [question for question in looked_at(path, REGISTRY).proposal.asks if "kind: rotary" in question]
+
+
+#: What tables of the same readings differ in.
+NAMES = {
+    "de": ("Sollposition", "Abweichung", "Richtung", "Messlauf", ("vor", "zurück")),
+    "en": ("Nominal position", "Deviation", "Direction", "Cycle", ("fwd", "bwd")),
+}
+HEADS = {
+    "none": [],
+    "text": ["Report of a test", "", "Machine: 4711"],
+    "cells": ["Serial{d}12", "Temperature{d}20"],
+}
+FEET = {"none": [], "mean": ["Mittelwert{d}1{d}1{d}1"], "name": ["", "Operator: A. Miller"]}
+
+
+@given(data=st.data())
+@settings(max_examples=40)
+def test_tables_that_differ_in_all_that_does_not_matter_are_read_alike(
+    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
+) -> None:
+    *names, senses = NAMES[data.draw(st.sampled_from(sorted(NAMES)))]
+    delimiter = data.draw(st.sampled_from([";", "\t"]))
+    units = data.draw(st.sampled_from(["{} [{}]", "{} / {}", "a row"]))
+    marks = ["mm", "µm", "", ""]
+    header = [
+        units.format(name, mark) if mark and units != "a row" else name
+        for name, mark in zip(names, marks, strict=True)
+    ]
+    table = [
+        [german(target, 3), german(value, 2), senses[sense < 0], str(run)]
+        for target, sense, run, value in rows()
+    ]
+    order = data.draw(st.permutations(range(4)))
+    lines = [
+        [each[index] for index in order] for each in (header, *([marks] if units == "a row" else []), *table)
+    ]
+    content = [
+        *(line.format(d=delimiter) for line in HEADS[data.draw(st.sampled_from(sorted(HEADS)))]),
+        *(delimiter.join(line) for line in lines),
+        *(line.format(d=delimiter) for line in FEET[data.draw(st.sampled_from(sorted(FEET)))]),
+    ]
+    has_comma = data.draw(st.booleans())
+    written = text(
+        *(content if has_comma else [line.replace(",", ".") for line in content]),
+        encoding=data.draw(st.sampled_from(["utf-8", "utf-8-sig", "cp1252", "utf-16"])),
+    )
+    path = tmp_path_factory.mktemp("alike") / "table.txt"
+    path.write_bytes(written)
+    grid = looked_at(path, REGISTRY).read.deviations()
+    np.testing.assert_allclose(grid * 1e6, untidy_files.GRID, rtol=0, atol=1e-6)

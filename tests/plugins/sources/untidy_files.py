@@ -1,0 +1,441 @@
+"""Files as workshops have them, each with the same readings; nobody tidied them up for a program.
+
+All hold positions and deviations of one invented axis. What each is like is said by its name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from io import BytesIO
+
+import numpy as np
+from openpyxl import Workbook
+
+#: mm; and deviations in µm by direction, run and target.
+TARGETS = (0.0, 420.0, 840.0, 1260.0)
+UP = ((0.2, 1.3, 2.9, -4.6), (0.4, 1.1, 3.1, -4.2))
+DOWN = ((-1.1, 0.1, 1.8, -6.0), (-0.9, 0.3, 1.6, -5.8))
+#: The same, (direction, target, run).
+GRID = np.array([np.transpose(UP), np.transpose(DOWN)])
+#: Degrees and arc seconds of the files on a rotary axis.
+ANGLES = (0.0, 90.0, 180.0, 270.0)
+
+
+def german(value: float, decimals: int = 1) -> str:
+    """Return a number with a decimal comma."""
+    return f"{value:.{decimals}f}".replace(".", ",")
+
+
+def rows() -> list[tuple[float, int, int, float]]:
+    """Return target, direction, run and deviation of each reading, in the order in which they were taken."""
+    return [
+        (TARGETS[index], sense, run + 1, grid[run][index])
+        for run in range(2)
+        for sense, grid in ((1, UP), (-1, DOWN))
+        for index in range(len(TARGETS))[::sense]
+    ]
+
+
+@dataclass(frozen=True)
+class Untidy:
+    """A file, and what must come of it."""
+
+    name: str
+    content: bytes
+    keys: dict[str, object]  #: That read it.
+    axis: str = ""  #: Its letter, where the file names it.
+    kind: str = "linear"
+    #: (direction, target, run), µm or ″; NaN where missing.
+    grid: np.ndarray = field(default_factory=lambda: GRID)
+
+
+def text(*lines: str, encoding: str = "utf-8") -> bytes:
+    """Return lines as Windows saves them."""
+    return "\r\n".join([*lines, ""]).encode(encoding)
+
+
+def workbook(**sheets: Sequence[Sequence[object]]) -> bytes:
+    """Return a workbook of sheets."""
+    book, saved = Workbook(), BytesIO()
+    book.remove(book.active)
+    for title, cells in sheets.items():
+        sheet = book.create_sheet(title)
+        for row in cells:
+            sheet.append(list(row))
+    book.save(saved)
+    return saved.getvalue()
+
+
+def _german_export() -> Untidy:
+    """A laser's export in Latin-1: a head, a row of units, decimal commas, clock times, a foot."""
+    return Untidy(
+        "messung_04.txt",
+        text(
+            "Messprotokoll Laserinterferometer",
+            "Maschine:;Fräsmaschine Nr. 4711",
+            "Achse: Y",
+            "Prüfer:;Jürgen Groß",
+            "",
+            "Nr.;Sollposition;Richtung;Messlauf;Abweichung;Uhrzeit;Luft;Bemerkung",
+            ";[mm];;;[µm];;[°C];",
+            *(
+                f"{number};{german(target, 3)};{'vorwärts' if sense > 0 else 'rückwärts'};{run};"
+                f"{german(value)};08:{15 + number}:03;20,{number};{'Tür offen' if number == 3 else ''}"
+                for number, (target, sense, run, value) in enumerate(rows(), 1)
+            ),
+            "",
+            "Ende des Protokolls",
+            encoding="cp1252",
+        ),
+        {
+            "encoding": "cp1252",
+            "skip_rows": 5,
+            "ends_before": "Ende des Protokolls",
+            "columns": {
+                "target": "Sollposition",
+                "direction": "Richtung",
+                "run": "Messlauf",
+                "deviation": "Abweichung",
+                "time": "Uhrzeit",
+            },
+            "ignore": ["Nr.", "Bemerkung"],
+        },
+        axis="Y",
+    )
+
+
+def _american_export() -> Untidy:
+    """A spreadsheet's CSV: its line on the delimiter, thousands, quotation marks, summary rows below."""
+    table = [
+        f'"{target:,.3f}",{UP[0][index]},{DOWN[0][index]},{UP[1][index]},{DOWN[1][index]},note {index}'
+        for index, target in enumerate(TARGETS)
+    ]
+    return Untidy(
+        "export.csv",
+        text(
+            "sep=,",
+            "Target (mm),Run 1 fwd (µm),Run 1 bwd (µm),Run 2 fwd (µm),Run 2 bwd (µm),Comment",
+            *table,
+            ",,,,,",
+            "Mean,-0.05,-1.3,0.1,-1.2,",
+            "Std. dev.,3.2,3.4,3.1,3.3,",
+            encoding="utf-8-sig",
+        ),
+        {
+            "ends_before": "Mean",
+            "thousands": "comma",
+            "layout": "wide",
+            "ignore": ["Comment"],
+        },
+    )
+
+
+def _unicode_text() -> Untidy:
+    """UTF-16 with tabs, as a spreadsheet saves "Unicode text": arrows, means, a missing reading in words."""
+    grid = GRID.copy()
+    grid[1, 2, 1] = np.nan
+    return Untidy(
+        "X-Achse.txt",
+        text(
+            "Position / mm\t1. Lauf ↑\t1. Lauf ↓\t2. Lauf ↑\t2. Lauf ↓\tMittelwert",
+            *(
+                "\t".join(
+                    [
+                        german(target, 0),
+                        german(UP[0][index]),
+                        german(DOWN[0][index]),
+                        german(UP[1][index]),
+                        "---" if index == 2 else german(DOWN[1][index]),
+                        german(0.5),
+                    ]
+                )
+                for index, target in enumerate(TARGETS)
+            ),
+            encoding="utf-16",
+        ),
+        {
+            "encoding": "utf-16",
+            "missing": ["---"],
+            "layout": "wide",
+            "columns": {
+                "target": "Position",
+                "1+": "1. Lauf ↑",
+                "1-": "1. Lauf ↓",
+                "2+": "2. Lauf ↑",
+                "2-": "2. Lauf ↓",
+            },
+            "ignore": ["Mittelwert"],
+        },
+        axis="X",
+        grid=grid,
+    )
+
+
+def _two_sheets() -> Untidy:
+    """A workbook with a cover sheet; on the other the runs span two columns each, below a head."""
+    return Untidy(
+        "Protokoll.xlsx",
+        workbook(
+            Deckblatt=[["Prüfprotokoll"], ["Maschine", "DMC 80"], ["Datum", "18.11.2026"]],
+            Messwerte=[
+                ["Werte in µm"],
+                [],
+                ["Position\n[mm]", "Lauf 1", None, "Lauf 2", None, "Mittel"],
+                [None, "auf", "ab", "auf", "ab", None],
+                *(
+                    [target, UP[0][index], DOWN[0][index], UP[1][index], DOWN[1][index], 0.5]
+                    for index, target in enumerate(TARGETS)
+                ),
+                [],
+                ["Spannweite", 7.5, 7.8, 7.3, 7.4],
+            ],
+        ),
+        {
+            "sheet": "Messwerte",
+            "skip_rows": 2,
+            "ends_before": "Spannweite",
+            "header_rows": 2,
+            "layout": "wide",
+            "columns": {"target": "Position"},
+            "units": {"deviation": "µm"},
+            "ignore": ["Mittel"],
+        },
+    )
+
+
+def _transposed() -> Untidy:
+    """A table that lies on its side below a head: targets to the right, a mean at their end."""
+    return Untidy(
+        "quer.csv",
+        text(
+            "Messprotokoll;Achse Z",
+            "Datum;18.11.2026",
+            "",
+            f"Position [mm];{';'.join(german(target, 1) for target in TARGETS)};Mittelwert",
+            *(
+                f"Lauf {run} {name} [µm];{';'.join(map(german, grid[run - 1]))};0,1"
+                for run in (1, 2)
+                for name, grid in (("hin", UP), ("rück", DOWN))
+            ),
+            "Umkehrspanne;1,3;1,2;1,1;1,4;1,2",
+        ),
+        {
+            "skip_rows": 3,
+            "ends_before": "Mittelwert",
+            "delimiter": "semicolon",
+            "transposed": True,
+            "layout": "wide",
+            "columns": {"target": "Position"},
+            "ignore": ["Umkehrspanne"],
+        },
+        axis="Z",
+    )
+
+
+def _transposed_sheet() -> Untidy:
+    """An English sheet on its side, units in its second column, statistics below it."""
+    runs = [
+        [f"Run {run} {name}", "um", *grid[run - 1]]
+        for run in (1, 2)
+        for name, grid in (("forward", UP), ("reverse", DOWN))
+    ]
+    return Untidy(
+        "linear x.xlsx",
+        workbook(
+            Data=[
+                ["Customer", "Example Ltd"],
+                [],
+                ["Nominal position", "mm", *TARGETS],
+                *runs,
+                ["Average", "um", 0.1, 0.2, 0.3, 0.4],
+                ["Repeatability", "um", 0.1, 0.2, 0.3, 0.4],
+            ]
+        ),
+        {
+            "skip_rows": 2,
+            "transposed": True,
+            "layout": "wide",
+            "columns": {"target": "Nominal position"},
+            "ignore": ["Average", "Repeatability"],
+        },
+    )
+
+
+def _rotary() -> Untidy:
+    """A rotary table: degrees, minutes and seconds, deviations in seconds, neither directions nor runs."""
+    angles = {0.0: "0° 00′ 00″", 90.0: "90° 00′ 00″", 180.0: "180° 00′ 00″", 270.0: "270° 00′ 00″"}
+    of_target = dict(zip(TARGETS, ANGLES, strict=True))
+    return Untidy(
+        "rundtisch.csv",
+        text(
+            "# Achse C, Polygonspiegel",
+            'Winkel [°];Abw. ["]',
+            *(f"{angles[of_target[target]]};{german(value)}" for target, _, _, value in rows()),
+        ),
+        {
+            "direction": "by-order",
+            "runs": "counted",
+            "columns": {"target": "Winkel", "deviation": "Abw."},
+            "units": {"deviation": "arcsec"},
+        },
+        axis="C",
+        kind="rotary",
+    )
+
+
+def _positions_with_blanks() -> Untidy:
+    """Actual positions with blanks in their thousands, aligned by blanks, units behind the numbers."""
+    return Untidy(
+        "laser.dat.txt",
+        text(
+            "Soll          Ist             Richtung  Zyklus",
+            *(
+                f"{_spaced(target, 1)} mm  {_spaced(target + value / 1000, 4)} mm  {sense:+d}  {run}"
+                for target, sense, run, value in rows()
+            ),
+        ),
+        {
+            "delimiter": "blanks",
+            "thousands": "blank",
+            "columns": {"target": "Soll", "direction": "Richtung", "run": "Zyklus", "position": "Ist"},
+        },
+    )
+
+
+def _spaced(value: float, decimals: int) -> str:
+    return f"{value:,.{decimals}f}".replace(",", " ").replace(".", ",")
+
+
+def _two_blocks() -> Untidy:
+    """One table of each direction, below each other; runs are only numbered."""
+    blocks = [
+        line
+        for name, grid in (("Forward", UP), ("Backward", DOWN))
+        for line in (
+            name,
+            "Position;Run 1;Run 2",
+            *(f"{target};{grid[0][index]};{grid[1][index]}" for index, target in enumerate(TARGETS)),
+            "",
+        )
+    ]
+    return Untidy(
+        "blocks.csv",
+        text("Positioning test, deviations in um", *blocks),
+        {
+            "layout": "wide",
+            "columns": {"target": "Position"},
+            "units": {"deviation": "um"},
+            "parts": [{"lines": [3, 7], "direction": "+"}, {"lines": [10, 14], "direction": "-"}],
+        },
+    )
+
+
+def _sheets_of_directions() -> Untidy:
+    """A workbook with a sheet of each direction."""
+
+    def sheet(grid: Sequence[Sequence[float]]) -> list[list[object]]:
+        return [
+            ["Soll (mm)", "Messung 1", "Messung 2"],
+            *([target, grid[0][index], grid[1][index]] for index, target in enumerate(TARGETS)),
+        ]
+
+    return Untidy(
+        "hin und rück.xlsx",
+        workbook(**{"Messung hin": sheet(UP), "Messung rück": sheet(DOWN)}),
+        {
+            "layout": "wide",
+            "columns": {"target": "Soll"},
+            "parts": [
+                {"sheet": "Messung hin", "direction": "+"},
+                {"sheet": "Messung rück", "direction": "-"},
+            ],
+        },
+    )
+
+
+def _nominal_minus_actual() -> Untidy:
+    """Deviations of the other sign beside the positions that tell it, in mm; commented names; no runs."""
+    return Untidy(
+        "raw.tsv",
+        text(
+            "# measured 2026-11-18",
+            "Nominal\tMeasured\tError\tDir\tTemp\tOperator",
+            *(
+                f"{target:.1f}\t{target + value / 1000:.4f}\t{-value / 1000:.4f}\t"
+                f"{'U' if sense > 0 else 'D'}\t20.1\tAB"
+                for target, sense, _, value in rows()
+            ),
+        ),
+        {
+            "runs": "counted",
+            "sign": "nominal-actual",
+            "columns": {"target": "Nominal", "direction": "Dir", "deviation": "Error"},
+            "units": {"deviation": "mm"},
+            "ignore": ["Measured", "Operator"],
+        },
+    )
+
+
+def _without_names() -> Untidy:
+    """Two columns of numbers, as a program of one's own writes them; a comment names them."""
+    return Untidy(
+        "log.txt",
+        text(
+            "# x-axis, run on 18 Nov",
+            "# target deviation",
+            *(f"{target} {value}" for target, _, _, value in rows()),
+        ),
+        {
+            "delimiter": "blanks",
+            "header": ["target", "deviation"],
+            "direction": "by-order",
+            "runs": "counted",
+        },
+        axis="X",
+    )
+
+
+def _empty_corner() -> Untidy:
+    """A sheet whose corner is empty and whose columns are only called up and down."""
+    return Untidy(
+        "corner.xlsx",
+        workbook(
+            Sheet1=[
+                ["", "up", "down", "up", "down"],
+                *(
+                    [target, UP[0][index], DOWN[0][index], UP[1][index], DOWN[1][index]]
+                    for index, target in enumerate(TARGETS)
+                ),
+            ]
+        ),
+        {"skip_rows": 1, "header": ["target", "1+", "1-", "2+", "2-"], "layout": "wide"},
+    )
+
+
+def _passes_as_runs() -> Untidy:
+    """Every pass has a number of its own, up and down in turn; the direction is nowhere."""
+    numbered = [(target, 2 * run - (sense > 0), value) for target, sense, run, value in rows()]
+    return Untidy(
+        "passes.csv",
+        text("Target;Run;Deviation [um]", *(f"{target};{run};{value}" for target, run, value in numbered)),
+        {"direction": "by-order", "runs": "counted", "ignore": ["Run"]},
+    )
+
+
+FILES: tuple[Callable[[], Untidy], ...] = (
+    _german_export,
+    _american_export,
+    _unicode_text,
+    _two_sheets,
+    _transposed,
+    _transposed_sheet,
+    _rotary,
+    _positions_with_blanks,
+    _two_blocks,
+    _sheets_of_directions,
+    _nominal_minus_actual,
+    _without_names,
+    _empty_corner,
+    _passes_as_runs,
+)

@@ -1,0 +1,67 @@
+"""What other readers see: the same of a sound file, and something else of one that has two faces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from verification.altering import rewritten
+from verification.forgeries import plain
+from verification.issued import altered
+from verification.raw_forgeries import boxed, other_readings, together
+from verification.test_trust import signed
+from zlmreport.errors import Place
+from zlmreport.verification import readers
+from zlmreport.verification.carrier import opened
+from zlmreport.verification.readers import READERS, Reader, attachments_of, differences, seen_by
+
+
+def told(pdf: bytes) -> list[str]:
+    """Return what any reader sees otherwise than pypdf takes out."""
+    carrier = opened(pdf, Place("certificate.pdf"))
+    return list(differences(pdf, attachments_of(carrier), len(carrier.reader.pages)))
+
+
+@pytest.mark.parametrize("printed", ["issued", "by_typst"])
+def test_all_see_the_same_of_a_sound_file(
+    printed: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    pdf: bytes = request.getfixturevalue(printed)
+    for saved in (
+        pdf,
+        plain(pdf),
+        rewritten(pdf, lambda _: None),
+        altered(pdf, lambda _: None),
+        signed(pdf, tmp_path),
+    ):
+        assert told(saved) == []
+
+
+def test_three_of_other_makers_are_always_asked() -> None:
+    assert [each.name for each in READERS if not each.command] == ["pypdf", "PDFium", "qpdf"]
+
+
+@pytest.mark.parametrize("name", ["PDFium", "qpdf"])
+def test_a_second_copy_of_each_object_is_seen_where_the_file_is_put_together_anew(
+    name: str, issued: bytes
+) -> None:
+    """This is how one file has two faces: the strict reading of its bytes refuses it before that."""
+    faces = together(plain(issued), b"".join(boxed(issued).values()))
+    assert any(each.startswith(f"{name} sees other pages where") for each in told(faces))
+
+
+def test_other_readings_behind_the_table_are_seen(issued: bytes) -> None:
+    faces = together(plain(issued), other_readings(issued)[1])
+    assert any("takes out other attachments where" in each for each in told(faces))
+
+
+def test_a_reader_that_cannot_open_a_file_sees_nothing() -> None:
+    assert all(seen_by(each, b"%PDF-1.7\nnothing") is None for each in READERS if each.is_here)
+
+
+def test_what_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    missing = Reader("Other", lambda _: pytest.fail("is not asked"), "zlmreport-no-such-program")
+    monkeypatch.setattr(readers, "READERS", (missing,))
+    assert readers.absent() == ("Other",)
+    assert list(differences(b"", (), 0)) == []

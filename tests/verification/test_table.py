@@ -1,0 +1,102 @@
+"""The raw bytes of a PDF against its tables: what is sound is read, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from verification.altering import rewritten
+from verification.forgeries import plain
+from verification.issued import altered
+from verification.raw_forgeries import with_packed_table
+from verification.test_trust import signed
+from zlmreport.verification.findings import Verdict
+from zlmreport.verification.table import finding, scan
+from zlmreport.verification.tokens import Name, OddError, Reference, read_object, read_value
+
+
+@pytest.mark.parametrize("printed", ["issued", "by_typst"])
+@pytest.mark.parametrize(
+    "saved",
+    [
+        lambda pdf: pdf,
+        plain,
+        lambda pdf: rewritten(pdf, lambda _: None),
+        lambda pdf: altered(pdf, lambda _: None),
+        lambda pdf: with_packed_table(pdf, repeated=False),
+    ],
+    ids=["as issued", "plain", "packed", "by pypdf", "table packed by hand"],
+)
+def test_a_sound_file_is_read_from_its_first_to_its_last_byte(
+    printed: str, saved: Callable[[bytes], bytes], request: pytest.FixtureRequest
+) -> None:
+    assert finding(saved(request.getfixturevalue(printed)), is_signed=False).verdict is Verdict.HOLDS
+
+
+@pytest.mark.parametrize("printed", ["issued", "by_typst"])
+def test_a_signature_may_add_a_revision_and_nothing_else_may(
+    printed: str, request: pytest.FixtureRequest, tmp_path: Path
+) -> None:
+    pdf = signed(request.getfixturevalue(printed), tmp_path)
+    assert finding(pdf, is_signed=True).verdict is Verdict.HOLDS
+    assert "no signature" in str(finding(pdf, is_signed=False).detail)
+
+
+def test_every_byte_between_objects_counts(issued: bytes) -> None:
+    """A byte that is put anywhere into the file is found: by its place, or by the place of what follows."""
+    whole = plain(issued)
+    step = len(whole) // 97
+    for at in range(0, len(whole), step):
+        with pytest.raises(OddError):
+            scan(whole[:at] + b"%" + whole[at:], is_signed=False)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        (b"<< /A 1 /B [ 2 0 R (a\\)b(c)) ] >>", {b"A": 1, b"B": [Reference(2, 0), b"(a\\)b(c))"]}),
+        (b"/A#42", Name(b"AB")),
+        (b"[-.5 +3 true null <41 42>]", [-0.5, 3, True, None, b"<41 42>"]),
+    ],
+)
+def test_objects_are_read_as_the_standard_writes_them(text: bytes, value: object) -> None:
+    assert read_value(text, 0) == (value, len(text))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"<< /A 1 /A 2 >>",
+        b"<< /A 1 /#41 2 >>",
+        b"<< (A) 1 >>",
+        b"[1 2",
+        b"(a",
+        b"--1",
+        b"1e5",
+        b"% a comment\n1",
+        b"[" * 5000,
+        b"<4G>",
+        b"",
+    ],
+)
+def test_what_two_readers_might_take_differently_is_no_object(text: bytes) -> None:
+    with pytest.raises(OddError):
+        read_value(text, 0)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"1 0 obj 5 6 endobj",
+        b"1 0 obj << /Length 3 >> stream\nabcd\nendstream endobj",
+        b"1 0 obj << /Length 2 0 R >> stream\nabcd\nendstream\nendobj",
+        b"1 0 obj << >> stream\nabcd\nendstream\nendobj",
+        b"01 0 obj 5 endobj",
+        b"1 0 obj 5",
+    ],
+)
+def test_an_object_ends_where_it_says(text: bytes) -> None:
+    with pytest.raises(OddError):
+        read_object(text, 0)
