@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from argparse import Namespace
 from collections.abc import Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 from zlmreport.cli.layout import section_lines
 from zlmreport.cli.terminal import Colour, print_json, shown_path
 from zlmreport.document.blocks import Block, Section
-from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import Document, write
 from zlmreport.language import Language
@@ -29,7 +27,6 @@ from zlmreport.machines.subjects.plan import plan_section
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.pipeline import file_names
-from zlmreport.plugin.protocols import Renderer
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.carrier import results_in
 
@@ -120,10 +117,6 @@ def _certificate(machine: MachineFile, registry: Registry, options: Namespace) -
     write(documents)
     shown = [shown_path(each.path) for each in documents]
     return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": shown}
-
-
-def _rendered(renderer: Renderer, certificate: Certificate, folder: Path) -> Document:
-    return Document(folder / file_name(certificate, renderer), renderer.render(certificate))
 
 
 def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -75,19 +75,18 @@ class Certificate:
         """
         path = Path(path)
         if path.suffix:
-            contents = self._rendered([plugin or _renderer_of(path)])
-            (document,) = [Document(path, content) for content in contents.values()]
-            return write([document])[0]
+            (content,) = self._rendered([plugin or _renderer_of(path)])
+            return write([Document(path, content)])[0]
         known = {each.identifier: each for each in registry().renderers}
         names = pipeline.file_names(self.number, [known[each] for each in self._job.formats])
-        contents = self._rendered(self._job.formats).values()
+        contents = self._rendered(self._job.formats)
         write(Document(path / name, content) for name, content in zip(names, contents, strict=True))
         return path
 
-    def _rendered(self, identifiers: Any) -> dict[str, bytes]:
+    def _rendered(self, identifiers: Iterable[str]) -> tuple[bytes, ...]:
         renderers = [registry().renderer(each, Place("save")) for each in identifiers]
         contents = pipeline.render(self._composed, renderers, registry())
-        return {each: contents[each] for each in identifiers}
+        return tuple(contents[each.identifier] for each in renderers)
 
     def __repr__(self) -> str:
         """Return its number and standards."""
