@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from zlmreport.errors import InputError, Problem, quoted
+from zlmreport.errors import InputError, Problem, did_you_mean, quoted
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.keys import JobKeys
@@ -210,6 +210,9 @@ def _of_each_test(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[S
     """Yield what does not go together within each of several measured lines."""
     for name, test in keys.measurement.tests.items():
         path: tuple[Step, ...] = ("measurement", "tests", name)
+        if measurand.test_names and name not in measurand.test_names:
+            near = did_you_mean(name, measurand.test_names)
+            yield path, f"{quoted(name)} is none of the lines of {measurand.identifier}; {near}"
         if test.source is None:
             yield (*path, "source"), "missing; say where the readings of this test come from"
         if test.error is None:

@@ -90,6 +90,8 @@ class Measurand:
     of_lines
         What each of the measured lines is a measurement of, where its error does not say; None for
         positioning.
+    test_names
+        What the measured lines must be called, where what is evaluated depends on it; empty for any names.
     contributors
         What its uncertainty has besides what that of every test has, by the keys of a job's ``uncertainty``:
         what is neither stated nor declared negligible is missing.
@@ -117,6 +119,7 @@ class Measurand:
     reversal: Words = _REVERSAL
     joins_tests: bool = False
     of_lines: Measurand | None = None
+    test_names: tuple[str, ...] = ()
     contributors: tuple[str, ...] = ()
     subject: Words = _OF_AXIS
     bearer: Words = _AXIS
