@@ -37,6 +37,8 @@ _LEAST_DRAWN = 0.75
 _ROUNDED = 1e-6
 #: The part of the first page that must be taken for the next part to begin a page.
 _FULL_ENOUGH = 0.38
+#: The part of a page with which a line that is too long for one may end: the next goes on below.
+_LITTLE = 0.5
 #: Panels that have room beside each other.
 _MOST_BESIDE = 2
 
@@ -105,7 +107,7 @@ def results_by_line(of: Material) -> Iterator[Section]:
     for each in sections:
         section = on_a_page(each, room)
         taken = columns.heading_height(section.title) + columns.height(section.blocks)
-        begins_page = used + taken > room and used > _FULL_ENOUGH * room
+        begins_page = used + taken > room and used > _LITTLE * room
         yield replace(section, new_page=begins_page)
         used = (taken if begins_page else used + taken) % room
 
