@@ -218,7 +218,8 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
         name = _OF_LINE.given(name=test.name, said=name)
     parameters = (_parameter(each, evaluation, writer) for each in evaluation.parameters)
     is_continuous = measurements.axis.measurand.is_continuous
-    results = [_result(_OF_NO_AXIS if is_continuous else _PARAMETERS, parameters, writer)]
+    based_on = {} if job.keys.agreement.simplified else _reference(test, measurements)
+    results = [_result(_OF_NO_AXIS if is_continuous else _PARAMETERS, parameters, writer, **based_on)]
     if test.earlier:
         results.append(_result(_CHANGES, _changes(test.earlier[index], evaluation, writer), writer))
     if not measurements.tests:
@@ -239,6 +240,12 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
         dcc("results", *results),
         group("measurementMetaData", *_budget(test, writer), *_findings(evaluation, writer)),
     )
+
+
+def _reference(test: _Test, measurements: MeasurementSet) -> dict[str, str]:
+    """Return the reference from parameters to the readings of which they are, where these have names."""
+    names = ["-".join(filter(None, (test.name, line))) for line in measurements.tests] or [test.name]
+    return {"refId": " ".join(f"{TEST}{each}" for each in names)} if all(names) else {}
 
 
 def _result(name: Words, of: Iterable[ET.Element], writer: Writer, **kind: str) -> ET.Element:

@@ -94,13 +94,15 @@ def lay_out(of: Material) -> LaidOut:
     for page, taken in zip(pages, beside, strict=True):
         elsewhere |= _items_on(of, page, taken)[1]
     sections = [_sheet(of, page, taken, elsewhere) for page, taken in zip(pages, beside, strict=True)]
-    first, *others = (
-        *_beside_as_found(of, sections, elsewhere),
-        *results_by_line(of),
-        *_details(of, pages, elsewhere),
-        *statements.opinion_sections(of.job.keys, of.writer),
-    )
-    return LaidOut((), (first, *(replace(each, new_page=True) for each in others)), is_compact=True)
+    first, *others = _beside_as_found(of, sections, elsewhere)
+    last = (*_details(of, pages, elsewhere), *statements.opinion_sections(of.job.keys, of.writer))
+    begun = (*_on_pages(others), *results_by_line(of), *_on_pages(last))
+    return LaidOut((), (first, *begun), is_compact=True)
+
+
+def _on_pages(sections: Iterable[Section]) -> Iterator[Section]:
+    """Yield sections that each begin a page."""
+    return (replace(each, new_page=True) for each in sections)
 
 
 def _beside_as_found(of: Material, sections: Sequence[Section], elsewhere: set[str]) -> Iterator[Section]:

@@ -94,11 +94,18 @@ def lay_out(of: Material) -> LaidOut:
 
 
 def results_by_line(of: Material) -> Iterator[Section]:
-    """Yield what is said of each of several measured lines, on a page if it fits on one."""
+    """Yield what is said of each of several measured lines, on a page if it fits on one.
+
+    Where the line before ends on a second page, it goes on below: that page would be nearly empty.
+    """
     known = conditions.groups(of.job, of.measurements, of.described, of.writer)
     sections = results_of_lines(of.tests, known, of.writer, lambda each, writer: page((each,), writer))
     room = columns.PAGES[of.job.keys.certificate.paper]
-    yield from (replace(on_a_page(each, room), new_page=True) for each in sections)
+    begins_page = True
+    for each in sections:
+        section = on_a_page(each, room)
+        yield replace(section, new_page=begins_page)
+        begins_page = columns.heading_height(section.title) + columns.height(section.blocks) <= room
 
 
 def _besides_conditions(of: Material) -> Iterator[Section]:
