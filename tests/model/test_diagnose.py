@@ -249,10 +249,9 @@ def test_the_unit_of_the_deviations_changes_no_verdict() -> None:
     readings = known(DESIGN) + realistic_noise(DESIGN) + hidden(DESIGN, "screw-expansion", size=1.0)
     found = [diagnose(USUAL, observations(DESIGN, scale * readings), INSTALLED) for scale in (1.0, 7.0)]
     assert found[0].verdict is found[1].verdict
-    assert [each.identifier for each in found[0].candidates] == [
-        each.identifier for each in found[1].candidates
-    ]
-    assert found[1].candidates[0].probability == pytest.approx(found[0].candidates[0].probability, rel=1e-6)
+    assert [each.identifier for each in found[0].together] == [each.identifier for each in found[1].together]
+    # What is usual of rivals knows its unit; what the readings say of the leading effect does not.
+    assert found[1].candidates[0].evidence == pytest.approx(found[0].candidates[0].evidence, rel=1e-6)
 
 
 def test_a_pendulum_test_hides_warm_up_and_the_diagnosis_says_so() -> None:
