@@ -42,6 +42,8 @@ _MINUTES_EACH, _GIGABYTES_EACH = 20 / 60 / 2100, 0.45 / 2100
 _FEWEST_DEGREES = 6
 #: χ²/ν up to which what is left is called noise: irregular shares that are noise make it larger than one.
 LARGEST_RATIO = 1.4
+#: Of the scatter of a single reading, what has no name must reach to be told of: less changes no result.
+_LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
 _IMPROBABLE = 1e-3
 
@@ -236,6 +238,8 @@ def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     is_left = run is not None or not _may_be_noise(error, fitted)
     finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
     left = finding.remainder
+    if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
+        left = None
     if is_left and left is None and not finding.named:
         left = remainder_of_run(fitted, run) if run else irregular_remainder(fitted, error.noise_rms or 0.0)
     complete = _complete(fitted, finding.named, finding.makeshift)

@@ -295,7 +295,7 @@ class SetSearch:
                 now = self._shrunk(larger)
                 continue
             other = self._exchanged(now)
-            if other is None:
+            if other is None and not self._is_quiet:
                 other = self._parted(now)
             if other is None and self.has_nameless(now):
                 other = self._paired(now)
