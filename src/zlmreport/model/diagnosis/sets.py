@@ -234,7 +234,7 @@ class SetSearch:
         """Return what it costs that values lie beyond what is usual."""
         effect, design = member.effect, self.contest.design
         cost = sum(
-            _size_costs(effect, design, each, value, _SHARE_OF_SEARCHED * abs(value))
+            size_costs(effect, design, each, value, _SHARE_OF_SEARCHED * abs(value))
             for each, value in zip(effect.searched, member.theta.tolist(), strict=True)
             if not (each.dimension is Dimension.TIME and design.time_is_counted)
         )
@@ -244,7 +244,7 @@ class SetSearch:
         turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
         gamma, spread = turn @ solved, np.sqrt(np.maximum(np.diagonal(turn @ covariance @ turn.T), 0.0))
         return cost + sum(
-            _size_costs(effect, design, each, float(value), float(own))
+            size_costs(effect, design, each, float(value), float(own))
             for each, value, own in zip(effect.linear, gamma, spread, strict=True)
         )
 
@@ -566,14 +566,13 @@ def _beside(members: Sequence[Member], effect: Effect) -> tuple[Member, ...]:
     )
 
 
-def _size_costs(
+def size_costs(
     effect: Effect, design: Design, parameter: Parameter, value: float, uncertainty: float
 ) -> float:
     """Return what the size of a parameter costs, as far as it is beyond doubt; physics alone forbids one.
 
-    Beyond what is usual every decade is as likely as the next: twenty times as much has odds of 20 to 1. A
-    value that has a name of its own, such as that of a correction made twice, costs no more than the change
-    of its sign.
+    Beyond what is usual every decade is as likely as the next: twenty times as much, or as little, has odds
+    of 20 to 1. A value that has a name of its own, such as that of a correction made twice, costs nothing.
     """
     reach = _DOUBT * uncertainty
     if all(effect.forbids(design, {parameter.name: value + each}) for each in (-reach, 0.0, reach)):
@@ -584,6 +583,8 @@ def _size_costs(
     if times == 1.0 or name_of(parameter, value) is not None:
         return 0.0
     if np.isfinite(times):
-        is_far = not (parameter.smallest or -np.inf) <= sure <= (parameter.largest or np.inf)
-        return 2.0 * float(np.log(times)) + (UNUSUAL if is_far else 0.0)
+        least = -np.inf if parameter.smallest is None else parameter.smallest
+        most = np.inf if parameter.largest is None else parameter.largest
+        is_far = not least <= sure <= most
+        return 2.0 * abs(float(np.log(times))) + (UNUSUAL if is_far else 0.0)
     return UNUSUAL + 2.0 * float(np.log1p(abs(sure) / max(abs(low), abs(high), abs(sure) / _FARTHEST)))
