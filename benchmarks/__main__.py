@@ -28,6 +28,7 @@ BENCHMARKS = {
 OTHERS = {
     "hidden-effects": ("hidden_effects.command", "main"),
     "experiments": ("hidden_effects.command", "main_of_experiments"),
+    "several": ("hidden_effects.several", "main"),
     "priors": ("hidden_effects.command", "main_of_priors"),
     "coverage": ("coverage_of_u", "main"),
     "circles": ("circle_coverage", "main"),
@@ -64,8 +65,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects, experiments, priors, coverage, circles, step-gauge, kills "
-        "have options of their own: see their --help.",
+        epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, circles, step-gauge, "
+        "kills have options of their own: see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

@@ -12,8 +12,9 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from zlmreport.errors import InputError, Place, ZlmreportError
+from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurand import CIRCLE
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import DataSource, SourceContext, SourceProposal
 from zlmreport.plugin.registry import Registry
@@ -25,6 +26,8 @@ _WORDS_OF_YAML = frozenset({"true", "false", "yes", "no", "on", "off", "null", "
 _TURNING = frozenset("ABC")
 #: How an axis is called that the file does not name.
 _UNNAMED = {AxisKind.LINEAR: "X", AxisKind.ROTARY: "C"}
+#: By which standard a job that is begun evaluates an axis, and a circle.
+_OF_AXES, _OF_CIRCLES = "iso230-2:2014", "iso230-4:2005"
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,20 +54,26 @@ def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     """
     suffix = path.suffix.casefold()
     sources = sorted(registry.sources, key=lambda each: suffix not in getattr(each, "suffixes", ()))
-    first: ZlmreportError | None = None
+    ways: list[tuple[DataSource, SourceProposal]] = []
+    errors: list[ZlmreportError] = []
     for source in sources:
-        if "file" not in source.options.model_fields:
-            continue
-        try:
-            for proposal in _proposals(source, path, sheet):
-                for axis in _axes(proposal):
-                    try:
-                        return Looked(source, proposal, _read(source, proposal, path, axis))
-                    except ZlmreportError as error:
-                        first = first or error
-        except ZlmreportError as error:
-            first = first or error
-    raise first or InputError.at(Place(str(path)), "no installed data source reads such a file")
+        if "file" in source.options.model_fields:
+            try:
+                ways += ((source, proposal) for proposal in _proposals(source, path, sheet))
+            except AccessError:
+                raise  # no other source could open it
+            except ZlmreportError as error:
+                errors.append(error)
+    ways.sort(key=lambda way: way[1].circle is None)  # a table of senses would pass as one of directions
+    for source, proposal in ways:
+        for axis in _axes(proposal):
+            try:
+                return Looked(source, proposal, _read(source, proposal, path, axis))
+            except AccessError:
+                raise
+            except ZlmreportError as error:
+                errors.append(error)
+    raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
 
 
 def _proposals(source: DataSource, path: Path, sheet: str) -> Iterator[SourceProposal]:
@@ -78,9 +87,11 @@ def _proposals(source: DataSource, path: Path, sheet: str) -> Iterator[SourcePro
 
 
 def _axes(proposal: SourceProposal) -> Iterator[Axis]:
-    """Yield the axes that a file may be of: of the kind first that its letter tells."""
+    """Yield the axes that a file may be of: of the kind first that its letter tells; a circle has its own."""
+    if proposal.circle:
+        return iter([Axis(proposal.circle.plane, quantity=CIRCLE, circle=proposal.circle)])
     kinds = sorted(AxisKind, key=lambda kind: (kind is AxisKind.ROTARY) is not (proposal.axis in _TURNING))
-    return (Axis(proposal.axis or _UNNAMED[kind], kind) for kind in kinds)
+    return iter([Axis(proposal.axis or _UNNAMED[kind], kind) for kind in kinds])
 
 
 def _read(source: DataSource, proposal: SourceProposal, path: Path, axis: Axis) -> MeasurementSet:
@@ -93,26 +104,35 @@ def _read(source: DataSource, proposal: SourceProposal, path: Path, axis: Axis) 
 
 def job_of(looked: Looked, file: Path, directory: Path) -> str:
     """Return the job in a folder that makes a report of a file; what is to be asked stands in comments."""
-    axis = looked.read.axis
-    first, last = axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
     name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
-    unnamed = () if looked.proposal.axis else ("# Which axis is it? The file does not name it.",)
     return "\n".join(
         [
             f"# A measuring report of {file.name}. 'zlmreport schema' describes every key.",
             "schema: zlmreport/job/1",
             "certificate: {number: REPORT-0001, kind: report}",
-            *unnamed,
-            f"axis: {{name: {axis.name}, kind: {axis.kind.value}, travel: [{first:.9g}, {last:.9g}]}}",
+            *_measured(looked),
             "measurement:",
             *(f"  # {question}" for question in looked.proposal.asks),
             *looked.block(name, indent="  "),
             "evaluate:",
-            '  - "iso230-2:2014"',
+            f'  - "{_OF_CIRCLES if looked.proposal.circle else _OF_AXES}"',
             "output: {formats: [pdf, json]}",
             "",
         ]
     )
+
+
+def _measured(looked: Looked) -> Iterator[str]:
+    """Yield the lines of a job that say of what the file holds readings."""
+    axis = looked.read.axis
+    if axis.circle:
+        radius, feed = axis.circle.radius * 1e3, axis.circle.feed * 60e3
+        yield f"circle: {{plane: {axis.circle.plane}, radius: {radius:.9g}, feed: {feed:.9g}}}"
+        return
+    if not looked.proposal.axis:
+        yield "# Which axis is it? The file does not name it."
+    first, last = axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
+    yield f"axis: {{name: {axis.name}, kind: {axis.kind.value}, travel: [{first:.9g}, {last:.9g}]}}"
 
 
 def _in_yaml(value: Any) -> str:

@@ -51,8 +51,8 @@ def page(window: Callable[..., Page], page_file: Path) -> Page:
 
 def shown(page: Page) -> list[str]:
     """Return the machines that are shown, by their last word, in order."""
-    notes = page.locator("table.machine tbody:visible th .note").all_inner_texts()
-    return [note.splitlines()[0].split()[-1] for note in notes]
+    heads = page.locator("table.machine tbody:visible tr.name th")
+    return [name.split()[-1] for name in heads.evaluate_all("all => all.map(each => each.firstChild.data)")]
 
 
 def test_all_are_shown_at_first(page: Page) -> None:

@@ -106,7 +106,9 @@ def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path,
     job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
     page = window(address)
     diagnosed(page, "unexplained")
-    expect(page.get_by_text("I can test directional-pitch, screw-pitch as well.")).to_be_visible()
+    expect(
+        page.get_by_text("I can test directional-pitch, drive-period, screw-pitch as well.")
+    ).to_be_visible()
     expect(page.locator(".candidates .likely")).to_have_count(0)
     page.get_by_label("Screw pitch").fill("10")
     page.get_by_label("Screw pitch").press("Enter")

@@ -24,6 +24,8 @@ def test_plugins_are_listed_by_kind_with_title_and_distribution(shop: Shop) -> N
         "  exemplary  Words in JSON  exemplary-plugins 1.2",
         "effects",
         "  exemplary-wave  A wave over the travel  exemplary-plugins 1.2",
+        "circle effects",
+        "  none",
         "part programs",
         "  exemplary-steps  Three words  exemplary-plugins 1.2",
         "controllers",

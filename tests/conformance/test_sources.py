@@ -88,7 +88,7 @@ SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]]
         "circle-csv",
         {"file": CONFIGS / "machine" / "circle-xy.csv"},
         ON_A_CIRCLE,
-        FileContents(720, ((0.5, "+", 1, 16.4), (0.5, "-", 1, 15.05), (90.5, "-", 1, -0.49))),
+        FileContents(720, ((0.5, "+", 1, 16.24), (0.5, "-", 1, 15.52), (90.5, "-", 1, -0.61))),
     ),
     ("dcc", {"file": DATA / "y-axis.xml"}, Axis("Y"), _Y_AXIS),
     ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y"), _Y_AXIS),

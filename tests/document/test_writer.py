@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from document.certificate.circles import document
 from document.certificate.documents import COMPLETE, certificate, text_of
 from document.certificate.everything import EVERYTHING, write_tables
 from zlmreport.document.writer import NOTHING, Marks, Writer
@@ -155,5 +156,6 @@ def test_every_key_that_others_may_supply_is_marked_where_it_is_printed(tmp_path
     write_tables(tmp_path)
     monkeypatch.setattr(Marks, "after", noting)
     certificate(tmp_path, EVERYTHING)
+    document(tmp_path, {"ccw": 1, "cw": 1})
     monkeypatch.undo()
     assert [key for key in markable_keys() if not Marks(frozenset({key})).after(*asked)] == []

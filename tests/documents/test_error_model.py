@@ -7,8 +7,8 @@ import re
 import pytest
 
 from documents.pages import DOCS
-from zlmreport.model.diagnosis import diagnosis, evidence, null_distribution, steps
-from zlmreport.model.fitting import noise, repeats
+from zlmreport.model.diagnosis import diagnosis, families, finding, nameless, null_distribution, sets
+from zlmreport.model.fitting import blunders, noise, repeats
 
 _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="utf-8").split())
 
@@ -16,13 +16,19 @@ _PAGE = " ".join((DOCS / "explanation" / "error-model.md").read_text(encoding="u
 @pytest.mark.parametrize(
     ("sentence", "value"),
     [
-        (r"the whole contest is held (\d+) times more", null_distribution.TRIALS),
-        (r"exceeds by chance in (\d+) % of these tests", 100 * null_distribution.LEVEL),
-        (r"by more than ([\d.]+) robust standard deviations", repeats._LIMIT),
+        (r"forms and curves are tried (\d+) times more", null_distribution.TRIALS),
+        (r"that each exceeds by chance in (\d+) % of these tests", 100 * null_distribution.LEVEL),
+        (r"if χ²/dof is above ([\d.]+) by more than chance", diagnosis.LARGEST_RATIO),
         (r"The first has a level of (\d+) %", 100 * repeats._LEVEL),
-        (r"must surpass them by (\d+) units", evidence.NAMED),
-        (r"A difference of less than (\d+) units", evidence.MENTION),
-        (r"each further name must bring (\d+) units more", evidence.FURTHER),
+        (r"Each effect pays (\d+) units of 2·ln for being one of some thirty", families.PRICE),
+        (r"for being one of some thirty, each form and each curve (\d+)", nameless.PRICE),
+        (r"in one place within odds of 20 to 1 \((\d+) units\)", finding.TOLD_APART),
+        (r"Of those within (\d+) units the one stands first", finding.MENTION),
+        (r"A value beyond what is usual costs (\d+) units", sets.UNUSUAL),
+        (
+            r"a hundredth of the misfit, and ([\d.]+) % of what the model explains",
+            100 * finding._INEXACT_MODEL,
+        ),
         (r"beyond the noise floor by at least (\d+) %", 100 * diagnosis.EXPLAINS),
     ],
 )
@@ -32,16 +38,14 @@ def test_a_number_on_the_page_is_that_of_the_code(sentence: str, value: float) -
     assert float(found[1]) == pytest.approx(value)
 
 
-def test_shared_scatter_is_held_to_half_of_that_of_single_readings() -> None:
-    assert {max(ratios) for ratios in noise._RATIOS.values()} == {0.25}  # variances
-    assert "half the scatter of a single reading" in _PAGE
+def test_shared_scatter_is_held_to_half_of_that_of_single_readings_and_of_runs_to_a_quarter() -> None:
+    largest = {source: max(ratios) ** 0.5 for source, ratios in noise._RATIOS.items()}  # of variances
+    assert largest.pop(noise.NoiseSource.RUN) == pytest.approx(0.25, abs=0.01)
+    assert set(largest.values()) == {0.5}
+    assert "half the scatter of a single reading, and a quarter of it where a whole run is displaced" in _PAGE
 
 
-def test_the_names_together_hold_three_quarters_of_the_evidence() -> None:
-    assert evidence.EXPLAINED == 0.75
-    assert "at least three quarters of all evidence" in _PAGE
-
-
-def test_the_number_of_steps_is_that_of_the_code() -> None:
-    assert steps._MOST_STEPS == 3
-    assert "up to three times" in _PAGE
+def test_a_blunder_stands_off_by_the_limit_of_the_code() -> None:
+    found = re.search(r"by more than ([\d.]+) robust standard deviations", _PAGE)
+    assert found
+    assert float(found[1]) == blunders._LIMIT

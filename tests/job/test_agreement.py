@@ -36,6 +36,7 @@ BY_OTHERS = (
     *("axis.compensation_table", "axis.angular_errors", "laboratory.logo", "certificate.signature"),
     *("certificate.style", "certificate.amends", "certificate.kind", "certificate.layout"),
     *("measurement.source", "compensation.controller", "model.priors", "output.directory", "circle"),
+    *("plan.circle", "uncertainty.calibrated_length", "uncertainty.centring"),  # of a circle alone
 )
 Path = tuple[str, ...]
 

@@ -70,7 +70,7 @@ def test_without_a_plane_it_is_that_of_x_and_y(tmp_path: Path) -> None:
         ({"circle": None, "axis": {"name": "X"}}, "circle: missing; say which circle was run"),
         ({"corrections": {"material": {}}}, "corrections: belongs to positioning"),
         ({"compensation": {"controller": "linuxcnc"}}, "compensation: belongs to positioning"),
-        ({"model": {"effects": ["backlash"]}}, "backlash acts on positioning, not on circle"),
+        ({"model": {"effects": ["backlash"]}}, "backlash acts on positioning, straightness, not on circle"),
     ],
 )
 def test_what_does_not_go_with_it_is_refused(tmp_path: Path, keys, said: str) -> None:

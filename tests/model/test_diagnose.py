@@ -249,10 +249,9 @@ def test_the_unit_of_the_deviations_changes_no_verdict() -> None:
     readings = known(DESIGN) + realistic_noise(DESIGN) + hidden(DESIGN, "screw-expansion", size=1.0)
     found = [diagnose(USUAL, observations(DESIGN, scale * readings), INSTALLED) for scale in (1.0, 7.0)]
     assert found[0].verdict is found[1].verdict
-    assert [each.identifier for each in found[0].candidates] == [
-        each.identifier for each in found[1].candidates
-    ]
-    assert found[1].candidates[0].probability == pytest.approx(found[0].candidates[0].probability, rel=1e-6)
+    assert [each.identifier for each in found[0].together] == [each.identifier for each in found[1].together]
+    # What is usual of rivals knows its unit; what the readings say of the leading effect does not.
+    assert found[1].candidates[0].evidence == pytest.approx(found[0].candidates[0].evidence, rel=1e-6)
 
 
 def test_a_pendulum_test_hides_warm_up_and_the_diagnosis_says_so() -> None:
@@ -338,3 +337,39 @@ def test_the_share_that_is_done_is_told_and_grows() -> None:
     assert shares == sorted(shares)
     assert 0 < shares[0] < 0.1
     assert 0.4 < shares[-1] <= 1
+
+
+@pytest.mark.parametrize(
+    ("effect", "theta", "size", "asked"),
+    [
+        ("backlash", [], -800e-6, "20 times what is usual for a screw; a belt"),
+        ("screw-pitch", [0.01], 60e-6, "7.5 times what is usual for a screw; bent"),
+        ("scale-expansion", [], -4e-6, "compensated twice, or too much"),
+    ],
+)
+def test_what_is_large_leads_and_is_asked_for(
+    effect: str, theta: list[float], size: float, asked: str
+) -> None:
+    column = EFFECTS[effect].columns(DESIGN, np.array(theta))[:, 0]
+    found = diagnose(model_of("offset"), observations(DESIGN, size * column + noise(DESIGN)), INSTALLED)
+    leading = found.candidates[0]
+    assert [each.identifier for each in found.together] == [effect]
+    assert (leading.identifier, leading.is_large, leading.is_plausible) == (effect, True, True)
+    assert leading.question is not None
+    assert asked in leading.question.in_language(Language.ENGLISH)
+
+
+def test_a_rising_line_is_no_cosine_error() -> None:
+    rising = 20e-6 * DESIGN.position + noise(DESIGN)
+    found = diagnose(model_of("offset"), observations(DESIGN, rising), INSTALLED)
+    leading = found.candidates[0]
+    assert leading.identifier == "scale-error"
+    assert "cosine-error" not in leading.equals
+
+
+def test_a_remainder_is_no_larger_than_what_the_whole_set_leaves() -> None:
+    along = (DESIGN.position - 0.5) / 0.5
+    bowed = 30e-6 * along**3 + 4e-6 * np.exp(-(((DESIGN.position - 0.3) / 0.05) ** 2)) + noise(DESIGN)
+    found = diagnose(model_of("offset"), observations(DESIGN, bowed), INSTALLED)
+    assert found.remainder is not None
+    assert found.remainder.rms <= found.error_after.rms

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from model.axis_tests import INSTALLED, hidden, linear_test, model_of, noise, observations
 from zlmreport.language import Language
@@ -207,6 +208,8 @@ def test_a_run_that_stands_off_from_all_others_is_no_noise() -> None:
     deviation = noise(design, sigma=sigma) + 2 * sigma * (design.run == 3)
     found = diagnose(_MODEL, observations(design, deviation), INSTALLED)
     assert found.verdict is not Verdict.ADEQUATE
-    left = found.remainder
-    assert left is not None
-    assert "run 3" in f"{left.shape.in_language(Language.ENGLISH)} {left.where.in_language(Language.ENGLISH)}"
+    (displaced,) = found.together
+    assert displaced.identifier == "run-displaced"
+    values = {each.parameter.name: each.value for each in found.candidates[0].estimates}
+    assert values["which"] == 3
+    assert values["step"] == pytest.approx(2 * sigma, abs=sigma / 2)

@@ -10,7 +10,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import effects_to_try
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.forms import unnamed_forms
-from zlmreport.model.diagnosis.sets import EffectSet, SetSearch
+from zlmreport.model.diagnosis.sets import UNUSUAL, EffectSet, SetSearch, size_costs
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 
@@ -126,6 +126,23 @@ def test_of_the_forms_of_an_effect_one_is_chosen() -> None:
 
 def test_a_search_gives_the_same_set_whatever_the_unit() -> None:
     deviation = _hiding(("backlash", []), ("thermal-drift", [300.0]))
-    one, other = (_found(each) for each in (deviation, 7 * deviation))
+    one, other = (_found(each) for each in (deviation, deviation / 7))  # smaller is as usual
     assert [each.identifier for each in one.members] == [each.identifier for each in other.members]
-    assert other.score - one.score == pytest.approx(2 * (len(deviation) - 1) * np.log(7), abs=1e-4)
+    assert other.score - one.score == pytest.approx(-2 * (len(deviation) - 1) * np.log(7), abs=1e-4)
+
+
+def test_a_screw_that_hardly_grows_is_unusual_like_one_that_grows_too_much() -> None:
+    screw = EFFECTS["screw-expansion"]
+    (growth,) = screw.linear  # steel grows by 8 to 13 µm/(m·K); beyond 25 it is no metal of a screw
+    little, usual, much, far = (
+        size_costs(screw, DESIGN, growth, each, 0.0) for each in (1e-6, 10e-6, 20e-6, 100e-6)
+    )
+    assert usual == 0
+    assert little == pytest.approx(2 * np.log(8))
+    assert much == pytest.approx(2 * np.log(20 / 13))
+    assert far == pytest.approx(UNUSUAL + 2 * np.log(100 / 13))
+
+
+def test_what_is_within_its_uncertainty_of_the_usual_costs_nothing() -> None:
+    (growth,) = EFFECTS["screw-expansion"].linear
+    assert size_costs(EFFECTS["screw-expansion"], DESIGN, growth, 1e-6, 4e-6) == 0

@@ -8,6 +8,7 @@ from typing import Any
 import yaml
 
 from zlmreport.job.keys import JobKeys
+from zlmreport.job.types import LINE_FORM, LINES_FORM
 
 Path = tuple[str, ...]
 
@@ -42,7 +43,8 @@ def _strings(
 ) -> Iterator[tuple[Path, dict[str, Any]]]:
     if "$ref" in part:
         part = schema["$defs"][part["$ref"].rpartition("/")[2]]
-    if part.get("type") == "string" and not {"enum", "const", "format", "pattern"} & set(part):
+    is_free = part.get("pattern") in {None, LINE_FORM, LINES_FORM}
+    if part.get("type") == "string" and is_free and not {"enum", "const", "format"} & set(part):
         yield path, part
     for key, value in part.get("properties", {}).items():
         yield from _strings(schema, value, (*path, key))

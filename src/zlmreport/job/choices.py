@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Self, TypeAlias
 
-from pydantic import BaseModel, Field, create_model, model_validator
+from pydantic import BaseModel, ConfigDict, Field, create_model, model_validator
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.contradictions import validate
@@ -80,6 +80,12 @@ _SHAPE = (
 
 class ParameterLimits(JobPart):
     """What is known of a parameter that is estimated."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "oneOf": [{"anyOf": [{"required": ["min"]}, {"required": ["max"]}]}, {"required": ["equals"]}]
+        }
+    )
 
     min: Finite | None = Field(None, description="The least value that it may take.")
     max: Finite | None = Field(None, description="The largest value that it may take.")

@@ -26,7 +26,7 @@ from zlmreport.job.choices import (
 from zlmreport.job.circle_keys import CircleKeys, circle_contradictions, circle_plan_contradictions
 from zlmreport.job.collection import document_of, is_collection, jobs_named, names_of, part_of
 from zlmreport.job.contradictions import contradictions, validate
-from zlmreport.job.evaluation_keys import PriorsKeys
+from zlmreport.job.evaluation_keys import PriorsKeys, StandardKeys
 from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, FileFormat, compose, refuse_other_format
 from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.job import Job, SourceChoice, StandardChoice
@@ -434,7 +434,7 @@ def _source(
 
 
 #: Keys of `evaluate` that every standard has.
-_OF_EVERY_STANDARD = ("standard", "tolerances", "specification")
+_OF_EVERY_STANDARD = tuple(StandardKeys.model_fields)
 
 
 def standard_choices(

@@ -9,12 +9,12 @@ from typing import Any, TypeAlias
 from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
-from zlmreport.job.choices import group_model
+from zlmreport.job.choices import ParameterLimits, group_model
 from zlmreport.job.evaluation_keys import ControllerKeys, DecisionRuleKeys, ProgramKeys, StandardKeys
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import SourceKeys
+from zlmreport.job.measurement_keys import Measurement, SourceKeys
 from zlmreport.job.tree import Step
 from zlmreport.job.types import LiveInstrumentKeys, model_at
 from zlmreport.language import Language
@@ -51,11 +51,15 @@ def job_schema(registry: Installed) -> Schema:
             *(_standard(standard, definitions) for standard in registry.standards),
         ],
     }
+    for key, value in _of_the_measurement(registry, definitions).items():
+        schema["properties"].setdefault(key, value)
+        definitions[Measurement.__name__]["properties"].setdefault(key, value)
     rule = definitions[DecisionRuleKeys.__name__]
     definitions[DecisionRuleKeys.__name__] = {
         "description": rule["description"],
         "anyOf": [{"enum": rule["properties"]["rule"]["enum"]}, rule],
     }
+    definitions[ParameterLimits.__name__] = ParameterLimits.model_json_schema()
     definitions[f"formula.{FormulaKeys.__name__}"] = _own_keys(FormulaKeys, "formula", definitions)
     formula = {"$ref": f"#/$defs/formula.{FormulaKeys.__name__}"}
     definitions["Model"]["properties"]["effects"]["items"] = {
@@ -173,43 +177,41 @@ _ERROR_SYMBOLS = "^[EABC][0A-CU-Z][A-CU-Z](_[a-z]+)?$"
 
 def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
     """Return the schema of a standard's keys."""
-    limit = {"type": "number", "exclusiveMinimum": 0, "description": "Of an error by its symbol, µm (″)."}
+    of_all = StandardKeys.model_json_schema()["properties"]
+    limit = of_all["tolerances"]["additionalProperties"]
+    of_error = {**limit, "description": "Of an error by its symbol, µm (″)."}
     keys = {
+        **of_all,
         "standard": {"const": standard.identifier, "description": "Identifier of the standard."},
         "tolerances": {
             "type": "object",
-            "description": StandardKeys.model_fields["tolerances"].description,
+            "description": of_all["tolerances"]["description"],
             "properties": {
-                each.symbol: {
-                    "type": "number",
-                    "exclusiveMinimum": 0,
-                    "description": f"{each.name.in_language(Language.ENGLISH)}, µm (″).",
-                }
+                each.symbol: {**limit, "description": f"{each.name.in_language(Language.ENGLISH)}, µm (″)."}
                 for each in standard.quantities
                 if each.can_be_limited
             },
-            **({"patternProperties": {_ERROR_SYMBOLS: limit}} if hasattr(standard, "of_error") else {}),
+            **({"patternProperties": {_ERROR_SYMBOLS: of_error}} if hasattr(standard, "of_error") else {}),
             "additionalProperties": False,
         },
     }
     return _with_keys(_own_keys(standard.options, standard.identifier, definitions), keys)
 
 
-#: `zlmreport.job.choices.ParameterLimits`
-_LIMITS: Schema = {
-    "type": "object",
-    "properties": {
-        "min": {"type": "number", "description": "The least value that it may take."},
-        "max": {"type": "number", "description": "The largest value that it may take."},
-        "equals": {
-            "type": "string",
-            "pattern": r"^[a-z][a-z0-9-]*\.\w+$",
-            "description": "The parameter of another effect that it is.",
-        },
-    },
-    "additionalProperties": False,
-    "minProperties": 1,
-}
+def _of_the_measurement(registry: Installed, definitions: Schema) -> Schema:
+    """Return the keys of standards that a job may write in `measurement` or at its top, by their names."""
+    asked: dict[str, list[Schema]] = {}
+    for standard in registry.standards:
+        of_standard = [
+            key for key in standard.options.of_the_measurement if key not in registry.extension_keys
+        ]
+        if of_standard:
+            own = _own_keys(standard.options, standard.identifier, definitions)["properties"]
+            for key in of_standard:
+                asked.setdefault(key, []).append(own[key])
+    return {
+        key: {"description": keys[0].get("description", ""), "anyOf": keys} for key, keys in asked.items()
+    }
 
 
 def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
@@ -218,9 +220,10 @@ def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
     Which parameters there are depends on its own keys, and a schema cannot say so of every plugin.
     """
     keys = _own_keys(effect.options, effect.identifier, definitions)
+    limits = {"$ref": f"#/$defs/{ParameterLimits.__name__}"}
     parameters = {
         parameter.name: {
-            "anyOf": [{"type": "number"}, _LIMITS],
+            "anyOf": [{"type": "number"}, limits],
             "description": f"Fixes the parameter, or limits it: "
             f"{parameter.description.in_language(Language.ENGLISH)}.",
         }
@@ -228,7 +231,7 @@ def _effect(effect: InstalledEffect, definitions: Schema) -> Schema:
     }
     known = {**keys, "properties": {**parameters, **keys.get("properties", {})}}
     if effect.options.model_fields:
-        known["additionalProperties"] = {"anyOf": [{"type": "number"}, _LIMITS]}
+        known["additionalProperties"] = {"anyOf": [{"type": "number"}, limits]}
     return {
         "type": "object",
         "properties": {

@@ -217,13 +217,13 @@ _FREE = _Free()
 #: What no text may hold: control characters, and overrides of the writing direction.
 _UNSEEN = r"\u0000-\u0008\u000b\u000c\u000e-\u001f\u007f-\u009f\u2028\u2029\u202a-\u202e\u2066-\u2069"
 #: What the schema says of a line, and of several: something that is seen, and no tab.
-_LINE_FORM = rf"^(?!.*[{_UNSEEN}])\s*\S([^\t\r\n]*\S)?\s*$"
-_LINES_FORM = rf"^(?![\s\S]*[{_UNSEEN}])\s*\S([^\t]*\S)?\s*$"
+LINE_FORM = rf"^(?!.*[{_UNSEEN}])\s*\S([^\t\r\n]*\S)?\s*$"
+LINES_FORM = rf"^(?![\s\S]*[{_UNSEEN}])\s*\S([^\t]*\S)?\s*$"
 _Line = Annotated[
     str,
     StringConstraints(min_length=1, max_length=_LONGEST_LINE, strip_whitespace=True),
     AfterValidator(_one_line),
-    Field(json_schema_extra={"pattern": _LINE_FORM}),
+    Field(json_schema_extra={"pattern": LINE_FORM}),
 ]
 #: A line of text as it is printed; long enough for any name, short enough for a page.
 Text = Annotated[_Line, _FREE]
@@ -232,7 +232,7 @@ Lines = Annotated[
     str,
     StringConstraints(min_length=1, max_length=_LONGEST_TEXT, strip_whitespace=True),
     AfterValidator(_without_tabs),
-    Field(json_schema_extra={"pattern": _LINES_FORM}),
+    Field(json_schema_extra={"pattern": LINES_FORM}),
     _FREE,
 ]
 #: Text in a key that takes a number too: what looks like a number must be one.

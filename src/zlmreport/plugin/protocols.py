@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from zlmreport.live.emulation.emulator import Emulator, Scene
     from zlmreport.live.ports.reading import LiveReading
     from zlmreport.measurement.axis import Axis
+    from zlmreport.measurement.circle import NominalCircle
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.compensation.curve import CompensationTable
     from zlmreport.model.planning.circle_path import CirclePath
@@ -134,11 +135,14 @@ class SourceProposal:
         What only the file's author can say, in sentences: a sign, a unit.
     axis
         The letter of the axis, where the file names it; empty where it does not.
+    circle
+        The nominal circle, where the file holds a circular test; what of it the file does not tell is asked.
     """
 
     keys: Mapping[str, Any] = field(default_factory=dict)
     asks: tuple[str, ...] = ()
     axis: str = ""
+    circle: NominalCircle | None = None
 
 
 @runtime_checkable

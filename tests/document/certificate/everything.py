@@ -37,6 +37,9 @@ CONDITIONS = {
     "expansion_coefficient": 11.5,
     "remarks": "none",
     "sensors": "air beside the beam",
+    "thermometers": [
+        {"name": "Pt100, no. 3", "certificate": "T 17", "calibrated": "2022-02-01", "due": "2023-02-01"}
+    ],
 }
 EVERYTHING: Mapping[str, Any] = {
     **COMPLETE,
@@ -51,6 +54,7 @@ EVERYTHING: Mapping[str, Any] = {
         "screw_pitch": 5,
         "signal_period": 0.02,
         "scale_element": 20,
+        "pole_pitch": 24,
         "compensation_table": "table.csv",
         "angular_errors": "angles.csv",
         "abbe_offset": 100,
@@ -72,6 +76,7 @@ EVERYTHING: Mapping[str, Any] = {
         "compensation": "none",
     },
     "environment": CONDITIONS,
+    "evaluate": [{**COMPLETE["evaluate"][0], "specification": "Order 4711"}],
     "uncertainty": {**COMPLETE["uncertainty"], "resolution": 0.01},
     "corrections": {"material": {"expansion_coefficient": 11.5}},
     "procedure": "QP 17, issue 4",

@@ -67,4 +67,5 @@ def one_way(design: Design) -> Design:
         time=design.time[chosen],
         since_reversal=design.since_reversal[chosen],
         conditions={},
+        rates={},
     )

@@ -9,16 +9,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from zlmreport.plugin import (
     Approach,
+    Axis,
     FloatArray,
     InputError,
     MeasurementSet,
     NominalCircle,
     Options,
+    Place,
     Problem,
     Words,
     hookimpl,
@@ -29,6 +33,7 @@ from zlmreport.plugin.source import (
     Provenance,
     Reading,
     SourceContext,
+    SourceProposal,
     collect_readings,
     read_text,
 )
@@ -51,6 +56,8 @@ from zlmreport_plugins.sources.circle_csv.turns import (
     strays,
 )
 
+#: What a circle is taken for while nobody has said how it was run, m and m/s.
+_USUAL_RADIUS, _USUAL_FEED = 0.15, 1 / 60
 #: Readings of a turn at the least: a circle through fewer says nothing of its form.
 _FEWEST = 8
 #: Readings of a turn that are kept as they are.
@@ -114,6 +121,21 @@ class CircleCsv:
     options: type[Options] = CircleCsvOptions
     suffixes = ()
 
+    def proposals(self, file: Path) -> Iterable[SourceProposal]:
+        """Return the keys by which a file may be read, if it has the columns of a circular test."""
+        options = CircleCsvOptions(file=file)
+        circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
+        try:
+            cells, layout = _table_of(options, SourceContext(Axis("XY", circle=circle), Place(str(file))))
+        except InputError:
+            return []
+        if layout.sense is None:
+            return []
+        if layout.value.name == "radius":
+            radii = [each for row in cells.table.rows if (each := cells.number(row, layout.value))]
+            circle = replace(circle, radius=round(float(np.nanmedian(radii)), 3))
+        return [SourceProposal(asks=(_asked(layout),), circle=circle)]
+
     def read(self, options: CircleCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read a table; raise `InputError` with every defect and its place."""
         circle = context.axis.circle
@@ -123,19 +145,14 @@ class CircleCsv:
                 "circle-csv reads circular tests, and this job has no circle; say which was run: "
                 "circle: {plane: XY, radius: 150, feed: 1000}, instead of axis",
             )
-        text = read_text(options.file, options.encoding, options.sheet)
-        table = read_table(text, options, lambda name: _names_column(name, options))
-        layout = circle_columns(table, options, context)
-        sign = options.stated_decimal_sign or decimal_sign(
-            table, [column.index for column in layout.number_columns()], options.thousands_signs
-        )
-        cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
+        cells, layout = _table_of(options, context)
+        table = cells.table
         rows = list(circle_rows(cells, layout, options))
         problems = [*table.problems, *cells.problems]
         if not problems:
             problems = list(misread(rows, layout, table, circle, options))
         if problems or not rows:
-            raise InputError(_first(problems) or [Problem(text.place(), "holds no readings")])
+            raise InputError(_first(problems) or [Problem(table.source.place(), "holds no readings")])
         turns = _turns(rows, layout, circle, options)
         problems = [*_wrong_turns(turns)]
         if problems:
@@ -144,11 +161,31 @@ class CircleCsv:
         readings, averaging, remarks = _evaluated(turns, circle, options)
         provenance = Provenance(
             self.identifier,
-            (text.source,),
+            (table.source.source,),
             (*_remarks(layout, circle, options), *([_FOLLOW] if follows else []), *remarks),
             averaging=averaging,
         )
-        return collect_readings(readings, context.axis, provenance, place=text.place())
+        return collect_readings(readings, context.axis, provenance, place=table.source.place())
+
+
+def _table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[Cells, CircleColumns]:
+    """Return the cells of a table, and which columns it has."""
+    text = read_text(options.file, options.encoding, options.sheet)
+    table = read_table(text, options, lambda name: _names_column(name, options))
+    layout = circle_columns(table, options, context)
+    sign = options.stated_decimal_sign or decimal_sign(
+        table, [column.index for column in layout.number_columns()], options.thousands_signs
+    )
+    return Cells(table, sign, options.thousands_signs, options.words_for_missing), layout
+
+
+def _asked(layout: CircleColumns) -> str:
+    """Return what a table of a circle leaves open: some of it can be seen only by who ran it."""
+    radius = "" if layout.value.name == "radius" else ", with which nominal radius"
+    return (
+        f"In which plane{radius} and at which feed (mm/min) was the circle run? The file does not tell; "
+        "write it into 'circle' of the job."
+    )
 
 
 def _names_column(text: str, options: CircleCsvOptions) -> bool:

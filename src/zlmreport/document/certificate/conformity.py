@@ -103,7 +103,7 @@ _WITHOUT_UNCERTAINTY = Words(
     de="{rule} Sie braucht die erweiterte Messunsicherheit jeder Kenngröße, die dieses Dokument nicht "
     "angibt; über die Konformität ist daher nicht entschieden.",
 )
-_SPECIFICATION = Words(en="{rule} Limits: {names}.", de="{rule} Grenzwerte: {names}.")
+_SPECIFICATION = Words(en="{rule} Limits{mark}: {names}.", de="{rule} Grenzwerte{mark}: {names}.")
 _OF_STANDARD = Words(en="{specification} ({standard})", de="{specification} ({standard})")
 _NO_SPECIFICATION = Words(
     en="{rule} Limits as ordered; their source is not stated.",
@@ -152,7 +152,8 @@ def _source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> Word
         for each in limited
         if each.specification
     )
-    return _SPECIFICATION.given(names=names if some else next(iter(named)))
+    mark = writer.marks.after("evaluate.specification")
+    return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)
 
 
 def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:

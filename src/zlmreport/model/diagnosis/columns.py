@@ -19,14 +19,16 @@ from zlmreport.model.fitting.contrasts import Contrasts
 _FIRST_ROOM = 256
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class _Eliminated:
     """Irregular shares of given amplitudes, eliminated: products a·b become a·b − (Mᵀa)ᵀ·K·(Mᵀb)."""
 
     log_determinant: float
     kernel: FloatArray  #: K, (r, r).
-    core: FloatArray  #: Products of the core with all kept columns.
-    rows: dict[int, FloatArray] = field(default_factory=dict)  #: The same of another column.
+    #: Products of columns with all kept ones, a column a row: of the core, then of others as they are asked.
+    table: FloatArray
+    row: IntArray  #: The row of each column by its place; −1 of those that nobody asked for.
+    filled: int  #: Rows that are filled.
     squares: dict[int, FloatArray] = field(default_factory=dict)  #: Of blocks of one width among themselves.
 
 
@@ -87,11 +89,12 @@ class Columns:
     def products(self, ratios: tuple[float, ...], one: IntArray, other: IntArray) -> FloatArray:
         """Return products of columns under irregular shares, shape (k, l)."""
         known = self._of(ratios)
-        if (one < self._core).all() and (other < self._kept).all():
-            return known.core[np.ix_(one, other)]
-        if (other < self._kept).all():
-            return np.array([self._row(known, each)[other] for each in one.tolist()])
-        if (one < self._kept).all():
+        if not (len(one) and len(other)):
+            return np.empty((len(one), len(other)))
+        if other.max() < self._kept:
+            rows = self._rows(known, one)
+            return known.table[rows[:, np.newaxis], other]
+        if one.max() < self._kept:
             return self.products(ratios, other, one).T
         found = np.empty((len(one), len(other)))
         left, right = one < self._kept, other < self._kept
@@ -128,15 +131,21 @@ class Columns:
             dtype=np.float64,
         )
 
-    def _row(self, known: _Eliminated, place: int) -> FloatArray:
-        """Return the products of a column with all that are kept."""
-        if place < self._core:
-            return np.asarray(known.core[place])
-        if place not in known.rows:
-            own = self._values[:, place]
-            less = (known.kernel @ self._sums[:, place]) @ self._sums[:, : self._kept]
-            known.rows[place] = own @ self._values[:, : self._kept] - less
-        return known.rows[place]
+    def _rows(self, known: _Eliminated, places: IntArray) -> IntArray:
+        """Return the rows of the table with the products of columns; those that are missing are filled."""
+        if len(known.row) < self._count:
+            known.row = np.concatenate([known.row, np.full(self._values.shape[1] - len(known.row), -1)])
+        missing = places[known.row[places] < 0]
+        if len(missing):
+            missing = np.unique(missing)
+            first, end = known.filled, known.filled + len(missing)
+            while end > len(known.table):
+                known.table = np.concatenate([known.table, np.empty_like(known.table)])
+            less = (known.kernel @ self._sums[:, missing]).T @ self._sums[:, : self._kept]
+            known.table[first:end] = self._values[:, missing].T @ self._values[:, : self._kept] - less
+            known.row[missing] = np.arange(first, end)
+            known.filled = end
+        return known.row[places]
 
     def _between(self, known: _Eliminated, places: IntArray, contrasts: FloatArray) -> FloatArray:
         sums = known.kernel @ (self._factor.T @ contrasts)
@@ -158,4 +167,5 @@ class Columns:
         kernel[np.ix_(active, active)] = root.T @ root
         core = self._sums[:, : self._core]
         products = self._plain - (kernel @ core).T @ self._sums[:, : self._kept]
-        return _Eliminated(2.0 * float(np.log(np.diagonal(factor)).sum()), kernel, products)
+        logarithm = 2.0 * float(np.log(np.diagonal(factor)).sum())
+        return _Eliminated(logarithm, kernel, products, np.arange(self._core), self._core)

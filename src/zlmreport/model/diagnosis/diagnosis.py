@@ -9,10 +9,8 @@ from enum import StrEnum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import number_words, significant_words
+from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import IntArray
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import behind
 from zlmreport.model.diagnosis.candidates import NotTestable, effects_to_try
 from zlmreport.model.diagnosis.contest import Told, untold
 from zlmreport.model.diagnosis.faults import Fault, FaultKind, faults_of, gaps
@@ -24,10 +22,12 @@ from zlmreport.model.diagnosis.single_run import single_run
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
-from zlmreport.model.effects.effect import Effect, is_of_another_axis, unit_of
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Dimension, Effect, is_of_another_axis
+from zlmreport.model.effects.sizes import asked_of, usual_range
 from zlmreport.model.fitting.blunders import Outliers, outliers
 from zlmreport.model.fitting.distributions import f_tail
-from zlmreport.model.fitting.estimate import Estimate, Plausibility
+from zlmreport.model.fitting.estimate import Estimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validated_rms, fit
 from zlmreport.model.fitting.observations import Observations, thinned
 from zlmreport.model.fitting.priors import Expected
@@ -42,6 +42,8 @@ _MINUTES_EACH, _GIGABYTES_EACH = 20 / 60 / 2100, 0.45 / 2100
 _FEWEST_DEGREES = 6
 #: χ²/ν up to which what is left is called noise: irregular shares that are noise make it larger than one.
 LARGEST_RATIO = 1.4
+#: Of the scatter of a single reading, what has no name must reach to be told of: less changes no result.
+_LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
 _IMPROBABLE = 1e-3
 
@@ -59,10 +61,6 @@ _LOOKS_WRONG = Words(
 )
 _NO_FLOOR = Words(
     en="takes the error from {before} to {after}", de="senkt die Abweichung von {before} auf {after}"
-)
-_IS_IT_SO = Words(
-    en="{parameter} of {value}{unit} is beyond what is usual: measured so, and in the right unit?",
-    de="{parameter} von {value}{unit} ist mehr als üblich: so gemessen, und in der richtigen Einheit?",
 )
 _AND = Words(en="{first}; {second}", de="{first}; {second}")
 
@@ -182,11 +180,12 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
         raise ModelError([sentence])
     asked = _Asked(model, observed, effects, assumptions, expected, may_go)
     aside = outliers(observed.design, observed.deviation)
-    held = _held(asked, aside, told)
+    held = _held(asked, aside, lambda share: told(0.5 * share))
     judged = held.judged()
     if not np.array_equal(judged.readings, aside.readings) and not held.is_quiet:
         # What the leading model explains is no blunder, and what it leaves far off is one.
-        aside, held = judged, _held(asked, judged, told)
+        aside, held = judged, _held(asked, judged, lambda share: told(0.5 + 0.5 * share))
+    told(1.0)
     return _told(asked, aside, held)
 
 
@@ -239,6 +238,8 @@ def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     is_left = run is not None or not _may_be_noise(error, fitted)
     finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
     left = finding.remainder
+    if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
+        left = None
     if is_left and left is None and not finding.named:
         left = remainder_of_run(fitted, run) if run else irregular_remainder(fitted, error.noise_rms or 0.0)
     complete = _complete(fitted, finding.named, finding.makeshift)
@@ -355,7 +356,8 @@ def _candidate(base: Fit, rival: Rival, equals: Sequence[Rival], before: ErrorNu
         return
     share = _share(base, after, before.noise_rms)
     estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
-    large = [each for each in estimates if _is_large(each, counted=base.design.time_is_counted)]
+    question = next(filter(None, (_question(each, base.design) for each in estimates)), None)
+    values = {each.parameter.name: each.value for each in estimates}
     yield Candidate(
         effect=rival.member.effect,
         p_value=rival.p_value.value,
@@ -368,20 +370,21 @@ def _candidate(base: Fit, rival: Rival, equals: Sequence[Rival], before: ErrorNu
         explains=_explains(base, after, share),
         equals=tuple(each.identifier for each in equals),
         discriminate_by=discriminate_by(rival.member.effect, [each.member.effect for each in equals]),
-        is_large=bool(large),
-        question=_question(large[0], base.design.axis) if large else None,
+        is_plausible=rival.member.effect.forbids(base.design, values) is None,
+        is_large=question is not None,
+        question=question,
     )
 
 
-def _is_large(estimate: Estimate, *, counted: bool) -> bool:
-    return estimate.plausibility(time_is_counted=counted) is Plausibility.IMPLAUSIBLE
-
-
-def _question(estimate: Estimate, axis: Axis) -> Words:
-    """Return what is asked of a parameter that is beyond what is usual."""
-    unit = unit_of(estimate.parameter.dimension, axis.kind)
-    value = significant_words(unit.from_si(estimate.value), 2)
-    return _IS_IT_SO.given(parameter=estimate.parameter.name, value=value, unit=behind(unit.symbol))
+def _question(estimate: Estimate, design: Design) -> Words | None:
+    """Return what is asked of a parameter that is beyond doubt far from usual; None of any other."""
+    if design.time_is_counted and estimate.parameter.dimension is Dimension.TIME:
+        return None
+    low, high = usual_range(estimate.parameter, design.axis.kind)
+    reach = estimate.expanded_uncertainty
+    if estimate.value + reach >= low and estimate.value - reach <= high:
+        return None
+    return asked_of(estimate.parameter, estimate.value, design.axis)
 
 
 def discriminate_by(effect: Effect, equals: Sequence[Effect]) -> Words | None:

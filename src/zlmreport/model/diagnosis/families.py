@@ -22,6 +22,8 @@ from zlmreport.model.fitting.repeats import cells
 
 #: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there.
 PRICE = 6.0
+#: Root mean square value of columns, SI, below which they are rounding: all targets are whole increments.
+_ROUNDING = 1e-14
 #: A wave in time that the cells imitate but for a lesser share comes back with every run: a coincidence.
 _LEAST_OWN = 0.01
 #: Values of a form that are held against installed effects, and the share by which these must have it.
@@ -108,7 +110,7 @@ def orthonormal(
     whole = np.linalg.norm(blocks, axis=(1, 2))
     contrasts = space.of(blocks.transpose(1, 0, 2)).transpose(1, 0, 2)
     shares = np.linalg.norm(contrasts, axis=(1, 2)) / np.where(whole > 0, whole, 1.0)
-    seen = np.flatnonzero(shares > least)
+    seen = np.flatnonzero((shares > least) & (whole > _ROUNDING * blocks.shape[1] ** 0.5))
     lengths = np.linalg.norm(blocks[seen], axis=1, keepdims=True)
     scaled = contrasts[seen] / np.where(lengths > 0, lengths, 1.0)
     left, singular, _ = np.linalg.svd(scaled, full_matrices=False)

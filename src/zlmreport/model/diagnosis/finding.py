@@ -40,8 +40,6 @@ NAMED = 1.4
 TOLD_APART = 6.0
 #: What a rival may lack that is told of.
 _BEHIND = 40.0
-#: What an effect may lack of that for its equals to make up for it.
-_BY_EQUALS = 4.0
 #: Share of a column that must be left beside the model: less, where its searched parameters are only known
 #: within their uncertainty.
 _LEAST_VISIBLE, _LEAST_VISIBLE_LATER = 1e-6, 1e-3
@@ -264,8 +262,9 @@ def _believed(search: SetSearch, found: EffectSet) -> EffectSet:
         without = [search.without(found, number) for number in range(len(found.members))]
         number = min(range(len(without)), key=lambda each: without[each].score)
         lost = without[number].score - found.score
-        if NAMED - _BY_EQUALS < lost < NAMED and found.members[number].family.is_named:
-            rivals = search.rivals(found, without[number], TOLD_APART)
+        if 0.0 < lost < NAMED and found.members[number].family.is_named:
+            # Each must be better than nothing by itself: many that are not make no cause together.
+            rivals = search.rivals(found, without[number], lost)
             lost += 2.0 * float(
                 np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
             )

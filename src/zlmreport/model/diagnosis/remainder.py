@@ -6,8 +6,8 @@ allow. The form that follows it best is proposed as a formula that a job can try
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -27,6 +27,8 @@ from zlmreport.model.fitting.fit import Fit
 _WORTH_SAYING = 2.5
 #: Share of what is left that a form must follow to be proposed.
 _FOLLOWS = 0.5
+#: Strength of a combination of columns, of the largest, below which they depend on each other.
+_DEPENDENT = 1e-9
 #: Of the largest, what still belongs to the place.
 _HALF = 0.5
 _SECOND = Unit("s", "s", 1.0)
@@ -85,7 +87,11 @@ def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder 
     if bare.score - found.score < _WORTH_SAYING:
         return None
     design = search.contest.design
-    shares = sorted(_shares(search, found), key=lambda each: -each.rms)
+    beside = _beside(fitted, found)
+    shares = sorted(
+        (replace(each, values=beside(each.values)) for each in _shares(search, found)),
+        key=lambda each: -each.rms,
+    )
     whole: FloatArray = np.sum([each.values for each in shares], axis=0)
     main, squares = shares[0], float(np.sum(fitted.residual**2))
     form = main.member or _following(search, bare, whole)
@@ -102,6 +108,21 @@ def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder 
         size=float(whole[int(np.argmax(np.abs(whole)))]),
         formula=proposed,
     )
+
+
+def _beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArray], FloatArray]:
+    """Return what leaves of a curve only that which neither the model nor a set can do as well."""
+    design = fitted.design
+    columns = [each.effect.columns(design, each.theta) for each in found.named]
+    basis, strengths, _ = np.linalg.svd(_of_one_length([fitted.base(), *columns]), full_matrices=False)
+    known = basis[:, strengths > _DEPENDENT * strengths.max(initial=0.0)]
+    return lambda curve: np.asarray(curve - known @ (known.T @ curve), dtype=np.float64)
+
+
+def _of_one_length(columns: Sequence[FloatArray]) -> FloatArray:
+    together = np.concatenate(columns, axis=1)
+    lengths = np.linalg.norm(together, axis=0)
+    return np.asarray(together / np.where(lengths > 0, lengths, 1.0), dtype=np.float64)
 
 
 def remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:

@@ -18,7 +18,9 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, untold
 from zlmreport.model.diagnosis.families import Family, orthonormal
-from zlmreport.model.effects.effect import Dimension, Effect
+from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Dimension, Effect, Parameter
+from zlmreport.model.effects.sizes import name_of, times_usual, usual_range
 
 #: Effects of a set at most, and moves of a search.
 _MOST_MEMBERS, _MOST_MOVES = 10, 24
@@ -36,10 +38,12 @@ _BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
 _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 #: Evidence of each effect's own above which a set is not looked for again from another start.
 _SURE = 6.0
-#: What a value costs that lies beyond doubt outside of what is usual: odds of 20 to 1, and more the farther.
-UNUSUAL = 6.0
+#: What a value costs on the side where none is usual, odds of 20 to 1, and one that physics forbids.
+UNUSUAL, FORBIDDEN = 6.0, 1e3
 #: Standard uncertainties beyond which nothing is in doubt; of a searched value, taken as a share of it.
 _DOUBT, _SHARE_OF_SEARCHED = 2.0, 0.25
+#: Times the usual beyond which a value of the wrong sign costs no more.
+_FARTHEST = 1e3
 
 
 @dataclass(frozen=True, slots=True)
@@ -229,21 +233,18 @@ class SetSearch:
     def _unusual(self, member: Member, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""
         effect, design = member.effect, self.contest.design
-        linear = [each for each in effect.linear if each.smallest is not None or each.largest is not None]
         cost = sum(
-            _beyond(value, _SHARE_OF_SEARCHED * abs(value), each.smallest, each.largest)
+            size_costs(effect, design, each, value, _SHARE_OF_SEARCHED * abs(value))
             for each, value in zip(effect.searched, member.theta.tolist(), strict=True)
             if not (each.dimension is Dimension.TIME and design.time_is_counted)
         )
-        if not linear:
-            return cost
         # The columns of a block are orthonormal: turn what was solved into the parameters.
         contrasts = self.contest.space.of(effect.columns(design, member.theta))
         values = self.contest.columns.values(member.columns)
         turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
         gamma, spread = turn @ solved, np.sqrt(np.maximum(np.diagonal(turn @ covariance @ turn.T), 0.0))
         return cost + sum(
-            _beyond(float(value), float(own), each.smallest, each.largest)
+            size_costs(effect, design, each, float(value), float(own))
             for each, value, own in zip(effect.linear, gamma, spread, strict=True)
         )
 
@@ -294,7 +295,7 @@ class SetSearch:
                 now = self._shrunk(larger)
                 continue
             other = self._exchanged(now)
-            if other is None:
+            if other is None and not self._is_quiet:
                 other = self._parted(now)
             if other is None and self.has_nameless(now):
                 other = self._paired(now)
@@ -565,12 +566,25 @@ def _beside(members: Sequence[Member], effect: Effect) -> tuple[Member, ...]:
     )
 
 
-def _beyond(value: float, uncertainty: float, smallest: float | None, largest: float | None) -> float:
-    """Return what a value costs for lying beyond doubt outside of a range, and the farther, the more."""
-    ends = [abs(each) for each in (smallest, largest) if each]
-    low = -np.inf if smallest is None else smallest
-    high = np.inf if largest is None else largest
-    excess = max(low - value, value - high, 0.0)
-    if excess <= _DOUBT * uncertainty or not ends:
+def size_costs(
+    effect: Effect, design: Design, parameter: Parameter, value: float, uncertainty: float
+) -> float:
+    """Return what the size of a parameter costs, as far as it is beyond doubt; physics alone forbids one.
+
+    Beyond what is usual every decade is as likely as the next: twenty times as much, or as little, has odds
+    of 20 to 1. A value that has a name of its own, such as that of a correction made twice, costs nothing.
+    """
+    reach = _DOUBT * uncertainty
+    if all(effect.forbids(design, {parameter.name: value + each}) for each in (-reach, 0.0, reach)):
+        return FORBIDDEN
+    low, high = usual_range(parameter, design.axis.kind)
+    sure = min(max(value, min(low, value + reach)), max(high, value - reach))
+    times = times_usual(parameter, sure, design.axis.kind)
+    if times == 1.0 or name_of(parameter, value) is not None:
         return 0.0
-    return UNUSUAL + 2.0 * float(np.log1p((excess / max(ends)) ** 2))
+    if np.isfinite(times):
+        least = -np.inf if parameter.smallest is None else parameter.smallest
+        most = np.inf if parameter.largest is None else parameter.largest
+        is_far = not least <= sure <= most
+        return 2.0 * abs(float(np.log(times))) + (UNUSUAL if is_far else 0.0)
+    return UNUSUAL + 2.0 * float(np.log1p(abs(sure) / max(abs(low), abs(high), abs(sure) / _FARTHEST)))

@@ -57,8 +57,8 @@ _WORDS = {
     NoiseSource.TIME: Words(en="slow irregular drift", de="langsame unregelmäßige Drift"),
 }
 
-#: Ratios φ that are tried. What is larger than half the repeatability of a single reading (φ = ¼) is no noise
-#: but something that the model lacks.
+#: Ratios φ that are tried. What is larger than half the repeatability of a single reading (φ = ¼), and of a
+#: whole run than a quarter of it, is no noise but something that the model lacks.
 _RATIOS = {
     NoiseSource.POSITION: (0.0, 0.03, 0.1, 0.25),
     NoiseSource.DIRECTION: (0.0, 0.05, 0.25),

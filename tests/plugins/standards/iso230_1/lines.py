@@ -18,7 +18,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet, joined
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 
-_HP = Path(__file__).parents[3] / "data" / "published" / "hp_5528a.csv"
+_HP = Path(__file__).parents[3] / "data" / "straightness" / "hp_5528a.csv"
 
 
 def axis_of(symbol: str, at: Sequence[tuple[str, float]] = ()) -> Axis:

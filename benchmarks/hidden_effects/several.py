@@ -1,0 +1,164 @@
+"""Several causes at once, from an empty model: drawn axes, each built step by step as the advice says.
+
+Two to four causes of the catalogue act together, each of 1.5 to 4 σ beyond a constant, on half of the axes a
+stranger beside them; linear and rotary axes, three or five runs, σ from 0.05 to 3 µm. What is found is told
+axis by axis: a cause counts as found if it stands in the model at the end, a name that no cause has as wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
+from hidden_effects.hidden import drawn_effect, scale_to
+from hidden_effects.judge import INSTALLED
+from hidden_effects.sizes import base_columns
+from hidden_effects.strangers import STRANGERS
+from hidden_effects.trial import EFFECTS, OF_A_GAUGE, measured, sum_of
+from hidden_effects.weather import wandering
+from zlmreport.measurement.units import MICROMETRE
+from zlmreport.model.diagnosis.building import build
+from zlmreport.model.diagnosis.contest import Told
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.fitting.observations import Observations, observations_of
+from zlmreport.model.planning.methods import Method
+from zlmreport.model.simulation.description import Noise
+from zlmreport.model.simulation.simulate import design_of
+
+_SIGMAS = (0.05, 0.3, 0.8, 3.0)  # µm; on a rotary axis as many µm at a radius of one metre
+_SIZES = (1.5, 4.0)  # in σ
+_CAUSES, _RUNS = (2, 3, 4), (3, 5)
+_ROTARY_SHARE = 0.2
+_SEED = 20_261_126
+#: The constant is in the model, and a cosine error is a scale error.
+_NOT_DRAWN = OF_A_GAUGE | {"offset", "cosine-error"}
+#: Error over σ up to which nothing but noise is left.
+DOWN_TO_NOISE = 1.15
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """An axis with several causes."""
+
+    causes: tuple[str, ...]
+    stranger: str | None
+    observed: Observations
+    sigma: float  #: m or rad.
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of building a model of it."""
+
+    drawn: Drawn
+    built: tuple[str, ...]  #: Effects of the model at the end, but for the constant.
+    left: float  #: Error at the end, over σ.
+    remainder: bool  #: Whether something is told to be left without a name.
+    seconds: float  #: CPU of the dearest diagnosis.
+
+    @property
+    def found(self) -> tuple[str, ...]:
+        """Causes that stand in the model."""
+        return tuple(each for each in self.drawn.causes if each in self.built)
+
+    @property
+    def wrong(self) -> tuple[str, ...]:
+        """Names that no cause has."""
+        return tuple(each for each in self.built if each not in self.drawn.causes)
+
+
+def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
+    """Return an axis; the same number gives the same."""
+    random = np.random.default_rng([_SEED, number, with_stranger])
+    is_rotary = random.random() < _ROTARY_SHARE
+    method = (Method.LINEAR, Method.PENDULUM)[int(random.integers(2))]
+    draw = drawn_rotary_test if is_rotary else drawn_linear_test
+    description = draw(random, method, 21, int(random.choice(_RUNS)))
+    sigma = float(MICROMETRE.to_si(_SIGMAS[number % len(_SIGMAS)]))
+    description = replace(description, noise=Noise(reading=sigma))
+    design = wandering(design_of(description), random)
+    base = base_columns([EFFECTS["offset"]], design)
+    causes: list[Term] = []
+    for name in random.permutation(sorted(EFFECTS.keys() - _NOT_DRAWN)).tolist():
+        size = sigma * float(random.uniform(*_SIZES))
+        term = drawn_effect(EFFECTS[name], design, base, size, random)
+        if term is not None:
+            causes.append(term)
+        if len(causes) == _CAUSES[number % len(_CAUSES)]:
+            break
+    deviation, stranger = sum_of(causes, design), None
+    if with_stranger:
+        stranger = str(random.choice(sorted(STRANGERS)))
+        shape = STRANGERS[stranger](design, random)
+        deviation += (scale_to(shape, base, sigma * float(random.uniform(*_SIZES))) or 0.0) * shape
+    readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
+    observed = observations_of(readings, overrun=description.plan.overrun)
+    return Drawn(tuple(sorted(each.effect.identifier for each in causes)), stranger, observed, sigma)
+
+
+def followed(drawn: Drawn) -> Outcome:
+    """Return what comes of following the advice from an empty model."""
+    seconds: list[float] = []
+
+    def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
+        started = time.process_time()
+        found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
+        seconds.append(time.process_time() - started)
+        return found
+
+    built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
+    names = tuple(each for each in built.model.identifiers if each != "offset")
+    left = built.last.error.rms / drawn.sigma
+    return Outcome(drawn, names, left, built.last.remainder is not None, max(seconds))
+
+
+def report(outcomes: Sequence[Outcome]) -> str:
+    """Return the single cases as a table, and their sums below."""
+    return "\n".join((*_table(outcomes), "", _sums(outcomes)))
+
+
+def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    yield "| σ in µm | causes | stranger | found | wrong | left in σ | without a name |"
+    yield "|---|---|---|---|---|---|---|"
+    for each in outcomes:
+        of = each.drawn
+        yield (
+            f"| {MICROMETRE.from_si(of.sigma):.2g} | {', '.join(of.causes)} | {of.stranger or '–'} | "
+            f"{len(each.found)} of {len(of.causes)} | {', '.join(each.wrong) or '–'} | {each.left:.2f} | "
+            f"{'yes' if each.remainder else 'no'} |"
+        )
+
+
+def _sums(outcomes: Sequence[Outcome]) -> str:
+    causes = sum(len(each.drawn.causes) for each in outcomes)
+    found, wrong = (
+        sum(map(len, parts)) for parts in zip(*((o.found, o.wrong) for o in outcomes), strict=True)
+    )
+    whole = sum(len(each.found) == len(each.drawn.causes) for each in outcomes)
+    down = sum(each.left <= DOWN_TO_NOISE for each in outcomes)
+    named = sum(each.remainder for each in outcomes)
+    seconds = np.median([each.seconds for each in outcomes])
+    return (
+        f"{len(outcomes)} axes: {found} of {causes} causes found, {wrong} wrong, the whole set in {whole}, "
+        f"down to {DOWN_TO_NOISE} σ in {down}, something left without a name in {named}; the dearest "
+        f"diagnosis of an axis takes {seconds:.1f} s of CPU in the median."
+    )
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Draw axes, build their models, and print what came of it."""
+    parser = argparse.ArgumentParser(
+        prog="./run benchmark several", description="Build models of axes with several causes, from nothing."
+    )
+    parser.add_argument("--axes", type=int, default=40, help="how many (%(default)s)")
+    parser.add_argument("--first", type=int, default=1000, help="number of the first (%(default)s)")
+    parser.add_argument("--stranger", action="store_true", help="with a shape outside the catalogue beside")
+    asked = parser.parse_args(arguments)
+    numbers = range(asked.first, asked.first + asked.axes)
+    print(report([followed(drawn_axis(each, with_stranger=asked.stranger)) for each in numbers]))
