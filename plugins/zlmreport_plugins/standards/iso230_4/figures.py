@@ -26,7 +26,7 @@ from zlmreport_plugins.standards.iso230_4.quantities import SENSES
 ZoneOf = Callable[[FloatArray, FloatArray, Any], Zone]
 
 _RADIAL = Words("Radial deviation", "Radialabweichung")
-_FROM_MEAN = Words("Deviation from the mean radius", "Abweichung vom mittleren Radius")
+_FROM_MEAN = Words("{paths}, from the mean radius", "{paths}, vom mittleren Radius aus")
 _ANGLE = Words("Angle from +{first} towards +{second}", "Winkel von +{first} nach +{second}")
 _BOTH_PATHS = Words("Plane {plane}: paths of both senses", "Ebene {plane}: Bahnen beider Drehsinne")
 _ONE_PATH = Words("Plane {plane}: path, {sense}", "Ebene {plane}: Bahn, {sense}")
@@ -146,10 +146,12 @@ class _Graphs:
 
     @property
     def paths_in_words(self) -> Words:
-        """What the graphs show."""
+        """What the graphs show, and from where deviations are reckoned."""
         if len(self.senses) > 1:
-            return _BOTH_PATHS.given(plane=self.axis.name)
-        return _ONE_PATH.given(plane=self.axis.name, sense=list(SENSES.values())[self.senses[0].index])
+            paths = _BOTH_PATHS.given(plane=self.axis.name)
+        else:
+            paths = _ONE_PATH.given(plane=self.axis.name, sense=list(SENSES.values())[self.senses[0].index])
+        return paths if self.is_about_nominal else _FROM_MEAN.given(paths=paths)
 
     def _as_run(self, sense: Approach, path: FloatArray) -> Curve:
         """Return a path in the order in which it was run; a full turn ends where it began."""
@@ -192,7 +194,7 @@ class _Graphs:
             title=title,
             alternative=alternative_text(title_as_sentence(title), *ranges, circles, centre),
             x_title=_ANGLE.given(first=first, second=second),
-            y_title=_RADIAL if self.is_about_nominal else _FROM_MEAN,
+            y_title=_RADIAL,
             x_unit=self.axis.position_unit.symbol,
             y_unit=self.axis.deviation_unit.symbol,
             panels=(panel,),
