@@ -142,15 +142,20 @@ def _parted(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple
         if not numbered:
             continue
         rows = [row for group in table.groups for row in group.rows]
-        words = "".join("".join(bodies[numbered[0]]).split())
+        words = _letters("".join(bodies[numbered[0]]))
         cells = [
             text_of(cell)
             for row in (rows if table_layout(table).is_whole else rows[:2])
             for cell in row
             if not isinstance(cell, Symbol)
         ]
-        if not all("".join(cell.split()) in words for cell in cells if cell.isascii()):
+        if not all(_letters(cell) in words for cell in cells if cell.isascii()):
             yield numbered[0] + 1, table.caption
+
+
+def _letters(text: str) -> str:
+    """Return a text without blanks and hyphens: PDFium takes one at the end of a line for hyphenation."""
+    return "".join(character for character in text if character.isalnum())
 
 
 def _spills(page: pypdfium2.PdfPage) -> bool:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 #: An array of doubles.
 FloatArray: TypeAlias = NDArray[np.float64]
+#: An array of whole numbers.
 IntArray: TypeAlias = NDArray[np.int64]
 #: An array of truth values.
 BoolArray: TypeAlias = NDArray[np.bool_]

@@ -211,6 +211,7 @@ SQUARENESS = Measurand(
     joins_tests=True,
 )
 
+#: How far the path of a circle strays from its radius.
 CIRCLE = Measurand(
     identifier="circle",
     title=Words(en="Circular accuracy", de="Kreisgenauigkeit"),

@@ -153,6 +153,7 @@ LENGTH_UNITS = _spelled(
         "µin uin microinch microinches": MICROINCH,
     }
 )
+#: Units of angles by their spellings.
 ANGLE_UNITS = _spelled(
     {
         "° deg degree degrees": DEGREE,
