@@ -173,8 +173,8 @@ def squareness(
     With sides a and b, D² = a² + b², the angle between the axes is smaller than 90° by
     (ε_1 − ε_2)·D²/(2ab); ε is the elongation of each diagonal. NaN where a side is not stated.
     """
-    one, other = FACES[symbol][0][:2]
-    a, b = space.side(one), space.side(other)
+    axes = FACES[symbol][0]
+    a, b = space.side(axes[0]), space.side(axes[1])
     if a is None or b is None:
         return np.full(first.mean.shape[:-2], np.nan)
     smaller = (_elongation(first) - _elongation(second)) * (a * a + b * b) / (2 * a * b)
