@@ -133,6 +133,13 @@ def test_effect_of_the_model_that_its_targets_hide_is_left_out_of_it_and_named()
     assert sight_of(planned, "screw-pitch").sight is Sight.HIDDEN
 
 
+def test_a_wave_that_stands_in_the_model_is_planned_with_and_a_second_one_is_not_listed() -> None:
+    modelled = ("output:", "model: {effects: [offset, {periodic: {period: 210}}]}\noutput:")
+    planned = plan_of_test(modelled)
+    assert planned.model.identifiers == ("offset", "periodic")
+    assert not [each for each in planned.seen_effects if each.effect.identifier.startswith("periodic")]
+
+
 def test_way_and_time_of_a_linear_test_are_those_of_arithmetic() -> None:
     planned = plan_of_test()
     plan = planned.proposal.plan

@@ -95,13 +95,15 @@ def effects_seen(
 
     Notes
     -----
-    An effect that stands in the model is left out unless it has forms of more parameters.
+    An effect that stands in the model is left out unless it has forms of more parameters; so is a second one
+    of its kind (``scale-joint-2``), of which a plan sees what it sees of the first.
     """
     by_identifier = {effect.identifier: effect for effect in effects}
     found = []
     for seen in plan_visibility(model, design, effects, expected.sigma):
-        effect = by_identifier[seen.effect]
-        found.append(SeenEffect(effect, _sight(effect, seen, design), seen, logs_of(effect, design)))
+        effect = by_identifier.get(seen.effect)
+        if effect is not None:
+            found.append(SeenEffect(effect, _sight(effect, seen, design), seen, logs_of(effect, design)))
     order = list(Sight)
     return tuple(sorted(found, key=lambda each: (order.index(each.sight), -each.visibility.share)))
 
