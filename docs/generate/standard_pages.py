@@ -10,12 +10,11 @@ from markdown import code, symbol, table
 from zlmreport.evaluation.evaluation import Basis, Group
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurand import measurands_of
 from zlmreport.plugin.kinds import STANDARD
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import simulated_test
-from zlmreport.testing.measurements import good_tests
+from zlmreport.testing.measurements import good_tests, is_of_circles, names_of_lines
 
 _EN, _DE = Language.ENGLISH, Language.GERMAN
 _GROUPS = {
@@ -94,8 +93,7 @@ def _section(standard: Standard) -> Iterator[str]:
 def _requirements(standard: Standard) -> Iterator[tuple[str, str, str]]:
     """Yield every requirement that one of the tests meets with, once."""
     kinds: dict[tuple[str, Basis], list[str]] = {}
-    closed = any(each.is_closed for each in measurands_of(standard))
-    tests = good_tests(closed=True) if closed else _TESTS
+    tests = good_tests(standard) if is_of_circles(standard) or names_of_lines(standard) else _TESTS
     for kind, measurements in tests.items():
         for finding in standard.requirements(measurements, standard.options()):
             asked = finding.requirement.in_language(_EN), finding.basis

@@ -9,13 +9,13 @@ import numpy as np
 
 from zlmreport.evaluation.evaluate import is_negative, reach
 from zlmreport.evaluation.evaluation import Arithmetic
-from zlmreport.evaluation.statistics import PositionStatistics, position_statistics
+from zlmreport.evaluation.statistics import PositionStatistics, joined_statistics, position_statistics
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.measurement.measurand import measurands_of
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing.expectations import check, expect, same_value
+from zlmreport.testing.measurements import is_of_circles, names_of_lines
 
 _POSITIONS, _RUNS = 7, 5
 #: Where they stand, m: at no equal intervals.
@@ -173,9 +173,8 @@ def defines_what_it_declares(standard: Standard, options: Options) -> None:
 def values_are_lengths_that_readings_have(standard: Standard, options: Options) -> None:
     """Check that values are of the size of the readings, in metres, and that no spread is negative."""
     readings = _readings()
-    statistics = position_statistics(readings, _places(standard))
-    arithmetic = _of(standard, options, statistics)
-    largest, farthest = float(np.abs(readings).max()), reach(statistics)
+    arithmetic = _arithmetic(standard, options, readings)
+    largest, farthest = float(np.abs(readings).max()), reach(position_statistics(readings))
     for symbol, value in _values(arithmetic).items():
         size = float(np.max(np.abs(value), initial=0.0, where=~np.isnan(value)))
         where = f"{standard.identifier}: {symbol} of readings up to {largest:.3g} m is {size:.3g}"
@@ -213,8 +212,7 @@ def directions_are_not_swapped(standard: Standard, options: Options) -> None:
 @check
 def alters_no_input(standard: Standard, options: Options) -> None:
     """Check that the statistics are as they were after the arithmetic has used them."""
-    statistics = position_statistics(_readings(3), _places(standard))
-    kept = position_statistics(_readings(3), _places(standard))
+    statistics, kept = (_statistics(standard, _readings(3)) for _ in range(2))
     _of(standard, options, statistics)
     expect(
         same_value(statistics, kept), f"{standard.identifier}: arithmetic alters the statistics it is given"
@@ -233,8 +231,17 @@ def gives_the_same_again(standard: Standard, options: Options) -> None:
 
 def _places(standard: Standard) -> FloatArray:
     """Return where the positions of a standard stand: along a length, or round a circle, rad."""
-    is_closed = any(each.is_closed for each in measurands_of(standard))
-    return read_only_floats(_ROUND * _PLACES) if is_closed else _PLACES
+    return read_only_floats(_ROUND * _PLACES) if is_of_circles(standard) else _PLACES
+
+
+def _statistics(standard: Standard, readings: FloatArray) -> PositionStatistics:
+    """Return the statistics of readings, or of lines on which these stand in another order of positions."""
+    places = _places(standard)
+    lines = {
+        name: position_statistics(np.roll(readings, shift, axis=-2), places)
+        for shift, name in enumerate(names_of_lines(standard))
+    }
+    return joined_statistics(lines) if lines else position_statistics(readings, places)
 
 
 def _readings(*batch: int) -> FloatArray:
@@ -268,7 +275,7 @@ def _incomplete() -> Mapping[str, FloatArray]:
 
 
 def _arithmetic(standard: Standard, options: Options, readings: FloatArray) -> Arithmetic:
-    return _of(standard, options, position_statistics(readings, _places(standard)))
+    return _of(standard, options, _statistics(standard, readings))
 
 
 def _of(standard: Standard, options: Options, statistics: PositionStatistics) -> Arithmetic:

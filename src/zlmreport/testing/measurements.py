@@ -14,13 +14,14 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurand import CIRCLE, Measurand, measurands_of
+from zlmreport.measurement.measurement_set import MeasurementSet, joined
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.measurement.units import REFERENCE_TEMPERATURE
 from zlmreport.model.effects.design import Design
 from zlmreport.model.planning.methods import Method, path, planned_design, visits
 from zlmreport.model.planning.targets import target_positions
+from zlmreport.plugin.protocols import Standard
 
 _NOISE = {AxisKind.LINEAR: 0.8, AxisKind.ROTARY: 0.5}  # µm, ″
 _BACKLASH = 4.0
@@ -118,10 +119,16 @@ def simulated_test(
     )
 
 
-def good_tests(*, closed: bool = False) -> Mapping[str, MeasurementSet]:
-    """Return complete tests, by what they are: along a length, or those of circles where that is closed."""
-    if closed:
+def good_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]:
+    """Return complete tests of what a standard evaluates, by what they are; of positioning without one.
+
+    They are along a length; where that is closed, round a circle; and on several lines where the standard
+    evaluates nothing but lines that have names.
+    """
+    if standard and is_of_circles(standard):
         return {"a complete circle": _circle(), "an arc of a circle": _circle(length=200.0)}
+    if standard and (of := _joining(standard)):
+        return {"all lines": _on_lines(of, of.test_names, simulated_test())}
     return {
         "a complete linear test": simulated_test(),
         "a complete rotary test": simulated_test(13, axis=Axis("C", AxisKind.ROTARY), length=360.0),
@@ -129,6 +136,36 @@ def good_tests(*, closed: bool = False) -> Mapping[str, MeasurementSet]:
             11, axis=Axis("Y", travel=(0.0, 0.4), screw_pitch=0.01, signal_period=20e-6, scale_element=0.2)
         ),
     }
+
+
+def is_of_circles(standard: Standard) -> bool:
+    """Return whether a standard evaluates what is measured round a circle."""
+    return any(each.is_closed for each in measurands_of(standard))
+
+
+def names_of_lines(standard: Standard) -> tuple[str, ...]:
+    """Return the names of the lines of which alone a standard makes anything; empty where it needs none."""
+    of = _joining(standard)
+    return of.test_names if of else ()
+
+
+def _joining(standard: Standard) -> Measurand | None:
+    """Return what a standard evaluates from named lines, where it evaluates nothing else."""
+    found = measurands_of(standard)
+    return found[0] if all(each.joins_tests and each.test_names for each in found) else None
+
+
+def _on_lines(of: Measurand, names: Sequence[str], line: MeasurementSet) -> MeasurementSet:
+    """Return lines that were measured alike and differ in their readings, together."""
+    lines = {
+        name: replace(
+            line,
+            axis=replace(line.axis, name=name, quantity=of.of_lines),
+            deviation=read_only_floats(line.deviation * (1 + of.test_names.index(name) / 10)),
+        )
+        for name in names
+    }
+    return joined(Axis(" ".join(names), quantity=of), lines)
 
 
 def _circle(
@@ -142,11 +179,16 @@ def _circle(
     return simulated_test(targets, runs, axis=_CIRCLE, length=length, approaches=approaches)
 
 
-def poor_tests(*, closed: bool = False) -> Mapping[str, MeasurementSet]:
+def poor_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]:
     """Return tests that fall short in one way each, by what is wrong; a standard refuses none of them.
 
-    `closed`: Whether they are of circles.
+    `standard`: What they are tests for, as of `good_tests`.
     """
+    if standard and (of := _joining(standard)):
+        first, everywhere = of.test_names[0], poor_tests()
+        one = {f"{first} alone": _on_lines(of, (first,), simulated_test())}
+        return {**one, **{kind: _on_lines(of, of.test_names, test) for kind, test in everywhere.items()}}
+    closed = standard is not None and is_of_circles(standard)
     simulated = _circle if closed else simulated_test
     full = simulated()
     grid = full.deviations()

@@ -15,7 +15,6 @@ from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.language.formatting import plain
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.measurand import measurands_of
 from zlmreport.measurement.units import ANGLES, LENGTHS, Unit
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
@@ -105,8 +104,7 @@ def quantities_are_worded(standard: Standard, _: Options) -> None:
 @check
 def requirements_never_refuse(standard: Standard, options: Options) -> None:
     """Check that requirements answer with findings, however poor the test is, and answer the same again."""
-    closed = _is_of_circles(standard)
-    for kind, measurements in {**good_tests(closed=closed), **poor_tests(closed=closed)}.items():
+    for kind, measurements in {**good_tests(standard), **poor_tests(standard)}.items():
         where = f"{standard.identifier}: requirements on {kind}"
         try:
             findings = tuple(standard.requirements(measurements, options))
@@ -133,8 +131,7 @@ def _expect_finding(finding: object, where: str) -> None:
 @check
 def figures_of_any_test(standard: Standard, options: Options) -> None:
     """Check that a complete test gives graphs, and a poor test graphs of what there is, or none."""
-    closed = _is_of_circles(standard)
-    good, poor = good_tests(closed=closed), poor_tests(closed=closed)
+    good, poor = good_tests(standard), poor_tests(standard)
     for kind, measurements in {**good, **poor}.items():
         where = f"{standard.identifier}: figures of {kind}"
         evaluation = evaluate(standard, measurements, options, {})
@@ -164,7 +161,7 @@ def figures_are_worded(standard: Standard, options: Options) -> None:
             expect_words(words, f"{where}: {name}")
         for unit in (figure.x_unit, figure.y_unit):
             expect(unit in _UNITS, f"{where}: unit {unit!r} is none of {', '.join(_UNITS)}")
-    for kind in good_tests(closed=_is_of_circles(standard)):
+    for kind in good_tests(standard):
         for where, figure, _ in _figures(standard, options, kind):
             for language in Language:
                 text = figure.alternative.in_language(language)
@@ -178,7 +175,8 @@ def figures_are_worded(standard: Standard, options: Options) -> None:
 def marks_stand_at_targets(standard: Standard, options: Options) -> None:
     """Check that curves, bands, arrows and brackets stand at target positions of the test."""
     for where, figure, evaluation in _figures(standard, options):
-        targets = _UNITS[figure.x_unit].from_si(evaluation.measurements.target_positions)
+        lines = [line.target_positions for line in evaluation.measurements.lines]
+        targets = _UNITS[figure.x_unit].from_si(np.concatenate(lines))
         for panel in figure.panels:
             for mark in _marks(panel):
                 expect(
@@ -267,16 +265,11 @@ def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options
                     )
 
 
-def _is_of_circles(standard: Standard) -> bool:
-    return any(each.is_closed for each in measurands_of(standard))
-
-
 def _figures(
     standard: Standard, options: Options, kind: str | None = None
 ) -> Iterator[tuple[str, Figure, Evaluation]]:
     """Yield every figure of every test (or of one kind of test), with what to call it in a sentence."""
-    closed = _is_of_circles(standard)
-    tests = {**good_tests(closed=closed), **poor_tests(closed=closed)}
+    tests = {**good_tests(standard), **poor_tests(standard)}
     for name in tests if kind is None else [kind]:
         evaluation = evaluate(standard, tests[name], options, {})
         for figure in standard.figures(evaluation, options):

@@ -182,7 +182,12 @@ def squareness(
 
 
 def _elongation(line: PositionStatistics) -> FloatArray:
-    """Return by how much of its length a diagonal is too long, from its ends, shape (...)."""
+    """Return by how much of its length a diagonal is too long, from its ends, shape (...).
+
+    NaN where it has one position only, and so no length.
+    """
+    if len(line.positions) < 2:
+        return np.full(line.mean.shape[:-2], np.nan)
     mean = line.of_both_or_single(line.mean_bidirectional, line.mean)
     return np.asarray((mean[..., -1] - mean[..., 0]) / (line.positions[-1] - line.positions[0]))
 
