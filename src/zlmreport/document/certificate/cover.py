@@ -10,12 +10,12 @@ from zlmreport.document.blocks import Block, Facts, Notice, RowGroup, Symbol, Ta
 from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
 from zlmreport.document.certificate.circumstances import Fact, date, days, stated_facts
 from zlmreport.document.certificate.conditions import (
-    AXIS_OR_CIRCLE,
     MACHINE_KINDS,
     axis_in_words,
     facts as facts_of_conditions,
     groups as conditions_in_groups,
     identified,
+    measured_of,
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import missing_readings
@@ -207,9 +207,7 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
-    yield Fact(
-        AXIS_OR_CIRCLE[keys.circle is not None], axis_in_words(job, writer), ("axis.name", "axis.kind")
-    )
+    yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     yield Fact(
         Words(en="Evaluated by", de="Ausgewertet nach"),
         ", ".join(evaluation.designation for evaluation in evaluations),

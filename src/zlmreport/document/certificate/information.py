@@ -141,7 +141,8 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
     """Yield what of the information the job does not state."""
     keys = job.keys
     measurement, instrument, environment = keys.measurement, keys.instrument, keys.environment
-    logged, circle = measurements.conditions, keys.circle
+    logged = {name for line in measurements.lines for name in line.conditions}
+    circle = keys.circle
     length = environment and (environment.axis_temperature or environment.material_temperature)
     stated: Mapping[Information, tuple[tuple[Words, object], ...]] = {
         Information.MOTION: (
@@ -170,7 +171,7 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
             ),
             (
                 Words("temperature of the machine", "Temperatur der Maschine"),
-                length or logged.keys() & {"axis_temperature", "material_temperature"},
+                length or logged & {"axis_temperature", "material_temperature"},
             ),
             (
                 Words("places of the sensors", "Messstellen"),
