@@ -79,6 +79,8 @@ def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
             except AccessError:
                 raise
             except ZlmreportError as error:
+                if proposal.circle or proposal.quantity:  # its columns say what it is, and it is not sound
+                    raise
                 errors.append(error)
     raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
 

@@ -156,7 +156,7 @@ def test_one_channel_lacks_the_other_directions() -> None:
 
 
 @pytest.mark.parametrize(("hours", "met"), [(3.75, False), (4.0, True), (24.0, True)])
-def test_a_test_of_less_than_four_hours_falls_short(hours: float, met: bool) -> None:
+def test_a_test_of_less_than_four_hours_falls_short(hours: float, *, met: bool) -> None:
     record = np.arange(0.0, hours + 0.01, 0.25)
     assert found(together(sensor("X", record, record)), "A test of at least 4 h")[1] is met
 

@@ -20,7 +20,7 @@ from zlmreport.plugin import (
 )
 from zlmreport.plugin.standard import Bracket, Curve, Panel, PositionStatistics, Role, deviation_in_words
 from zlmreport_plugins.standards.iso230_3.hours import Hours, tilt_over_time
-from zlmreport_plugins.standards.iso230_3.quantities import PAIRS
+from zlmreport_plugins.standards.iso230_3.quantities import PAIRS, shown
 from zlmreport_plugins.standards.iso230_3.requirements import temperatures
 
 _ROLES = (
@@ -75,7 +75,7 @@ def _displacements(
     for number, (name, line) in enumerate(statistics.items()):
         values = unit.from_si(_from_the_first(line.mean_positive))
         at = HOUR.from_si(line.positions)
-        curves.append(Curve(f"{name[0]}_{{{name[1:]}}}" if name[1:] else name, _role(number), at, values))
+        curves.append(Curve(shown(name), _role(number), at, values))
         if evaluation.value(f"E_{name}") is not None:
             brackets.append(_bracket(f"E_{{{name}}}", line.positions, values, hours))
     return Panel(

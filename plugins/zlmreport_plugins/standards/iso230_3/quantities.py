@@ -37,6 +37,11 @@ DRIFT = Measurand(
 )
 
 
+def shown(name: str) -> str:
+    """Return the notation of what a sensor reads."""
+    return f"{name[0]}_{{{name[1:]}}}" if name[1:] else name
+
+
 def _of_a_sensor(name: str) -> Quantity:
     return Quantity(
         f"E_{name}",
@@ -45,7 +50,7 @@ def _of_a_sensor(name: str) -> Quantity:
             letter=name[0], name=name
         ),
         QuantityGroup.SYSTEMATIC,
-        f"max({name}(t)) − min({name}(t))",
+        f"max({shown(name)}(t)) − min({shown(name)}(t))",
         Words(
             "How far tool and workpiece moved against each other in {letter} in the stated hours, and with "
             "that how far a part that took so long may be off.",
@@ -57,6 +62,7 @@ def _of_a_sensor(name: str) -> Quantity:
 
 def _of_a_pair(letter: str) -> Quantity:
     first, second = PAIRS[letter]
+    tilt = f"({shown(first)}(t) − {shown(second)}(t))/d"
     return Quantity(
         f"tilt_{letter}",
         f"φ_{{{letter}}}",
@@ -64,7 +70,7 @@ def _of_a_pair(letter: str) -> Quantity:
             first=first, second=second
         ),
         QuantityGroup.SYSTEMATIC,
-        f"max(({first}(t) − {second}(t))/d) − min(({first}(t) − {second}(t))/d)",
+        f"max({tilt}) − min({tilt})",
         Words(
             "How far the tool turned against the workpiece in the stated hours; d is the distance of both "
             "sensors.",
