@@ -33,4 +33,4 @@ def test_a_hidden_lag_is_named_and_measured_within_its_uncertainty() -> None:
 def test_what_was_said_is_counted_by_what_was_hidden(
     cause: str, said: dict[str, object], outcome: str
 ) -> None:
-    assert Case("both senses", cause, 1.0, 0, **said).outcome == outcome  # type: ignore[arg-type]
+    assert Case("both senses", cause, 1.0, 0, **said).outcome == outcome
