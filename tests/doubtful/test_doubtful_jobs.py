@@ -259,15 +259,26 @@ def _copied(deviations: np.ndarray) -> np.ndarray:
     return np.repeat(deviations[..., :1], 5, axis=-1)
 
 
+def _one_direction_copied(deviations: np.ndarray) -> np.ndarray:
+    return np.repeat(deviations[:, :1], 2, axis=1)
+
+
 def _millimetres(deviations: np.ndarray) -> np.ndarray:
     return deviations / 1e3
+
+
+def _nanometres(deviations: np.ndarray) -> np.ndarray:
+    return deviations * 1e3
 
 
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
         (_fall, "Run means fall from "),
+        (_fall, "1 µm is stated of drift at rest. What goes beyond it is in the results as the axis's own"),
         (_drift, "Run means rise from −11"),
+        (_one_direction_copied, "Both directions are identical in every digit, in runs 1, 2, 3, 4, 5"),
+        (_nanometres, "if the file has another unit"),
         (_outlier, "The reading of run 3 at 398.3 mm ↓ lies"),
         (_copied, "Runs 1, 2, 3, 4, 5 are identical in every digit"),
         (_millimetres, "state measurement.source.units: {deviation: mm}"),
@@ -284,6 +295,30 @@ def test_drift_is_said_where_nothing_is_stated_of_it(tmp_path: Path) -> None:
     keys = without("uncertainty.environmental_variation", keys=changed(REPORT))
 
     assert "nothing is stated of drift at rest" in cover(composed(tmp_path, keys, _drift(readings())))
+
+
+def test_nothing_says_that_drift_is_out_of_sight_where_run_means_show_it(tmp_path: Path) -> None:
+    text = text_of(composed(tmp_path, SOUND, _fall(readings())))
+
+    assert "drift and warm-up can only be judged by the order of the readings" in text
+
+
+@pytest.mark.parametrize(
+    ("alpha", "said"),
+    [
+        (0, "0 µm/(m·K) is unusual"),
+        (-11.5, "−11.5 µm/(m·K) is unusual"),
+    ],
+)
+def test_an_axis_that_does_not_expand_or_shrinks_in_the_warm_is_marked(
+    alpha: float, said: str, tmp_path: Path
+) -> None:
+    assert said in cover(composed(tmp_path, changed(("environment.expansion_coefficient", alpha))))
+
+
+@pytest.mark.parametrize("alpha", [1.2, -0.5, 23.8])
+def test_invar_carbon_fibre_and_aluminium_are_not(alpha: float, tmp_path: Path) -> None:
+    assert not composed(tmp_path, changed(("environment.expansion_coefficient", alpha))).doubts
 
 
 @pytest.mark.parametrize("seed", range(20))

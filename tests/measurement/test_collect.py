@@ -106,7 +106,7 @@ def test_without_times_it_is_said_what_cannot_be_judged() -> None:
     measurements = collected([reading(2)])
     assert measurements.time is None
     assert [remark.en for remark in measurements.provenance.remarks] == [
-        "No times were logged: drift and warm-up cannot be judged from the readings."
+        "No times were logged: drift and warm-up can only be judged by the order of the readings."
     ]
 
 

@@ -43,8 +43,9 @@ _FARTHEST = 1e4
 _MOST_RUNS = 1_000_000
 
 _NO_TIMES = Words(
-    en="No times were logged: drift and warm-up cannot be judged from the readings.",
-    de="Es wurden keine Zeiten aufgezeichnet: Drift und Warmlauf sind an den Messwerten nicht zu erkennen.",
+    en="No times were logged: drift and warm-up can only be judged by the order of the readings.",
+    de="Es wurden keine Zeiten aufgezeichnet: Drift und Warmlauf sind nur nach der Reihenfolge der Messwerte "
+    "zu beurteilen.",
 )
 _MODULO = Words(
     en="Whole turns were taken off {count} readings: positions were displayed modulo 360°.",
