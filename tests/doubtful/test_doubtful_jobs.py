@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,9 @@ from doubtful.doubtful_jobs import (
     parameter,
     readings,
     refusals,
+    write,
 )
+from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
 _SHOWN = "What readings and calibrations show"
@@ -367,6 +370,9 @@ def test_one_of_2009_is_marked(tmp_path: Path) -> None:
         ("instrument.due", "2026-10-01"),
         ("instrument.certificate", "none"),
         ("instrument.certificate", "-"),
+        ("instrument.certificate", "not calibrated yet"),
+        ("instrument.certificate", "keiner vorhanden"),
+        ("environment.thermometers", [{"name": "T 1", "certificate": "T-1", "due": "2026-10-01"}]),
     ],
 )
 def test_a_broken_chain_is_refused_and_marked_in_a_report(key: str, value: str, tmp_path: Path) -> None:
@@ -376,10 +382,54 @@ def test_a_broken_chain_is_refused_and_marked_in_a_report(key: str, value: str, 
     assert _SHOWN in cover(composed(tmp_path, changed(REPORT, of=keys)))
 
 
+def test_a_refusal_says_which_device_and_which_dates(tmp_path: Path) -> None:
+    said = refusals(tmp_path, changed(("instrument.calibrated", "2026-11-19")))
+
+    assert "Measuring instrument: calibrated on 2026-11-19, after the measurement of 2026-11-18" in said
+
+
+@pytest.mark.parametrize("layout", ["full", "standard", "sheet"])
+@pytest.mark.parametrize(
+    ("key", "value"), [("instrument.calibrated", "2026-11-19"), ("instrument.due", "2026-10-01")]
+)
+def test_a_report_does_not_call_results_traceable_by_a_chain_that_it_says_is_broken(
+    key: str, value: str, layout: str, tmp_path: Path
+) -> None:
+    keys = changed(REPORT, (key, value), ("certificate.layout", layout))
+
+    assert "metrologically traceable" not in text_of(composed(tmp_path, keys))
+
+
+def test_the_results_file_has_what_the_first_page_marks(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(("instrument.calibrated", "2009-05-04")), _fall(readings()))
+    said = json.loads(JsonResultsRenderer().render(document))["doubtful"]
+
+    assert [each.partition(" ")[0] for each in said] == ["Run", "Measuring"]
+    assert "doubtful" not in json.loads(JsonResultsRenderer().render(composed(tmp_path, SOUND)))
+
+
+def test_the_measurement_before_an_adjustment_is_looked_at_too(tmp_path: Path) -> None:
+    write(tmp_path, _fall(readings()))
+    (tmp_path / "x.csv").rename(tmp_path / "before.csv")
+    before = {
+        "adjustment": "table of pitch errors loaded",
+        "measurement": {"date": "2026-11-17", "source": {"plugin": "laser-csv", "file": "before.csv"}},
+    }
+    document = composed(tmp_path, changed(("as_found", before)))
+
+    assert "as found, before the adjustment: Run means fall from" in cover(document)
+
+
 def test_a_document_without_a_certificate_of_the_instrument_claims_no_traceability(tmp_path: Path) -> None:
     document = composed(tmp_path, changed(REPORT, ("instrument.certificate", "none")))
 
     assert "metrologically traceable" not in text_of(document)
+
+
+def test_the_thermometer_is_asked_for_where_a_length_is_not_at_20_degrees(tmp_path: Path) -> None:
+    warm = changed(("environment.axis_temperature", 20.6), of=without("environment.thermometers", keys=SOUND))
+
+    assert "no thermometer is named" in cover(composed(tmp_path, warm))
 
 
 def test_the_thermometer_of_a_correction_is_asked_for(tmp_path: Path) -> None:

@@ -114,7 +114,7 @@ def _cover(
     yield from conformity.rule_paragraph(keys.decision_rule, evaluations, writer)
     yield from _said_by_parts(parts, writer)
     yield from cover.shortfalls_of_parts({name: part.evaluations for name, part in parts.items()}, writer)
-    yield from statements.paragraphs(keys, writer)
+    yield from statements.paragraphs(job, writer)
 
 
 def _measurand(evaluation: Evaluation) -> Measurand:

@@ -66,7 +66,7 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
         *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
         *statements.notices(job.keys, writer),
-        *(statements.paragraphs(job.keys, writer) if pages is None else ()),
+        *(statements.paragraphs(job, writer) if pages is None else ()),
     )
 
 

@@ -20,7 +20,7 @@ _OWN = ("axis", "measurement", "instrument", "environment")
 _TABLE = Words(en="{name}: {caption}", de="{name}: {caption}")
 
 
-def said_of_each(lines: Iterable[tuple[str, Iterable[Words]]]) -> Iterator[Words]:
+def said_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
     """Yield sentences, each with the name of the line that it is on; without one where there is only one."""
     for name, sentences in lines:
         for said in sentences:

@@ -251,7 +251,7 @@ def _items(of: Material, page: Sequence[Evaluated], most: int) -> tuple[_Item, .
         *uncertainty.neglected(page[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *conditions.no_influence(job, of.measurements, writer),
-        *statements.paragraphs(job.keys, writer),
+        *statements.paragraphs(job, writer),
     )
     notices = (
         *statements.amendment_notice(job.keys.certificate, writer),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
-from zlmreport.evaluation.uncertainty.reasons import is_reference
+from zlmreport.evaluation import traceability
 from zlmreport.language import Words, same
 from zlmreport.measurement.error_symbol import error_named
 from zlmreport.measurement.units import with_unit
@@ -138,14 +138,15 @@ def notices(keys: JobKeys, writer: Writer) -> Iterator[Notice]:
         )
 
 
-def paragraphs(keys: JobKeys, writer: Writer) -> Iterator[Block]:
+def paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     """Yield the statements in running text."""
+    keys = job.keys
     if keys.provided_by_customer:
         yield Paragraph(writer.say(_SUPPLIED.given(mark=BY_CUSTOMER)))
     if keys.agreement.simplified:
         reference = keys.agreement.reference
         yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
-    if keys.instrument and keys.instrument.certificate and is_reference(keys.instrument.certificate):
+    if keys.instrument and traceability.is_shown(job):
         yield Paragraph(writer.say(TRACEABLE.given(certificate=keys.instrument.certificate)))
     yield Paragraph(writer.say(_ONLY_THIS_ITEM))
     if keys.certificate.kind == "certificate":
