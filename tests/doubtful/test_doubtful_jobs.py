@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from document.certificate.documents import text_of, without
+from doubtful import doubtful_jobs
 from doubtful.doubtful_jobs import (
     REPORT,
     SOUND,
@@ -278,7 +281,10 @@ def _nanometres(deviations: np.ndarray) -> np.ndarray:
     ("spoil", "said"),
     [
         (_fall, "Run means fall from "),
-        (_fall, "1 µm is stated of drift at rest. What goes beyond it is in the results as the axis's own"),
+        (
+            _fall,
+            "1 µm is stated of drift at rest: what exceeds it is counted as the axis's own, and not in U",
+        ),
         (_drift, "Run means rise from −11"),
         (_one_direction_copied, "Both directions are identical in every digit, in runs 1, 2, 3, 4, 5"),
         (_nanometres, "if the file has another unit"),
@@ -454,8 +460,104 @@ def test_results_outside_the_accredited_scope_are_marked(scope, said: str, tmp_p
     assert f"Outside the accredited scope: {said}" in cover(composed(tmp_path, keys))
 
 
+def test_a_certificate_that_names_no_document_is_open_where_the_standard_wants_it(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(REPORT, ("instrument.certificate", "pending")))
+
+    assert (
+        "Measuring instrument, its calibration and its compensation reported\N{NO-BREAK SPACE}* | not stated"
+        in text_of(document)
+    )
+
+
 def test_the_source_of_limits_is_printed_or_said_to_be_missing(tmp_path: Path) -> None:
     named = [{"standard": "iso230-2:2014", "tolerances": {"A": 10}, "specification": "Protocol 4711"}]
 
     assert "Protocol 4711" in cover(composed(tmp_path, changed(("evaluate", named))))
     assert "Limits as ordered; their source is not stated." in cover(composed(tmp_path, SOUND))
+
+
+# 9. Sentences.
+
+_LAYOUTS = ("full", "standard", "sheet")
+
+
+@pytest.fixture
+def long_axis(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    """Return a job on an axis of 2.5 m; its readings are written so, too."""
+    monkeypatch.setattr(doubtful_jobs, "TARGETS", 2.5 * TARGETS)
+    return changed(REPORT, ("axis.travel", [0, 2500]))
+
+
+def _runs(monkeypatch: pytest.MonkeyPatch, number: int) -> np.ndarray:
+    monkeypatch.setattr(doubtful_jobs, "RUNS", number)
+    return readings()
+
+
+@pytest.mark.parametrize("rule", ["simple", "guard-band", "iso14253-1", "non-binary"])
+def test_what_goes_beyond_the_standard_conforms_to_no_limit(
+    rule: str, long_axis: dict[str, Any], tmp_path: Path
+) -> None:
+    limits = [{"standard": "iso230-2:2014", "tolerances": {"A": 10, "R_fwd": 5, "E": 20}}]
+    document = composed(tmp_path, changed(("decision_rule", rule), ("evaluate", limits), of=long_axis))
+
+    assert {each: parameter(document, each).conforms for each in ("A", "R_fwd", "E")} == {
+        "A": None,
+        "R_fwd": None,
+        "E": True,
+    }
+    assert "nothing is decided on their limits" in text_of(document)
+
+
+def test_a_standard_that_knows_no_such_limit_decides_on_a_long_axis(
+    long_axis: dict[str, Any], tmp_path: Path
+) -> None:
+    limits = [{"standard": "vdi-dgq-3441", "tolerances": {"P": 20}}]
+
+    assert parameter(composed(tmp_path, changed(("evaluate", limits), of=long_axis)), "P").conforms
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_one_run_is_one_and_has_no_interval_of_the_axis(
+    layout: str, language: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    keys = changed(REPORT, ("certificate.layout", layout), ("certificate.language", language))
+    text = text_of(composed(tmp_path, keys, _runs(monkeypatch, 1)))
+
+    assert not re.search(r"(?<![\d.,])1 (?:runs|Durchläufe|readings|Messwerte)\b", text)
+    assert "interval of the axis" not in text
+    assert "Intervall der Achse" not in text
+    assert "which the parameters state" not in text
+
+
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_a_measuring_report_calibrates_nothing(layout: str, tmp_path: Path) -> None:
+    keys = changed(
+        REPORT,
+        ("certificate.layout", layout),
+        ("certificate.language", "de"),
+        ("next_due", {"date": "2027-11-18", "agreed": True}),
+        ("opinions", [{"statement": "Die Achse ist gut.", "basis": "A"}]),
+    )
+    text = text_of(composed(tmp_path, keys))
+
+    said = [line for line in text.splitlines() if re.search("alibrier", line)]
+    of_instrument = re.compile(
+        "Kalibrierschein: C-1|Kalibriert am|Kalibrierschein C-1|T-1, kalibriert|seine Kalibrierung"
+    )
+    assert [line for line in said if not of_instrument.search(line)] == []
+    assert "Messgegenstand" in text
+
+
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_german_has_the_words_of_the_field(layout: str, tmp_path: Path) -> None:
+    keys = changed(("certificate.layout", layout), ("certificate.language", "de"))
+    text = text_of(composed(tmp_path, keys))
+
+    assert "Kalibriergegenstand" in text
+    assert "Formelzeichen" in text
+    assert not re.search(r"\bZeichen\b|kalibrierten Gegenstand", text)
+
+
+def test_no_sentence_calls_a_mean_with_a_sign_a_full_width(tmp_path: Path) -> None:
+    assert "All parameters are full widths" not in text_of(composed(tmp_path, SOUND))

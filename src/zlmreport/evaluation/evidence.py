@@ -20,24 +20,23 @@ from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, M
 from zlmreport.measurement.units import ANGLES, Unit, with_unit
 
 _DRIFTS = Words(
-    en="Run means {lie} {low} {to} {high}; {stated} in the results as the axis's own, and U does not hold it",
-    de="Die Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated} in den Ergebnissen als Eigenschaft "
-    "der Achse, und U enthält es nicht",
+    en="Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U",
+    de="Die Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated} der Achse zugerechnet und nicht in U",
 )
 _LIE, _AND = Words(en="lie between", de="liegen zwischen"), Words(en="and", de="und")
 _RISE, _FALL = Words(en="rise from", de="steigen von"), Words(en="fall from", de="fallen von")
 _TO = Words(en="to", de="auf")
 _AT_REST = Words(
-    en="{range} is stated of drift at rest. What goes beyond it is",
-    de="für die Drift in Ruhe ist {range} angegeben. Was darüber hinausgeht, steht",
+    en="{range} is stated of drift at rest: what exceeds it is",
+    de="für die Drift in Ruhe ist {range} angegeben: was darüber hinausgeht, ist",
 )
 _NEGLECTED = Words(
-    en="drift at rest is declared negligible. All of it is",
-    de="Drift in Ruhe ist als vernachlässigbar erklärt. All das steht",
+    en="drift at rest is declared negligible: this is",
+    de="Drift in Ruhe ist als vernachlässigbar erklärt: dies ist",
 )
 _NOTHING_STATED = Words(
-    en="nothing is stated of drift at rest. All of it is",
-    de="zur Drift in Ruhe ist nichts angegeben. All das steht",
+    en="nothing is stated of drift at rest: this is",
+    de="zur Drift in Ruhe ist nichts angegeben: dies ist",
 )
 _OUTLIER = Words(
     en="The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "

@@ -102,8 +102,8 @@ def refusals(job: Job) -> Iterator[Problem]:
             yield Problem(
                 job.place_of(each.key),
                 f"{each.key}: {each.words.in_language(Language.ENGLISH)}: a calibration certificate needs a "
-                "calibration that was valid at the measurement (ISO/IEC 17025:2017, 7.8.4.1 c); state the one "
-                "that was",
+                "calibration that was valid at the measurement (ISO/IEC 17025:2017, 7.8.4.1 c); state the "
+                "one that was",
             )
 
 

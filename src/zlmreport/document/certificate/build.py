@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 GENERATOR = f"zlmreport {__version__}"
 
 _DESCRIPTION = Words(
-    en="{subject}, evaluated by {standards}",
+    en="{subject}, evaluated in accordance with {standards}",
     de="{subject}, ausgewertet nach {standards}",
 )
 
@@ -75,7 +75,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
     shown = (
         *said_of_each((name, _shown(line, of_line)) for name, line, of_line in lines),
-        *_shown_as_found(job, as_found, [one for _, *line in lines for one in _shown(*line)]),
+        *_shown_as_found(job, as_found, [one for _, line, of_line in lines for one in _shown(line, of_line)]),
     )
     letterhead, title = letterhead_of(job.keys.laboratory, logo), writer.say(document_title(certificate))
     results = tuple(each.evaluation for each in evaluated)

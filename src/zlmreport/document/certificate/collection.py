@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
-    from zlmreport.measurement.measurand import Measurand
 
 _SUBJECT = Words(en="{count} measurements of {machine}", de="{count} Messungen an {machine}")
 _THE_MACHINE = Words(en="a machine", de="einer Maschine")
@@ -38,7 +37,6 @@ _SUMMARY = Words(
 )
 _GROUP = Words(en="{subject}, {designation}", de="{subject}, {designation}")
 _TITLE = Words("{name}: {title}", "{name}: {title}")
-_CALIBRATION = Words(en="Calibration", de="Kalibrierung")
 _DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
 _NAMED = Words("{names}: {heading}", "{names}: {heading}")
 
@@ -107,18 +105,14 @@ def _cover(
     evaluations = [each for part in parts.values() for each in part.evaluations]
     yield from statements.amendment_notice(keys.certificate, writer)
     facts = stated_facts(_identity(job, evaluations, digest, writer), writer)
-    yield Facts(facts, writer.say(_CALIBRATION))
+    yield Facts(facts, writer.say(statements.WORK[keys.certificate.kind]))
     yield summary(parts, writer)
     if budget.is_complete:
-        yield from uncertainty.statement(budget, map(_measurand, evaluations), writer)
+        yield from uncertainty.statement(budget, evaluations, writer)
     yield from conformity.rule_paragraph(keys.decision_rule, evaluations, writer)
     yield from _said_by_parts(parts, writer)
     yield from cover.shortfalls_of_parts({name: part.evaluations for name, part in parts.items()}, writer)
     yield from statements.paragraphs(job, writer)
-
-
-def _measurand(evaluation: Evaluation) -> Measurand:
-    return evaluation.measurements.axis.measurand
 
 
 def summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
@@ -160,10 +154,10 @@ def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: 
         yield Fact(Words(en="Customer", de="Auftraggeber"), said, ("customer.name", "customer.address"))
     kind = writer.say(MACHINE_KINDS[machine.kind])
     item = f"{machine.type} ({kind})" if machine.type else kind
-    yield Fact(Words(en="Item calibrated", de="Gegenstand"), item, ("machine.manufacturer", "machine.model"))
+    yield Fact(statements.ITEM[keys.certificate.kind], item, ("machine.manufacturer", "machine.model"))
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
     names = ", ".join(dict.fromkeys(each.designation for each in evaluations))
-    yield Fact(Words(en="Evaluated by", de="Ausgewertet nach"), names)
+    yield Fact(Words(en="Evaluated in accordance with", de="Ausgewertet nach"), names)
     place = cover.place_of_work(keys)
     if place:
         yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
@@ -171,8 +165,7 @@ def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: 
     yield Fact(Words(en="Dates of measurement", de="Daten der Messungen"), _days(job, writer))
     yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
     if keys.next_due:
-        due = Words(en="Next calibration due, as agreed", de="Nächste Kalibrierung, wie vereinbart")
-        yield Fact(due, writer.date(keys.next_due.date))
+        yield Fact(statements.NEXT_DUE[keys.certificate.kind], writer.date(keys.next_due.date))
     if person:
         yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
     yield Fact(DIGEST, digest)
@@ -197,8 +190,7 @@ def _said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator
     """Yield what nobody may overlook of any part, once, with the names of the parts that say it."""
     found: dict[Notice, list[str]] = {}
     for name, part in parts.items():
-        measurands = tuple(map(_measurand, part.evaluations))
-        of_budget = uncertainty.statement(part.budget, measurands, writer) if part.budget else ()
+        of_budget = uncertainty.statement(part.budget, part.evaluations, writer) if part.budget else ()
         for block in part.cover or of_budget:
             if isinstance(block, Notice):
                 found.setdefault(block, []).append(name)

@@ -78,7 +78,7 @@ def readings_of_lines(tests: Sequence[Tested], writer: Writer) -> Iterator[Secti
 
 def uncertainty_of_lines(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
     """Return the uncertainty of what follows from the lines, and the budget of each."""
-    section = uncertainty.section(evaluated.budget, evaluated.evaluation.measurements.axis, writer)
+    section = uncertainty.section(evaluated.budget, (evaluated.evaluation,), writer)
     blocks = list(section.blocks)
     for test in tests:
         own = writer_of(test, writer)
