@@ -225,8 +225,8 @@ def test_more_runs_on_a_long_axis_go_beyond_the_standard() -> None:
     found = finding("iso230-2:2014", simulated_test(13, 5, length=3000), LONG_AXIS)
 
     assert said(found)[1:] == (
-        "5 runs on 3000 mm; the R and A that follow from them go beyond the standard, and nothing is decided on "
-        "their limits",
+        "5 runs on 3000 mm; the R and A that follow from them go beyond the standard, and nothing is decided "
+        "on their limits",
         False,
     )
 
