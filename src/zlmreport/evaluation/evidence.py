@@ -21,7 +21,7 @@ from zlmreport.measurement.units import ANGLES, Unit, with_unit
 
 _DRIFTS = Words(
     en="Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U",
-    de="Die Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated} der Achse zugerechnet und nicht in U",
+    de="Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated} der Achse zugerechnet und nicht in U",
 )
 _LIE, _AND = Words(en="lie between", de="liegen zwischen"), Words(en="and", de="und")
 _RISE, _FALL = Words(en="rise from", de="steigen von"), Words(en="fall from", de="fallen von")
