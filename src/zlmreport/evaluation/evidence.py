@@ -47,8 +47,8 @@ _OUTLIER = Words(
     "Ergebnissen (measurement.excluded legt ihn beiseite)",
 )
 _MORE_OUTLIERS = Words(
-    en="{count} more readings lie as far from the others of their targets",
-    de="{count} weitere Messwerte liegen ebenso weit neben den übrigen ihrer Sollpositionen",
+    en="As far from the others of their targets lie more readings (number: {count})",
+    de="Ebenso weit neben den übrigen ihrer Sollpositionen liegen weitere Messwerte (Anzahl: {count})",
 )
 _IDENTICAL = Words(
     en="Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter",

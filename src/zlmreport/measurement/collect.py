@@ -48,9 +48,9 @@ _NO_TIMES = Words(
     "zu beurteilen.",
 )
 _MODULO = Words(
-    en="Whole turns were taken off {count} readings: positions were displayed modulo 360°.",
-    de="Von {count} Messwerten wurden ganze Umdrehungen abgezogen: Die Positionen waren modulo 360° "
-    "angezeigt.",
+    en="Whole turns were taken off readings (number: {count}): positions were displayed modulo 360°.",
+    de="Von Messwerten wurden ganze Umdrehungen abgezogen (Anzahl: {count}): Die Positionen waren modulo "
+    "360° angezeigt.",
 )
 
 

@@ -16,6 +16,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.measured_lines import said_of_each
 from zlmreport.document.certificate.own_look import read_look
 from zlmreport.document.certificate.own_words import arranged, filled
+from zlmreport.document.certificate.readings import missing_readings
 from zlmreport.document.certificate.standard_layout import on_a_page
 from zlmreport.document.certificate.statements import document_title, in_a_line, running_title
 from zlmreport.document.certificate.values import Values
@@ -29,8 +30,11 @@ if TYPE_CHECKING:
     from zlmreport.job.job import Job
 
 _SUBJECT = Words(en="{count} measurements of {machine}", de="{count} Messungen an {machine}")
+_SUBJECT_OF_ONE = Words(en="One measurement of {machine}", de="Eine Messung an {machine}")
 _THE_MACHINE = Words(en="a machine", de="einer Maschine")
-_DESCRIPTION = Words(en="{subject}, evaluated by {standards}", de="{subject}, ausgewertet nach {standards}")
+_DESCRIPTION = Words(
+    en="{subject}, evaluated in accordance with {standards}", de="{subject}, ausgewertet nach {standards}"
+)
 _SUMMARY = Words(
     en="Summary: what has a limit, or else the first parameter of each measurement by each standard",
     de="Überblick: was einen Grenzwert hat, sonst die erste Kenngröße jeder Messung nach jeder Norm",
@@ -56,7 +60,9 @@ def collected(
     made_from = sources(job, [each.file for each in files if each.role is Role.READINGS], logo)
     budget = joined_budget({name: part.budget for name, part in parts.items() if part.budget})
     machine = keys.machine.type or writer.say(_THE_MACHINE)
-    subject = writer.say(_SUBJECT.given(count=len(parts), machine=machine))
+    subject = writer.say(
+        (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
+    )
     sections = [each for name, part in parts.items() for each in _sections_of(name, part, writer)]
     sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
@@ -190,13 +196,23 @@ def _said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator
     """Yield what nobody may overlook of any part, once, with the names of the parts that say it."""
     found: dict[Notice, list[str]] = {}
     for name, part in parts.items():
-        of_budget = uncertainty.statement(part.budget, part.evaluations, writer) if part.budget else ()
-        for block in part.cover or of_budget:
+        for block in part.cover or _on_sheet(part, writer):
             if isinstance(block, Notice):
                 found.setdefault(block, []).append(name)
     for block, names in found.items():
         heading = _NAMED.given(names=", ".join(names), heading=block.heading)
         yield Notice(writer.say(heading), block.items)
+
+
+def _on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:
+    """Yield what the first page says of a part that has none of its own, but for what it does not meet."""
+    own = Writer.of(part.measurements, writer.language, writer.marks)
+    if part.budget:
+        yield from uncertainty.statement(part.budget, part.evaluations, writer)
+    yield from cover.unlikely(part, own)
+    yield from missing_readings(part.measurements, own)
+    if part.job:
+        yield from statements.notices(part.job.keys, own)
 
 
 def _sections_of(name: str, part: Certificate, writer: Writer) -> Iterator[Section]:

@@ -27,6 +27,7 @@ from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
 
 if TYPE_CHECKING:
+    from zlmreport.document.certificate.document import Certificate
     from zlmreport.document.certificate.material import Material
     from zlmreport.document.writer import Writer
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
@@ -98,7 +99,7 @@ _EVIDENCE = Words(
 )
 
 
-def unlikely(of: Material, writer: Writer) -> Iterator[Notice]:
+def unlikely(of: Material | Certificate, writer: Writer) -> Iterator[Notice]:
     """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
     for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
         if sentences:
