@@ -247,11 +247,11 @@ def _items(of: Material, page: Sequence[Evaluated], most: int) -> tuple[_Item, .
     job, writer = of.job, of.writer
     evaluations = [each.evaluation for each in page]
     said = (
-        *uncertainty.statement(page[0].budget, (of.measurements.axis.measurand,), writer),
+        *uncertainty.statement(page[0].budget, evaluations, writer),
         *uncertainty.neglected(page[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *conditions.no_influence(job, of.measurements, writer),
-        *statements.paragraphs(job.keys, writer),
+        *statements.paragraphs(job, writer),
     )
     notices = (
         *statements.amendment_notice(job.keys.certificate, writer),

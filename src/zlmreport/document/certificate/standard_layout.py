@@ -71,7 +71,7 @@ def lay_out(of: Material) -> LaidOut:
     pages = together(of.evaluated, of.writer)
     page = columns.PAGES[of.job.keys.certificate.paper]
     on_cover = cover.blocks(of, pages)
-    said = () if of.is_part else tuple(statements.paragraphs(of.job.keys, of.writer))
+    said = () if of.is_part else tuple(statements.paragraphs(of.job, of.writer))
     free = page - columns.head_height(of.letterhead, of.title) - columns.height(on_cover)
     is_said_at_end = columns.height(said) > free >= 0
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
