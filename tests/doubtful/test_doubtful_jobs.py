@@ -47,7 +47,20 @@ def test_a_range_of_zero_states_nothing(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "reason", ["-", "none", "n/a", "negligible", "...", "0", "vernachlässigbar", "klein"]
+    "reason",
+    [
+        "-",
+        "none",
+        "n/a",
+        "negligible",
+        "...",
+        "0",
+        "0 µm",
+        "no influence",
+        "see above",
+        "kein Einfluss",
+        "klein",
+    ],
 )
 def test_a_dash_is_no_reason(reason: str, tmp_path: Path) -> None:
     keys = changed(("uncertainty.negligible.device_temperature", reason))
@@ -148,6 +161,35 @@ def test_a_temperature_that_moves_is_taken_reading_by_reading(tmp_path: Path) ->
         found = parameter(document, each.quantity.symbol)
         assert abs(found.value - each.value) < (found.expanded_uncertainty or 0.0), each.quantity.symbol
     assert refusals(tmp_path, SOUND, warm, temperatures=warming)
+
+
+@pytest.mark.parametrize("is_corrected", [True, False])
+def test_a_wrong_coefficient_of_a_machine_that_warms_up_is_in_r_too(
+    is_corrected: bool,  # noqa: FBT001 - a case
+    tmp_path: Path,
+) -> None:
+    """α is 11.95 µm/(m·K), and 11.5 ± 0.5 is stated: from 20 to 24 °C that opens R by some 1.5 µm."""
+    warming = np.linspace(20, 24, len(order()))
+    right = readings()
+    warm = right.copy()
+    for number, (target, direction, run) in enumerate(order()):
+        warm[target, direction, run] += 11.95 * (warming[number] - 20) * (TARGETS[target] - TARGETS[0]) / 1e3
+    correct = {"material": {"temperature": "axis_temperature"}} if is_corrected else {}
+    keys = changed(
+        REPORT,
+        ("corrections", correct),
+        ("uncertainty.resolution", 0.01),
+        ("uncertainty.negligible.environmental_variation", "none in this world"),
+    )
+    keys["uncertainty"].pop("environmental_variation")
+
+    document = composed(tmp_path, keys, warm, temperatures=warming)
+    truth = composed(tmp_path, changed(REPORT), right)
+
+    for symbol in ("R", "R_fwd", "R_bwd", "B"):
+        found = parameter(document, symbol)
+        assert abs(found.value - parameter(truth, symbol).value) < (found.expanded_uncertainty or 0.0), symbol
+    assert "reading by reading" in text_of(document)
 
 
 # 4. Risks agree.
