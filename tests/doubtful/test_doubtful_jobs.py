@@ -192,6 +192,22 @@ def test_a_wrong_coefficient_of_a_machine_that_warms_up_is_in_r_too(
     assert "reading by reading" in text_of(document)
 
 
+# 3. Another test.
+
+
+@pytest.mark.parametrize("layout", ["sheet", "standard", "full"])
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [("en", "with the same set-up left in place"), ("de", "mit derselben, unveränderten Messeinrichtung")],
+)
+def test_the_interval_of_the_axis_says_for_which_set_up_it_holds(
+    language: str, said: str, layout: str, tmp_path: Path
+) -> None:
+    keys = changed(("certificate.language", language), ("certificate.layout", layout))
+
+    assert said in text_of(composed(tmp_path, keys))
+
+
 # 4. Risks agree.
 
 
@@ -241,6 +257,40 @@ def test_a_laser_that_compensates_nothing_has_the_air_in_its_budget(tmp_path: Pa
 
 def test_its_sensors_are_demanded(tmp_path: Path) -> None:
     assert "uncertainty.air_pressure" in refusals(tmp_path, _blind())
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "not compensated",
+        "No compensation",
+        "keine Kompensation",
+        "uncompensated",
+        "off (sensor broken)",
+        "none; air pressure 900 hPa",
+        "fixed wavelength 632.8 nm",
+        "material only",
+        "nur Werkstoff",
+        "nicht kompensiert",
+    ],
+)
+def test_a_denial_in_other_words_is_one(said: str, tmp_path: Path) -> None:
+    assert "uncertainty.air_pressure" in refusals(tmp_path, _blind(("instrument.compensation", said)))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "air",
+        "Umweltkompensation",
+        "refractive index of the air; no material temperature",
+        "Edlén, by the weather station",
+        "automatic",
+        "Brechzahl der Luft, kein Werkstoff",
+    ],
+)
+def test_an_instrument_that_looks_at_the_air_is_believed(said: str, tmp_path: Path) -> None:
+    assert not refusals(tmp_path, _blind(("instrument.compensation", said)))
 
 
 def test_a_triangulating_sensor_needs_no_air(tmp_path: Path) -> None:
