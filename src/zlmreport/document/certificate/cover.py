@@ -69,14 +69,14 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
 
 
 #: Keys of the facts that one of several measurements has of its own.
-_OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
+OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
 
 
 def _of_part(of: Material) -> Iterator[Block]:
     """Yield what one of several measurements has of its own on the first page of their document."""
     job, measurements, writer = of.job, of.measurements, of.writer
     evaluations = tuple(each.evaluation for each in of.evaluated)
-    own = [each for each in identity(of, evaluations) if set(each.keys) & _OF_MEASUREMENT]
+    own = [each for each in identity(of, evaluations) if set(each.keys) & OF_MEASUREMENT]
     yield Facts(stated_facts(own, writer), writer.say(statements.WORK[job.keys.certificate.kind]))
     for key, group in conditions_in_groups(job, measurements, of.described, writer):
         if key != "machine":
