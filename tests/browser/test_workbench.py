@@ -93,8 +93,8 @@ def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     expect(page.get_by_role("link", name="EXAMPLE-2026-0007-compensation.csv")).to_be_visible()
     expect(page.get_by_label("Control", exact=True)).to_have_value("csv")
     page.get_by_role("button", name="Make the certificate").click()
-    expect(page.locator(".preview img")).to_have_js_property("complete", value=True)
-    assert page.locator(".preview img").evaluate("picture => picture.naturalWidth") > 500
+    expect(page.locator("#part-preview img")).to_have_js_property("complete", value=True)
+    assert page.locator("#part-preview img").evaluate("picture => picture.naturalWidth") > 500
     expect(page.get_by_text("Sheet: page 1 of 1")).to_be_visible()
     picture(page, "table")
     page.get_by_role("button", name="The next page").click()
@@ -313,7 +313,9 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
         has_touch=True,
     )
     diagnosed(page, "missing")
-    expect(page.get_by_text("Fehlender Einfluss: screw-pitch; er erklärt den Rest.")).to_be_visible()
+    expect(
+        page.get_by_text("Fehlender Einfluss: Periodischer Steigungsfehler der Spindel; er erklärt den Rest.")
+    ).to_be_visible()
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     controls = page.locator("button:visible, select:visible").all()
     heights = [box["height"] for each in controls if (box := each.bounding_box())]

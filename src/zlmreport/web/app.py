@@ -28,8 +28,10 @@ from zlmreport.web.commands import Commands, Wanted
 from zlmreport.web.comparison import ComparedTests
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.effect_page import effect_page
+from zlmreport.web.folded import folded
 from zlmreport.web.guard import HOST, Door, DoorKeeper
 from zlmreport.web.making import page_picture
+from zlmreport.web.stairs import with_stairs
 from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, closer, results, view
 
@@ -89,7 +91,9 @@ class Workbench:
             Route("/api/diagnosis/stop", self.stop, methods=["POST"]),
             Route("/api/effects/{effect}", self.effect),
             Route("/api/change", self.change, methods=["POST"]),
+            Route("/api/folded", self.folded),
             Route("/api/made/{name}", self.made),
+            Route("/api/made/{name}/stop", self.stop_making, methods=["POST"]),
             Route("/api/made/{name}", self.make, methods=["POST"]),
         ]
         return DoorKeeper(Starlette(routes=routes), door)
@@ -152,6 +156,16 @@ class Workbench:
 
         return await self._answered(request, found)
 
+    async def folded(self, request: HttpRequest) -> Response:
+        """Answer with an effect that repeats, on one period; with nothing for any other effect."""
+
+        def found() -> dict[str, Any]:
+            wanted = request.query_params.get("of", "")[:500]
+            wave = folded(self.bench, self.bench.loaded(), wanted, self._language(request))
+            return {"wave": wave}
+
+        return await self._answered(request, found)
+
     async def closer(self, request: HttpRequest) -> Response:
         """Answer with the curves of the model on the part of the travel that a page shows."""
 
@@ -201,7 +215,20 @@ class Workbench:
         making = self.commands.making.get(request.path_params["name"])
         if making is None:
             return Response(status_code=404)
-        return await self._answered(request, making.state)
+
+        def found() -> dict[str, Any]:
+            bench = self.bench
+            return with_stairs(making.state(), bench.loaded().job, bench.registry, self._language(request))
+
+        return await self._answered(request, found)
+
+    async def stop_making(self, request: HttpRequest) -> Response:
+        """End what is being made."""
+        making = self.commands.making.get(request.path_params["name"])
+        if making is None:
+            return Response(status_code=404)
+        await run_in_threadpool(making.end)
+        return JSONResponse({})
 
     async def make(self, request: HttpRequest) -> Response:
         """Begin to make something."""
