@@ -3,7 +3,7 @@
 import { h, said, symbol } from "./dom.js";
 import { written } from "./number.js";
 import { Plot } from "./plot.js";
-import { get } from "./server.js";
+import { ROOT, get } from "./server.js";
 
 /** Show an effect. */
 export async function showEffect(texts, effect) {
@@ -32,12 +32,12 @@ export async function showEffect(texts, effect) {
           h("dl", { class: "keys" }, found.keys.map((each) => [h("dt", {}, h("code", {}, each.name)), h("dd", {}, each.description)]))),
         found.confusions.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.confusions),
           h("dl", { class: "keys" }, found.confusions.map((each) => [
-            h("dt", {}, h("a", { href: `/effects/${each.effect}${location.search}` }, each.called), each.called !== each.title && h("span", { class: "quiet" }, ` ${each.title}`)),
+            h("dt", {}, h("a", { href: `${ROOT}/effects/${each.effect}${location.search}` }, each.called), each.called !== each.title && h("span", { class: "quiet" }, ` ${each.title}`)),
             h("dd", {}, h("strong", {}, `${texts.tell}: `), each.told)]))))));
 }
 
 function back(texts) {
-  return h("a", { href: `/${location.search}`, "data-key": "back" }, texts.back);
+  return h("a", { href: `${ROOT}/${location.search}`, "data-key": "back" }, texts.back);
 }
 
 function table(texts, found) {

@@ -3,6 +3,7 @@
 import { h, s, said, symbol } from "./dom.js";
 import { explained } from "./help.js";
 import { fixed } from "./number.js";
+import { ROOT } from "./server.js";
 import { wave } from "./wave.js";
 
 const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
@@ -288,7 +289,7 @@ function progress(texts, made, number, words) {
     return [h("p", { class: "progress" }, h("progress", { "aria-label": words }), ` ${words} `, h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(made.seconds) })))];
   }
   return [
-    made?.state === "made" && h("ul", { class: "files" }, made.files.map((name) => h("li", {}, h("a", { href: `/documents/${name}`, download: name }, name)))),
+    made?.state === "made" && h("ul", { class: "files" }, made.files.map((name) => h("li", {}, h("a", { href: `${ROOT}/documents/${name}`, download: name }, name)))),
     made?.state === "made" && !made.current && h("p", { class: "quiet" }, texts.outOfDate),
     made?.state === "failed" && h("ul", { class: "problems" }, made.problems.map((each) => h("li", {}, each))),
   ];
@@ -303,7 +304,7 @@ export function preview(texts, made, close) {
   const turn = (to) => {
     shown = Math.max(0, Math.min(all.length - 1, to));
     const { name, page, pages } = all[shown];
-    picture.src = `/documents/${name}/${page}.png?of=${made.stamp}`;
+    picture.src = `${ROOT}/documents/${name}/${page}.png?of=${made.stamp}`;
     picture.alt = said(name === "sheet" ? texts.sheetPage : texts.page, { page, pages });
     place.textContent = picture.alt;
   };
@@ -381,7 +382,7 @@ function grouped(all) {
 }
 
 function about(effect, name) {
-  return h("a", { href: `/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, name);
+  return h("a", { href: `${ROOT}/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, name);
 }
 
 /** Return what an effect is called beside its name, where that says more. */

@@ -3,10 +3,11 @@
 import { Comparison } from "./comparison.js";
 import { fill, h, said } from "./dom.js";
 import { showEffect } from "./effect.js";
+import { showFolder } from "./folder.js";
 import { Graphs } from "./graphs.js";
 import { written } from "./number.js";
 import * as panels from "./panels.js";
-import { Refusal, Silence, get, post } from "./server.js";
+import { ROOT, Refusal, Silence, get, post } from "./server.js";
 
 const LOOK = 1500;
 const ASK = 250;
@@ -42,7 +43,7 @@ class Page {
     this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }), (range) => this.#closer(range));
     this.comparison = new Comparison(texts, this.number, (curves) => this.graphs.overlay(curves));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
-    this.header = h("header", {}, h("p", { role: "status" }, texts.working));
+    this.header = h("header", {}, this.#all(), h("p", { role: "status" }, texts.working));
     this.parts = Object.fromEntries(["verdict", "fall", "stairs", "faults", "failures", "candidates", "experiment", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps", "preview"]
       .map((name) => [name, h("section", { class: NESTED.has(name) ? false : "panel", id: `part-${name}` })]));
     const { verdict, fall, stairs, faults, failures, candidates, experiment, hidden, compensation, lacking, certificate, effects, standards, excluded, steps, preview } = this.parts;
@@ -63,6 +64,7 @@ class Page {
       this.#show(await get("/api/job"));
       return true;
     } catch (error) {
+      if (!this.job) fill(this.header, this.#all());
       this.#tell(error, this.texts.broken);
       return false;
     }
@@ -125,10 +127,16 @@ class Page {
     }
   }
 
+  /** Return the way back to the folder, where the job was opened from one. */
+  #all() {
+    return ROOT && h("a", { href: `/${location.search}`, "data-key": "all-jobs" }, this.texts.allJobs);
+  }
+
   #heading(job) {
     const { texts } = this;
     return [
       h("h1", {}, job.number, h("span", {}, job.subject)),
+      this.#all(),
       h("code", {}, job.file),
       h("span", { class: "busy", "aria-hidden": "true" }, texts.working),
       [["undo", texts.undo, texts.undoOf], ["redo", texts.redo, texts.redoOf]].map(([action, name, of]) =>
@@ -333,6 +341,7 @@ class Page {
 }
 
 const texts = await get("/api/texts");
-const effect = location.pathname.match(/^\/effects\/(.+)$/)?.[1];
-if (effect) await showEffect(texts, effect);
+const effect = location.pathname.slice(ROOT.length).match(/^\/effects\/(.+)$/)?.[1];
+if (texts.folder) await showFolder(texts);
+else if (effect) await showEffect(texts, effect);
 else await new Page(texts).begin();
