@@ -93,8 +93,10 @@ _FINDINGS = {
 }
 _RISK = Words(en="Risk that the statement is wrong", de="Risiko, dass die Aussage falsch ist")
 _INTERVAL = Words(
-    en="Interval that holds, with 95 %, what another test of this axis by the same plan would find",
-    de="Intervall, das mit 95 % enthält, was eine weitere Messung dieser Achse nach demselben Plan fände",
+    en="Interval that holds, with 95 %, what another test of this axis by the same plan would find with the "
+    "same set-up left in place; errors of the set-up are not in it",
+    de="Intervall, das mit 95 % enthält, was eine weitere Messung dieser Achse nach demselben Plan mit "
+    "derselben, unveränderten Messeinrichtung fände; Fehler der Messeinrichtung enthält es nicht",
 )
 _LOWEST = Words(en="Lower end", de="Unteres Ende")
 _HIGHEST = Words(en="Upper end", de="Oberes Ende")

@@ -80,7 +80,7 @@ def measurement_facts(
     feed = None if measurements.axis.circle else measurement.feed  # that of a circle stands with the circle
     yield fact("Feed", "Vorschub", with_unit(feed, f"{unit}/min", writer), "feed")
     yield fact(
-        "Rest at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", writer), "dwell"
+        "Dwell at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", writer), "dwell"
     )
     yield fact("Warm-up", "Warmlauf", measurement.warm_up, "warm_up")
     yield fact("Compensation", "Kompensation", measurement.compensation, "compensation")
@@ -143,7 +143,7 @@ def environment_facts(
         elif logged:
             yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
     if environment is not None:
-        sensors = Words(en="Places of the sensors", de="Messstellen")
+        sensors = Words(en="Sensor locations", de="Messstellen")
         yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
         calibrated = "; ".join(_sensor(each, writer) for each in environment.thermometers)
         name = Words(en="Thermometers and sensors", de="Thermometer und Sensoren")

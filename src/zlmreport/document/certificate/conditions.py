@@ -49,9 +49,9 @@ _NO_INFLUENCE = Words(
 _CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
 _ALL_CORRECTED = Words(
     en="Every deviation in this document is a corrected one. The readings as they were displayed are in the"
-    " files that the section on their origin names.",
+    " files from which it was made.",
     de="Jede Abweichung in diesem Dokument ist korrigiert. Die angezeigten Messwerte stehen in den Dateien,"
-    " die der Abschnitt über ihre Herkunft nennt.",
+    " aus denen es erstellt ist.",
 )
 
 

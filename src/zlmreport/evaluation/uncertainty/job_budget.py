@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -74,7 +74,7 @@ def budget_of(
     instrument = of_the_instrument or _instrument(job, set_up)
     contributions = (
         *(() if isinstance(instrument, Words) else instrument),
-        *_of_the_length(job, set_up),
+        *_of_the_length(job, measurements, set_up),
         *of_the_circle(job, measurements),
         *air_contributions(job, measurements, set_up.length),
         *_fluctuations(job, measurements),
@@ -156,7 +156,7 @@ def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Itera
             )
 
 
-def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
+def _of_the_length(job: Job, measurements: MeasurementSet, set_up: SetUp) -> Iterator[Contribution]:
     """Yield what is in proportion to the measured length: alignment, temperatures, expansion.
 
     A range of zero states nothing: there is no error of which nobody could be wrong.
@@ -188,9 +188,36 @@ def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
         if coefficient and set_up.difference is not None:
             alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
             full_range = expansion_range(length, set_up.difference, alpha)
-            source = wording.EXPANSION.given(difference=set_up.difference, length=wording.length(length))
             stated = wording.full_range("R(α)", coefficient, "µm/(m·K)")
-            yield _contribution(key, full_range, stated, source, acts=acts)
+            yield replace(
+                _contribution(key, full_range, stated, _of_difference(set_up), acts=acts),
+                effect=_as_it_warms_up(measurements, set_up),
+            )
+
+
+def _of_difference(set_up: SetUp) -> Words:
+    """Return from which difference to 20 °C an error of the coefficient becomes one of the length."""
+    length = wording.length(set_up.length)
+    if not set_up.warms_up or set_up.differences is None:
+        return wording.EXPANSION.given(difference=set_up.difference or 0.0, length=length)
+    low, high = (_shown(float(each)) for each in (set_up.differences.min(), set_up.differences.max()))
+    return wording.EXPANSION_THAT_MOVES.given(low=low, high=high, length=length)
+
+
+def _as_it_warms_up(measurements: MeasurementSet, set_up: SetUp) -> FloatArray | None:
+    """Return which part of an error of the coefficient acts on each reading; None where ΔT stands still."""
+    if not set_up.warms_up or set_up.differences is None or not set_up.difference:
+        return None
+    share = _distances(measurements, set_up) / set_up.length
+    return read_only_floats(share * set_up.differences / set_up.difference)
+
+
+def _distances(measurements: MeasurementSet, set_up: SetUp) -> FloatArray:
+    """Return the length that expands under each reading, (N,), m: from the datum; of a circle its radius."""
+    if set_up.is_circle:
+        return np.full(len(measurements.target), set_up.length)
+    targets, datum = measurements.target_positions, measurements.datum
+    return np.asarray(targets[measurements.target] - (targets[0] if datum is None else datum))
 
 
 def _expansion_in(measurements: MeasurementSet, set_up: SetUp) -> Iterator[KnownError]:
@@ -198,11 +225,7 @@ def _expansion_in(measurements: MeasurementSet, set_up: SetUp) -> Iterator[Known
     alpha, expansion = set_up.uncorrected_coefficient, set_up.uncorrected_expansion
     if not (alpha and expansion) or set_up.differences is None:
         return
-    datum = measurements.datum
-    targets = measurements.target_positions
-    distance = targets[measurements.target] - (targets[0] if datum is None else datum)
-    if measurements.axis.circle is not None:  # its radius expands, whatever the angle
-        distance = np.full_like(distance, set_up.length)
+    distance = _distances(measurements, set_up)
     yield KnownError(
         name=wording.UNCORRECTED,
         correction=read_only_floats(-alpha * set_up.differences * distance),
@@ -360,6 +383,11 @@ class SetUp:
         if self.differences is None:
             return None
         return float(self.differences[np.argmax(np.abs(self.differences))])
+
+    @property
+    def warms_up(self) -> bool:
+        """Whether ΔT moves from reading to reading."""
+        return self.differences is not None and float(np.ptp(self.differences)) > 0.0
 
     @property
     def of_the_sensor(self) -> float | None:
