@@ -31,6 +31,7 @@ OTHERS = {
     "several": ("hidden_effects.several", "main"),
     "priors": ("hidden_effects.command", "main_of_priors"),
     "coverage": ("coverage_of_u", "main"),
+    "worlds": ("coverage_of_worlds", "main"),
     "circles": ("circle_coverage", "main"),
     "machines": ("machines_hidden", "main"),
     "closed-loops": ("closed_loops", "main"),

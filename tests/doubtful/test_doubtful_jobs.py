@@ -53,7 +53,20 @@ def test_a_range_of_zero_states_nothing(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "reason", ["-", "none", "n/a", "negligible", "...", "0", "vernachlässigbar", "klein"]
+    "reason",
+    [
+        "-",
+        "none",
+        "n/a",
+        "negligible",
+        "...",
+        "0",
+        "0 µm",
+        "no influence",
+        "see above",
+        "kein Einfluss",
+        "klein",
+    ],
 )
 def test_a_dash_is_no_reason(reason: str, tmp_path: Path) -> None:
     keys = changed(("uncertainty.negligible.device_temperature", reason))
@@ -156,6 +169,51 @@ def test_a_temperature_that_moves_is_taken_reading_by_reading(tmp_path: Path) ->
     assert refusals(tmp_path, SOUND, warm, temperatures=warming)
 
 
+@pytest.mark.parametrize("is_corrected", [True, False])
+def test_a_wrong_coefficient_of_a_machine_that_warms_up_is_in_r_too(
+    is_corrected: bool,  # noqa: FBT001 - a case
+    tmp_path: Path,
+) -> None:
+    """α is 11.95 µm/(m·K), and 11.5 ± 0.5 is stated: from 20 to 24 °C that opens R by some 1.5 µm."""
+    warming = np.linspace(20, 24, len(order()))
+    right = readings()
+    warm = right.copy()
+    for number, (target, direction, run) in enumerate(order()):
+        warm[target, direction, run] += 11.95 * (warming[number] - 20) * (TARGETS[target] - TARGETS[0]) / 1e3
+    correct = {"material": {"temperature": "axis_temperature"}} if is_corrected else {}
+    keys = changed(
+        REPORT,
+        ("corrections", correct),
+        ("uncertainty.resolution", 0.01),
+        ("uncertainty.negligible.environmental_variation", "none in this world"),
+    )
+    keys["uncertainty"].pop("environmental_variation")
+
+    document = composed(tmp_path, keys, warm, temperatures=warming)
+    truth = composed(tmp_path, changed(REPORT), right)
+
+    for symbol in ("R", "R_fwd", "R_bwd", "B"):
+        found = parameter(document, symbol)
+        assert abs(found.value - parameter(truth, symbol).value) < (found.expanded_uncertainty or 0.0), symbol
+    assert "reading by reading" in text_of(document)
+
+
+# 3. Another test.
+
+
+@pytest.mark.parametrize("layout", ["sheet", "standard", "full"])
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [("en", "with the same set-up left in place"), ("de", "mit derselben, unveränderten Messeinrichtung")],
+)
+def test_the_interval_of_the_axis_says_for_which_set_up_it_holds(
+    language: str, said: str, layout: str, tmp_path: Path
+) -> None:
+    keys = changed(("certificate.language", language), ("certificate.layout", layout))
+
+    assert said in text_of(composed(tmp_path, keys))
+
+
 # 4. Risks agree.
 
 
@@ -205,6 +263,40 @@ def test_a_laser_that_compensates_nothing_has_the_air_in_its_budget(tmp_path: Pa
 
 def test_its_sensors_are_demanded(tmp_path: Path) -> None:
     assert "uncertainty.air_pressure" in refusals(tmp_path, _blind())
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "not compensated",
+        "No compensation",
+        "keine Kompensation",
+        "uncompensated",
+        "off (sensor broken)",
+        "none; air pressure 900 hPa",
+        "fixed wavelength 632.8 nm",
+        "material only",
+        "nur Werkstoff",
+        "nicht kompensiert",
+    ],
+)
+def test_a_denial_in_other_words_is_one(said: str, tmp_path: Path) -> None:
+    assert "uncertainty.air_pressure" in refusals(tmp_path, _blind(("instrument.compensation", said)))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "air",
+        "Umweltkompensation",
+        "refractive index of the air; no material temperature",
+        "Edlén, by the weather station",
+        "automatic",
+        "Brechzahl der Luft, kein Werkstoff",
+    ],
+)
+def test_an_instrument_that_looks_at_the_air_is_believed(said: str, tmp_path: Path) -> None:
+    assert not refusals(tmp_path, _blind(("instrument.compensation", said)))
 
 
 def test_a_triangulating_sensor_needs_no_air(tmp_path: Path) -> None:

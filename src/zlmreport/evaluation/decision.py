@@ -68,11 +68,21 @@ class DecisionRule:
             return _UNDECIDED
         width = self.factor * self._unit(parameter) if self.factor else 0.0
         conformity = self._conformity(abs(parameter.value), limit, width)
-        corrected = parameter.value + parameter.known_error
-        if not self.factor and conformity is not self._conformity(abs(corrected), limit, width):
+        if self._turns_when_corrected(parameter, limit, conformity):
             conformity = Conformity.UNDECIDED  # by a value that is known to be wrong nothing is stated
         risk = None if uncertainty is None else _risk(parameter, limit, conformity)
         return Decision(conformity, limit - width, limit + width if self.between else limit - width, risk)
+
+    def _turns_when_corrected(self, parameter: Parameter, limit: float, conformity: Conformity) -> bool:
+        """Return whether a value without its known error would have the contrary stated of it."""
+        if not parameter.known_error or conformity.conforms is None:
+            return False
+        unit = (parameter.standard_uncertainty or 0.0) if self.factor else 0.0
+        if self.guard is Guard.EXPANDED_UNCERTAINTY:
+            unit *= parameter.coverage_factor or 0.0
+        corrected = abs(parameter.value + parameter.known_error)
+        right = self._conformity(corrected, limit, self.factor * unit)
+        return right.conforms is not None and right.conforms is not conformity.conforms
 
     def _unit(self, parameter: Parameter) -> float:
         """Return what the guard band is counted in; a known error is in it whole, however it is counted."""

@@ -17,6 +17,7 @@ from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.job.contradictions import last_day
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 if TYPE_CHECKING:
@@ -172,6 +173,8 @@ def _scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     if cmc is None:
         return
     axis, targets = job.axis, measurements.target_positions
+    if axis.measurand.coordinate is Coordinate.TIME:  # a scope of axes and their lengths says nothing of it
+        return
     if cmc.kind is not None and cmc.kind is not axis.kind:
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))

@@ -23,7 +23,7 @@ _TOLD: Mapping[str, Any] = {
     "instrument": {**COMPLETE["instrument"], "compensation": "none"},
     "environment": {"air_temperature": 20.1, "axis_temperature": 20, "sensors": "beside the axis"},
 }
-_REFERENCE = "Results for 20 °C: measured there, corrected to it, or the expansion counted in U"
+_REFERENCE = "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
 REPORTED = (
     "Feed, dwell at each target and warm-up reported",
     "Measuring line, or where the other axes stood, reported",

@@ -64,7 +64,8 @@ def collected(
         (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
     )
     sections = [each for name, part in parts.items() for each in _sections_of(name, part, writer)]
-    sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
+    if certificate.layout != "sheet":  # no sheet has it
+        sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
     style = certificate.style
     return replace(

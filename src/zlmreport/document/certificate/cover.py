@@ -10,12 +10,12 @@ from zlmreport.document.blocks import Block, Facts, Notice, RowGroup, Symbol, Ta
 from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
 from zlmreport.document.certificate.circumstances import Fact, date, days, stated_facts
 from zlmreport.document.certificate.conditions import (
-    AXIS_OR_CIRCLE,
     MACHINE_KINDS,
     axis_in_words,
     facts as facts_of_conditions,
     groups as conditions_in_groups,
     identified,
+    measured_of,
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import missing_readings
@@ -69,14 +69,14 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
 
 
 #: Keys of the facts that one of several measurements has of its own.
-_OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
+OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
 
 
 def _of_part(of: Material) -> Iterator[Block]:
     """Yield what one of several measurements has of its own on the first page of their document."""
     job, measurements, writer = of.job, of.measurements, of.writer
     evaluations = tuple(each.evaluation for each in of.evaluated)
-    own = [each for each in identity(of, evaluations) if set(each.keys) & _OF_MEASUREMENT]
+    own = [each for each in identity(of, evaluations) if set(each.keys) & OF_MEASUREMENT]
     yield Facts(stated_facts(own, writer), writer.say(statements.WORK[job.keys.certificate.kind]))
     for key, group in conditions_in_groups(job, measurements, of.described, writer):
         if key != "machine":
@@ -205,9 +205,7 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
-    yield Fact(
-        AXIS_OR_CIRCLE[keys.circle is not None], axis_in_words(job, writer), ("axis.name", "axis.kind")
-    )
+    yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     yield Fact(
         Words(en="Evaluated in accordance with", de="Ausgewertet nach"),
         ", ".join(evaluation.designation for evaluation in evaluations),

@@ -57,8 +57,9 @@ _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
             de="Temperaturen und ihre Messstellen angegeben",
         ),
         Information.REFERENCE_TEMPERATURE: Words(
-            en="Results for 20 °C: measured there, corrected to it, or the expansion counted in U",
-            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder die Ausdehnung in U enthalten",
+            en="Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U",
+            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder, bis 1 K davon, die Ausdehnung in U "
+            "enthalten",
         ),
         Information.INSTRUMENT: Words(
             en="Measuring instrument, its calibration and its compensation reported",
@@ -142,7 +143,8 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
     """Yield what of the information the job does not state."""
     keys = job.keys
     measurement, instrument, environment = keys.measurement, keys.instrument, keys.environment
-    logged, circle = measurements.conditions, keys.circle
+    logged = {name for line in measurements.lines for name in line.conditions}
+    circle = keys.circle
     length = environment and (environment.axis_temperature or environment.material_temperature)
     stated: Mapping[Information, tuple[tuple[Words, object], ...]] = {
         Information.MOTION: (
@@ -171,7 +173,7 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
             ),
             (
                 Words("temperature of the machine", "Temperatur der Maschine"),
-                length or logged.keys() & {"axis_temperature", "material_temperature"},
+                length or logged & {"axis_temperature", "material_temperature"},
             ),
             (
                 Words("sensor locations", "Messstellen"),

@@ -143,10 +143,14 @@ _RESTS = Words(
 )
 
 
-def notices(keys: JobKeys, writer: Writer) -> Iterator[Notice]:
-    """Yield what nobody may overlook: how the work departed from the method, and what others did."""
+def notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> Iterator[Notice]:
+    """Yield what nobody may overlook: how the work departed from the method, and what others did.
+
+    `names_all`: Whether every reading that was set aside is named, for no section on the readings names it.
+    """
     deviations = keys.measurement.deviations_from_method
-    items = (*([deviations] if deviations else []), *exclusions_stated(keys, writer))
+    most = None if names_all else _MOST_NAMED
+    items = (*([deviations] if deviations else []), *exclusions_stated(keys, writer, most))
     if items:
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
@@ -197,8 +201,11 @@ def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _K
         yield Notice(marked, tuple(_item(each, writer) for each in exclusions))
 
 
-def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
-    """Return what the first page says of readings that were set aside: they depart from the method."""
+def exclusions_stated(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
+    """Return what the first page says of readings that were set aside: they depart from the method.
+
+    `most`: Of so many; all of them if it is None.
+    """
     found = [(_EXCLUSION_STATED, _KEY, each) for each in keys.measurement.excluded]
     if keys.as_found:
         found += [(_STATED_AS_FOUND, f"as_found.{_KEY}", each) for each in keys.as_found.measurement.excluded]
@@ -212,10 +219,10 @@ def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
                 reason=each.reason,
             )
         )
-        for words, key, each in found[:_MOST_NAMED]
+        for words, key, each in found[:most]
     ]
-    if len(found) > _MOST_NAMED:
-        items.append(writer.say(_MORE.given(count=len(found) - _MOST_NAMED)))
+    if len(found) > len(items):
+        items.append(writer.say(_MORE.given(count=len(found) - len(items))))
     return tuple(items)
 
 
