@@ -189,7 +189,7 @@ def stating(words: Mapping[str, str]) -> Mapping[str, Any]:
 
 def taken(of: Certificate) -> list[float]:
     """Return how high each page is estimated to be, in parts of what it has."""
-    head = columns.head_height(of.letterhead, of.title, of.subtitle, of.number)
+    head = columns.head_height(of.letterhead, of.title, of.subtitle, of.number) + columns.BELOW_TITLE
     heights = [columns.heading_height(each.title) + columns.height(each.blocks) for each in of.sections]
     heights[0] += head
     return [height / (columns.PAGES[of.paper] + columns.END_MARK) for height in heights]
@@ -319,7 +319,7 @@ def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, 
     found = certificate(tmp_path, SHEET)
     section = found.sections[0]
     estimate = columns.head_height(found.letterhead, found.title, found.subtitle, found.number)
-    estimate += columns.heading_height(section.title)
+    estimate += columns.BELOW_TITLE + columns.heading_height(section.title)
     estimate += columns.height(section.blocks)
     taken = _lowest(found, renderer)
     assert taken < estimate + 12
