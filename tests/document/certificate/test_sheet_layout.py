@@ -10,7 +10,7 @@ from typing import Any
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry
+from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry, without
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.document import Certificate
@@ -118,8 +118,10 @@ def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) ->
     ]
     (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
     source = {"plugin": "laser-csv", "file": "x.csv"}
-    keys = having("evaluate", ["nmtba"], having("measurement.source", source, REPORT))
-    section = certificate(tmp_path, keys).sections[0]
+    keys = having(
+        "evaluate", ["nmtba"], having("measurement.source", source, without("customer", keys=REPORT))
+    )
+    section = certificate(tmp_path, having("location", "Hall 3", keys)).sections[0]
     tables = [block for block in section.blocks if isinstance(block, Table)]
     assert len(tables) == 2
 
