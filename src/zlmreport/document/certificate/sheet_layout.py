@@ -224,11 +224,11 @@ def _said(of: Material, page: _Page) -> Said:
     """Return what a page says besides; that of several measurements leaves out what their document says."""
     job, writer, evaluations = of.job, of.writer, page.evaluations
     said = (
-        *uncertainty.statement(page.evaluated[0].budget, (of.measurements.axis.measurand,), writer),
+        *uncertainty.statement(page.evaluated[0].budget, evaluations, writer),
         *uncertainty.neglected(page.evaluated[0].budget, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *conditions.no_influence(job, of.measurements, writer),
-        *(() if of.is_part else statements.paragraphs(job.keys, writer)),
+        *(() if of.is_part else statements.paragraphs(job, writer)),
         *said_of_all(evaluations, writer),
     )
     notices = (

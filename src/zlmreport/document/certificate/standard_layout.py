@@ -71,7 +71,7 @@ def lay_out(of: Material) -> LaidOut:
     pages = together(of.evaluated, of.writer)
     page = columns.PAGES[of.job.keys.certificate.paper]
     on_cover = cover.blocks(of, pages)
-    said = () if of.is_part else tuple(statements.paragraphs(of.job.keys, of.writer))
+    said = () if of.is_part else tuple(statements.paragraphs(of.job, of.writer))
     free = page - head_height(of) - columns.height(on_cover)
     is_said_at_end = columns.height(said) > free >= 0
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
@@ -267,14 +267,14 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
     """
     single = [each for each in figures if len(each.panels) == 1]
     main = main_graph(figures)
-    if main is not None:
+    if main is not None and len(main.panels) == 1:
         again = [each for each in single if each is not main and _shows_again(each.panels[0], main.panels[0])]
         readings = main.panels[0].readings or next((each.panels[0].readings for each in again), ())
         height = _ROUND if main.panels[0].is_polar else _MAIN
         yield replace(main, panels=(replace(main.panels[0], readings=readings),), height=height)
         single = [each for each in single if each is not main and each not in again]
     for each in figures:
-        if 1 < len(each.panels) <= _MOST_BESIDE:
+        if 1 < len(each.panels) <= _MOST_BESIDE and not each.has_several_quantities:
             yield replace(each, height=_BESIDE, is_wide=True)
         elif len(each.panels) > 1:
             yield each
@@ -285,9 +285,10 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
 def main_graph(figures: Sequence[Figure]) -> Figure | None:
     """Return the graph that shows where the parameters arise; any other of one panel if none does.
 
-    Of a circle it is that about the circle.
+    Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis.
     """
     single = [each for each in figures if len(each.panels) == 1]
+    single = single or [each for each in figures if each.has_several_quantities]
     single = [each for each in single if each.panels[0].is_polar] or single
     return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
 
