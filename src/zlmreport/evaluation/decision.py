@@ -31,6 +31,7 @@ _WIDE = Words(
     de="U von {symbol} ist größer als der Grenzwert: die Aussage besagt so gut wie nichts",
 )
 
+_UNDECIDED = Decision(Conformity.UNDECIDED, None, None, None)
 #: What is stated between TL − w and TL, and between TL and TL + w.
 _Between: TypeAlias = tuple[Conformity, Conformity]
 
@@ -64,7 +65,7 @@ class DecisionRule:
             return None
         uncertainty = parameter.standard_uncertainty if uncertainty_is_complete else None
         if uncertainty is None and self.factor:
-            return Decision(Conformity.UNDECIDED, None, None, None)
+            return _UNDECIDED
         width = self.factor * self._unit(parameter) if self.factor else 0.0
         conformity = self._conformity(abs(parameter.value), limit, width)
         if self._turns_when_corrected(parameter, limit, conformity):
@@ -122,8 +123,11 @@ def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
 def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
     """Return an evaluation with what the rule says of every parameter that has a limit."""
     complete = evaluation.uncertainty_is_complete
+    undecided = {symbol for each in evaluation.findings for symbol in each.undecided}
     parameters = tuple(
-        replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
+        replace(each, decision=_UNDECIDED)
+        if each.limit is not None and each.quantity.symbol in undecided
+        else replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
         for each in evaluation.parameters
     )
     impossible = tuple(_impossible(each) for each in parameters if _accepts_nothing(each))

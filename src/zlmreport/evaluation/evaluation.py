@@ -80,12 +80,16 @@ class Finding:
         True, False, or None where the job does not tell.
     basis
         Where the requirement is known from.
+    undecided
+        Symbols of parameters that the standard does not give for such a test: nothing is decided on their
+        limits.
     """
 
     requirement: Words
     found: Words
     met: bool | None
     basis: Basis = Basis.APPLIED
+    undecided: tuple[str, ...] = ()
 
 
 class Group(Enum):

@@ -193,6 +193,7 @@ def _readings_alone(
     return dcc(
         "measurementResult",
         writer.named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
+        _used_methods(certificate.evaluations, writer),  # what evaluates it together with others
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(test.job, writer)),
         group("influenceConditions", *influences(test.job, writer)),
@@ -214,7 +215,7 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
     """
     evaluation, job = test.evaluations[index], test.job
     measurements = evaluation.measurements
-    by, kind = (_RESULTS_BY_METHOD, "reference") if evaluation.is_method else (_RESULTS, "norm")
+    by = _RESULTS_BY_METHOD if evaluation.is_method else _RESULTS
     name = by.given(subject=measurements.axis.subject, designation=evaluation.designation)
     if test.name:
         name = _OF_LINE.given(name=test.name, said=name)
@@ -232,15 +233,27 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
     return dcc(
         "measurementResult",
         writer.named("name", name),
-        dcc(
-            "usedMethods",
-            dcc("usedMethod", writer.named("name", evaluation.title), dcc(kind, evaluation.designation)),
-        ),
+        _used_methods([evaluation], writer),
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(job, writer)),
         group("influenceConditions", test.state, *influences(job, writer)),
         dcc("results", *results),
         group("measurementMetaData", *_budget(test, writer), *_findings(evaluation, writer)),
+    )
+
+
+def _used_methods(evaluations: Iterable[Evaluation], writer: Writer) -> ET.Element:
+    """Return the standards and methods by which something was measured."""
+    return dcc(
+        "usedMethods",
+        *(
+            dcc(
+                "usedMethod",
+                writer.named("name", each.title),
+                dcc("reference" if each.is_method else "norm", each.designation),
+            )
+            for each in evaluations
+        ),
     )
 
 

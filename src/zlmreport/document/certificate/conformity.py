@@ -187,7 +187,7 @@ def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Ta
     is_mixed = units != {writer.deviation_unit}
     unit = "" if is_mixed else writer.deviation_unit.symbol
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
         Column(writer.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
         Column(
             writer.say(Words(en="Limit TL", de="Grenzwert TL")) + writer.marks.after("evaluate.tolerances"),

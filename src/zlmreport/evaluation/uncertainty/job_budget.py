@@ -35,6 +35,7 @@ from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, decimals_of, read_only_floats
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
 from zlmreport.measurement.units import (
     MICROMETRE,
@@ -325,7 +326,8 @@ def _other(keys: ContributionKeys, unit: Unit) -> Iterator[Contribution]:
 class SetUp:
     """The circumstances of a test, SI; None for what is not known as a number."""
 
-    #: L, from the first target position to the last, m or rad; of a circle its radius where that counts.
+    #: L, from the first target position to the last, m or rad; of a circle its radius where that counts, and
+    #: 0 of what was read over time.
     length: float
     expansion: float | None  #: α of the machine, 1/K.
     device_expansion: float | None  #: α of the measuring device, 1/K.
@@ -335,10 +337,16 @@ class SetUp:
     is_corrected: bool = False  #: Whether the readings are corrected to 20 °C by this program.
     compensated: float | None = None  #: α by which the instrument has corrected them already, 1/K.
     is_circle: bool = False  #: Whether two axes ran a circle together.
+    is_over_time: bool = False  #: Whether nothing moved but with time.
 
     @property
     def acts_of_device(self) -> Acts:
-        """Which readings share the constant part of the instrument's error, where a job does not say."""
+        """Which readings share the constant part of the instrument's error, where a job does not say.
+
+        Of an instrument that stands where it is, what is constant cancels: it errs by how it drifts.
+        """
+        if self.is_over_time:
+            return Acts.IN_TIME
         return Acts.ROUND_THE_CIRCLE if self.is_circle else Acts.AT_EACH_POSITION
 
     @property
@@ -350,7 +358,8 @@ class SetUp:
     def of(cls, job: Job, measurements: MeasurementSet) -> SetUp:
         """Return the circumstances that a job and its readings tell."""
         targets, circle = measurements.target_positions, job.axis.circle
-        length = float(targets[-1] - targets[0])
+        is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
+        length = 0.0 if is_over_time else float(targets[-1] - targets[0])
         if circle is not None:
             length = circle.radius if circle.is_calibrated else 0.0
         environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
@@ -365,6 +374,7 @@ class SetUp:
             is_corrected=material is not None,
             compensated=compensated,
             is_circle=circle is not None,
+            is_over_time=is_over_time,
         )
 
     @property
@@ -445,7 +455,8 @@ def _differences(job: Job, measurements: MeasurementSet) -> FloatArray | None:
 
 
 INSTRUMENT = "instrument"
-_OF_EVERY_AXIS = ("environmental_variation", "resolution")
+_RESOLUTION = "resolution"
+_OF_EVERY_AXIS = ("environmental_variation", _RESOLUTION)
 _OF_LENGTHS = (
     "misalignment",
     "machine_temperature",
@@ -484,7 +495,9 @@ def demanded(job: Job) -> tuple[str, ...]:
     corrections = job.keys.corrections
     corrects_air = corrections is not None and corrections.air is not None
     of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else ()
-    return (INSTRUMENT, *of_lengths, *of_air, *_OF_EVERY_AXIS)
+    is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
+    of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
+    return (INSTRUMENT, *of_lengths, *of_air, *of_all)
 
 
 def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:

@@ -150,10 +150,43 @@ def says_something(reason: str) -> bool:
     return bool(_SIZE.search(reason)) or any(word.lower() not in _EMPTY for word in _WORD.findall(reason))
 
 
-def is_reference(text: str) -> bool:
-    """Return whether a text can name a document: it has a number in it, or says something.
+#: Words that say of a document only that it is none, or none yet.
+_OF_NO_DOCUMENT: frozenset[str] = _EMPTY | {
+    "ausstehend",
+    "available",
+    "calibrated",
+    "calibration",
+    "certificate",
+    "fehlt",
+    "folgt",
+    "follows",
+    "kalibrierschein",
+    "kalibriert",
+    "kalibrierung",
+    "keinen",
+    "keiner",
+    "keines",
+    "later",
+    "liegt",
+    "missing",
+    "noch",
+    "pending",
+    "später",
+    "to",
+    "follow",
+    "verfügbar",
+    "vor",
+    "vorhanden",
+    "yet",
+    "zertifikat",
+}
 
-    >>> is_reference("C-1"), is_reference("none"), is_reference("")
-    (True, False, False)
+
+def is_reference(text: str) -> bool:
+    """Return whether a text can name a document: it has a number in it, or says something else than none.
+
+    >>> is_reference("C-1"), is_reference("none"), is_reference("not calibrated yet"), is_reference("")
+    (True, False, False, False)
     """
-    return any(character.isdigit() for character in text) or says_something(text)
+    words = (word.lower() for word in _WORD.findall(text))
+    return any(character.isdigit() for character in text) or any(one not in _OF_NO_DOCUMENT for one in words)
