@@ -126,7 +126,9 @@ def _simulated_pairs(
     return first, second
 
 
-def _interval(value: float, one: FloatArray, other: FloatArray, *, rounded: bool) -> tuple[float, float]:
+def _interval(
+    value: float, one: FloatArray, other: FloatArray, *, rounded: bool = False
+) -> tuple[float, float]:
     """Return the value with the quantiles of the differences within pairs on either side.
 
     `rounded`: Whether a parameter has few values: the ends are then some that occurred, and are inside.
