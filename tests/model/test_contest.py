@@ -22,7 +22,7 @@ from model.axis_tests import (
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import effects_to_try
-from zlmreport.model.diagnosis.contest import _WORTHS, Amplitudes, Contest, averaged
+from zlmreport.model.diagnosis.contest import _WORTHS, Amplitudes, Contest, _root_of, averaged
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.forms import unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import TRIALS, NullDistribution, Scores, simulate_null
@@ -298,3 +298,15 @@ def test_what_is_imitated_entirely_comes_with_what_would_show_it() -> None:
         "at these targets scale-error imitates it entirely; what would show it: align the beam anew until it "
         "returns to the same spot along the whole travel, and repeat"
     )
+
+
+def test_column_of_zeros_changes_nothing_of_a_set() -> None:
+    """The constant of a polynomial is that of the model: its column is left empty."""
+    random = np.random.default_rng(3)
+    columns = np.linalg.qr(random.standard_normal((40, 5)))[0] + 1e-3 * random.standard_normal((40, 5))
+    gram = columns.T @ columns
+    padded = np.zeros((6, 6))
+    padded[np.ix_([0, 1, 3, 4, 5], [0, 1, 3, 4, 5])] = gram
+    root = _root_of(padded)
+    assert np.abs(root).max() < 10.0
+    assert root.T @ root == pytest.approx(np.linalg.pinv(padded), abs=1e-9)

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 from model.axis_tests import SIGMA, linear_test, noise, pendulum_test
+from model.worlds import lasting_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.repeats import (
     SpreadFactor,
     apart_in_time,
+    lasting_floor,
     noise_floor,
     spread_tests,
     weights,
@@ -35,6 +37,19 @@ def test_slow_drift_is_not_in_the_noise_floor() -> None:
     drift = 20e-6 * DESIGN.time / DESIGN.duration
     found = noise_floor(DESIGN, noise(DESIGN) + drift)
     assert found == pytest.approx(noise_floor(DESIGN, noise(DESIGN)), rel=0.05)
+
+
+def test_noise_that_lasts_over_a_few_readings_is_in_the_lasting_floor_alone() -> None:
+    readings = lasting_noise(DESIGN, 0.6)
+    scatter = float(np.std(readings))
+    assert noise_floor(DESIGN, readings) < 0.75 * scatter  # type: ignore[operator]
+    assert lasting_floor(DESIGN, readings) == pytest.approx(scatter, rel=0.15)
+
+
+def test_slow_drift_is_not_in_the_lasting_floor() -> None:
+    drift = 3e-6 * np.sin(2 * np.pi * DESIGN.time / DESIGN.duration)
+    found = lasting_floor(DESIGN, noise(DESIGN) + drift)
+    assert found == pytest.approx(noise_floor(DESIGN, noise(DESIGN)), rel=0.15)
 
 
 def test_geometry_is_not_in_the_noise_floor() -> None:

@@ -37,6 +37,8 @@ _NOTHING, _ROUNDING = 1e-60, 1e-13
 _IMITATED = 1e-6
 #: Columns of a set whose product is smaller, of the largest, depend on the others.
 _DEPENDENT = 1e-9
+#: Square of the length of a column, of one in a block, that is rounding: the model imitates it.
+_ZERO = 1e-14
 
 #: Is told the share of some work that is done, 0 to 1.
 Told: TypeAlias = Callable[[float], object]
@@ -545,10 +547,13 @@ def _root_of(gram: FloatArray) -> FloatArray:
     """Return S with S·G·Sᵀ the unit matrix, for a Gram matrix whose columns may depend on each other."""
     if not len(gram):
         return np.empty((0, 0))
-    lengths = np.sqrt(np.maximum(np.diagonal(gram), _NOTHING))
-    values, vectors = np.linalg.eigh(gram / lengths[:, np.newaxis] / lengths)
+    squares = np.diagonal(gram)
+    # A column of zeros has no length: divided by one, the rounding of a vector would outgrow all the others.
+    seen = squares > _ZERO
+    lengths = np.sqrt(np.where(seen, squares, 1.0))
+    values, vectors = np.linalg.eigh(np.where(np.outer(seen, seen), gram, 0.0) / np.outer(lengths, lengths))
     kept = values > _DEPENDENT * max(float(values[-1]), _NOTHING)
-    return np.asarray((vectors[:, kept] / np.sqrt(values[kept])).T / lengths)
+    return np.asarray((vectors[:, kept] / np.sqrt(values[kept])).T * (seen / lengths))
 
 
 def _solved(gram: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatArray]:

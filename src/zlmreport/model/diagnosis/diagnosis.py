@@ -31,7 +31,7 @@ from zlmreport.model.fitting.estimate import Estimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validated_rms, fit
 from zlmreport.model.fitting.observations import Observations, thinned
 from zlmreport.model.fitting.priors import Expected
-from zlmreport.model.fitting.repeats import noise_floor, repeats
+from zlmreport.model.fitting.repeats import lasting_floor, noise_floor, repeats
 
 #: Share of the misfit from which on an effect explains it, and does not only contribute.
 EXPLAINS = 0.75
@@ -139,13 +139,8 @@ class Diagnosis:
     visibility: tuple[Visibility, ...]  #: How much of each effect this plan can see.
     outliers: IntArray  #: (k,) integer: Readings set aside, by their places in the measurement set.
     remarks: tuple[Words, ...]  #: What was assumed, and what was left out.
+    leaves_noise: bool  #: Whether nothing but noise is left once the whole set is in the model.
     faults: tuple[Fault, ...] = ()  #: What looks wrong in the data.
-
-    @property
-    def leaves_noise(self) -> bool:
-        """Whether nothing but noise is left once the whole set is in the model."""
-        ratio = self.error_after.chi2_per_dof
-        return self.remainder is None and (ratio is None or ratio <= LARGEST_RATIO)
 
     @property
     def further(self) -> tuple[str, ...]:
@@ -249,14 +244,18 @@ def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
 def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
     """Return what a diagnosis says of what was found; faults of the data come first."""
     observed, fitted, finding = asked.observed, held.fit, held.finding
-    together = tuple(each.leading.member.effect for each in finding.named)
     complete, candidates = held.complete, tuple(_candidates(finding, held.error))
+    # What the readings do not determine beside the job's model is no candidate.
+    known = {each.identifier for each in candidates}
+    leading = (each.leading.member.effect for each in finding.named)
+    together = tuple(each for each in leading if each.identifier in known)
     faults = faults_of(observed, fitted, complete, asked.effects, is_something_missing=bool(together))
     if any(each.comes_first for each in faults):
         together, candidates, complete = (), (), fitted
     tests = residual_tests(residuals_of(fitted, finding.noise))
     stand_off = flagged(observed.design, aside)
     not_testable = effects_to_try(asked.model, fitted.design, asked.effects).not_testable
+    after = held.error if complete is fitted else error_numbers(complete)
     return Diagnosis(
         fit=fitted,
         error=held.error,
@@ -266,7 +265,7 @@ def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
         failures=failures(tests) + ((stand_off,) if stand_off else ()),
         candidates=candidates,
         together=together,
-        error_after=held.error if complete is fitted else error_numbers(complete),
+        error_after=after,
         makeshift=finding.makeshift if together else (),
         remainder=held.left,
         not_testable=not_testable,
@@ -278,6 +277,7 @@ def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
             *gaps(observed.design),
             *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
         ),
+        leaves_noise=held.left is None and _is_noise(after, complete),
         faults=faults,
     )
 
@@ -297,10 +297,18 @@ def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterabl
 
 def _may_be_noise(error: ErrorNumbers, fitted: Fit) -> bool:
     """Return whether the repeats scatter so much that the error may be their scatter alone."""
-    ratio, within = error.chi2_per_dof, repeats(fitted.design, fitted.residual)
-    if ratio is None or ratio <= LARGEST_RATIO:
+    if _is_noise(error, fitted):
         return True
-    return f_tail(ratio, fitted.degrees, within.degrees) > _IMPROBABLE
+    ratio, within = error.chi2_per_dof, repeats(fitted.design, fitted.residual)
+    return ratio is None or f_tail(ratio, fitted.degrees, within.degrees) > _IMPROBABLE
+
+
+def _is_noise(error: ErrorNumbers, fitted: Fit) -> bool:
+    """Return whether the error is no larger than the noise, also such as lasts over a few readings."""
+    if error.chi2_per_dof is None or error.chi2_per_dof <= LARGEST_RATIO:
+        return True
+    lasting = lasting_floor(fitted.design, fitted.deviation)
+    return lasting is not None and error.rms**2 <= LARGEST_RATIO * lasting**2
 
 
 def _complete(fitted: Fit, named: Iterable[Named], makeshift: Iterable[str]) -> Fit:

@@ -146,11 +146,20 @@ class _Stated:
         is_left: bool,
     ) -> _Stated:
         own = tuple(each for each in fitted.model.terms if each.effect.identifier not in may_go)
-        entered = effects_to_try(AxisModel(own), fitted.design, effects)
+        effects = tuple(effects)
+        entered = effects_to_try(AxisModel(own), fitted.design, effects).forms
+        # Beside a joint that may go there may be a second, and that stays when the first goes.
+        names = {each.identifier for each in (*entered, *(term.effect for term in own))}
+        going = [term.effect for term in fitted.model.terms if term.effect.identifier in may_go]
+        several = [each for each in effects if each.several]
+        further = [
+            *(form for each in going if each.several for form in each.forms()),
+            *(effects_to_try(fitted.model, fitted.design, several).forms if going else ()),
+        ]
         is_linear = all(len(theta) == 0 for theta in fitted.solution.thetas)
         return cls(
             fitted,
-            entered.forms,
+            (*entered, *(each for each in further if each.identifier not in names)),
             expected.in_units_of(fitted.noise.sigma) if expected else None,
             may_go,
             is_left,

@@ -26,6 +26,8 @@ _WIDTHS = (0.04, 0.08, 0.15, 0.3, 0.5)
 #: Periods within travel or duration, and phases of a saw.
 _FEWEST, _PER_PERIOD, _PHASES = 1.25, 4, 8
 _MOST_PERIODS, _PLACES = 12.0, 24
+#: Periods of a saw at least: one that jumps once is a joint beside a slope, and these have names.
+_FEWEST_OF_SAW = 2.0
 #: Targets in a period, or in a width, that at least must tell it.
 _LEAST_IN_PERIOD, _LEAST_IN_WIDTH = 2.0, 1.5
 _DIGITS, _OF_STATED = 3, 6
@@ -221,7 +223,8 @@ def _starts(form: Form, along: FloatArray) -> FloatArray:
             rows = list(product(inner.tolist(), widths))
         case ("c", "L"):
             # The jump of a saw needs targets on either side, in more than one period.
-            rows = [(first + phase * each, each) for each in periods[: len(periods) // 2] for phase in phases]
+            listed = [each for each in periods[: len(periods) // 2] if extent >= _FEWEST_OF_SAW * each]
+            rows = [(first + phase * each, each) for each in listed for phase in phases]
         case ("c",):
             rows = [(each,) for each in (gaps if form is STEP else inner[2:-2]).tolist()]
         case ("w",):

@@ -44,6 +44,8 @@ UNUSUAL, FORBIDDEN = 6.0, 1e3
 _DOUBT, _SHARE_OF_SEARCHED = 2.0, 0.25
 #: Times the usual beyond which a value of the wrong sign costs no more.
 _FARTHEST = 1e3
+#: Of the longest column of an effect, one that is as short is imitated by the model.
+_SEEN = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,12 +225,35 @@ class SetSearch:
             own = slice(first, first + len(each.columns))
             first = own.stop
             information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
-            explained = float(solved[own] @ information @ solved[own]) / variance
             square = contest.expected.square(each.identifier)
-            cost += contest.worth(explained, each.rank, square) + each.family.price + each.spread
+            cost += each.family.price + each.spread
+            for explained, rank in self._by_size(each, solved[own], information / variance):
+                cost += contest.worth(explained, rank, square)
             if each.family.is_named:
                 cost += self._unusual(each, solved[own], variance * inverse[own, own])
         return cost
+
+    def _by_size(
+        self, member: Member, solved: FloatArray, information: FloatArray
+    ) -> Iterator[tuple[float, int]]:
+        """Yield what a member explains beside the others of a set, in σ², and with how many columns.
+
+        All its coefficients are of one size, but for an effect that contains others: a polynomial is a
+        constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
+        those before it leave.
+        """
+        if not member.effect.contains:
+            yield float(solved @ information @ solved), member.rank
+            return
+        contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
+        turned = self.contest.columns.values(member.columns).T @ contrasts
+        values, vectors = np.linalg.eigh(information)
+        root = np.sqrt(np.maximum(values, 0.0))[:, np.newaxis] * vectors.T
+        powers = root @ turned
+        lengths = np.linalg.norm(powers, axis=0)
+        powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
+        parts = np.linalg.qr(powers)[0].T @ (root @ solved)
+        yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
 
     def _unusual(self, member: Member, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""

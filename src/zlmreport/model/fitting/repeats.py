@@ -32,6 +32,8 @@ _STEPS, _LARGEST_STEP = 4, 1.0
 #: Decimal exponent of the finest step that is looked for, µm or ″, and what is a multiple of one.
 _FINEST, _MULTIPLE = -7, 1e-3
 _TRIALS = 1000
+#: Readings over which noise may last.
+_LASTS = 4
 _SEED = 20_261_118
 
 
@@ -120,6 +122,28 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
         if steps.size and expected > 0:
             return float(np.sqrt(np.sum(steps**2) / expected))
     return float(np.sqrt(within.squares / within.degrees))
+
+
+def lasting_floor(design: Design, deviation: FloatArray) -> float | None:
+    """Return the noise floor, that counted in which lasts from one reading to the next few; None without one.
+
+    Neighbours that scatter together differ by less than they scatter: a floor that is taken from them calls
+    such noise a misfit. Readings a few steps apart show it whole.
+
+    `deviation`, (N,): x, m or rad.
+    """
+    floor = noise_floor(design, deviation)
+    if floor is None or not apart_in_time(design):
+        return floor
+    within = repeats(design, deviation)
+    shares = 1.0 - 1.0 / within.count[within.cell]
+    for lag in range(2, _LASTS + 1):
+        pairs = (design.cycle[lag:] == design.cycle[:-lag]) & (within.cell[lag:] != within.cell[:-lag])
+        steps = (within.centred[lag:] - within.centred[:-lag])[pairs]
+        expected = float((shares[lag:] + shares[:-lag])[pairs].sum())
+        if expected > 0:
+            floor = max(floor, float(np.sqrt(np.sum(steps**2) / expected)))
+    return floor
 
 
 class SpreadFactor(Enum):
