@@ -103,13 +103,38 @@ def _diagonals() -> list[WorkedExample]:
     return [WorkedExample(joined(Axis("space", quantity=of), lines), values)]
 
 
+def _drift() -> list[WorkedExample]:
+    """Return sensors that drift by 4 µm in 24 hours, each 10 % of that more, two of them 200 mm apart."""
+    (of,) = measurands_of(_installed("iso230-3"))
+    lines, values = {}, {}
+    hours = np.arange(25.0)
+    for number, name in enumerate(of.test_names):
+        factor = 1 + number / 10
+        lines[name] = bidirectional_test(
+            hours,
+            factor * hours[:, np.newaxis] / 6,
+            np.full((25, 1), math.nan),
+            axis=Axis(name, quantity=of.of_lines),
+        )
+        values[f"E_{name}"] = factor * 4
+    tilt = math.degrees(0.4e-6 / 0.2) * 3600
+    values |= {f"tilt_{axis}": tilt for axis in "XYZ"}
+    keys = {"distance": {"X": 200, "Y": 200, "Z": 200}}
+    return [WorkedExample(joined(Axis("machine", quantity=of), lines), values, keys)]
+
+
 def _installed(identifier: str) -> Any:
     from zlmreport.plugin.registry import find_plugins
 
     return find_plugins().standard(identifier)
 
 
-_OF_LINES = {"iso230-1:2012": _straightness, "iso230-4:2005": _circle, "iso230-6:2002": _diagonals}
+_OF_LINES = {
+    "iso230-1:2012": _straightness,
+    "iso230-4:2005": _circle,
+    "iso230-6:2002": _diagonals,
+    "iso230-3": _drift,
+}
 _NONE = [math.nan, math.nan]
 #: Faces in turn, each probed from one side; between its neighbours the other side is interpolated.
 _FORWARD = [[0.0, 2.0], _NONE, [4.0, 6.0], _NONE]

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Any, Literal, get_args, get_origin
+from typing import Annotated, Any, Literal, get_args, get_origin
 
 import numpy as np
 from pydantic import ValidationError
@@ -20,6 +20,7 @@ from zlmreport.evaluation.statistics import statistics_of
 from zlmreport.job.types import Options
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.error_symbol import for_error
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing.expectations import check, expect, same_value
@@ -85,7 +86,11 @@ def gives_the_worked_values(
 def _expect_telling(standard: Standard, options: Options, examples: Sequence[WorkedExample]) -> None:
     """Expect examples whose values the usual mistakes would change."""
     where = f"{standard.identifier}: worked examples"
-    telling = [example for example in examples if _has_wide_reversal(example.measurements)]
+    telling = [
+        example
+        for example in examples
+        if _is_over_time(example.measurements) or _has_wide_reversal(example.measurements)
+    ]
     expect(
         telling,
         f"{where}: in one of them a reversal must be wider than the readings scatter (3 s), so that a "
@@ -115,6 +120,11 @@ def _zero(standard: Standard, options: Options) -> set[str]:
         for symbol, value in standard.arithmetic(statistics_of(each), options).parameters.items()
         if np.all(np.equal(value, 0.0))
     }
+
+
+def _is_over_time(measurements: MeasurementSet) -> bool:
+    """Return whether nothing moved: what is read over hours has one direction only."""
+    return all(line.axis.measurand.coordinate is Coordinate.TIME for line in measurements.lines)
 
 
 def _has_wide_reversal(measurements: MeasurementSet) -> bool:
@@ -188,13 +198,14 @@ def _others(options: Options, key: str) -> Iterator[Any]:
     """Yield other values of a key, as far as its type tells some."""
     value = getattr(options, key)
     annotation = type(options).model_fields[key].annotation
-    for kind in (annotation, *get_args(annotation)):
+    for each in (annotation, *get_args(annotation)):
+        kind = get_args(each)[0] if get_origin(each) is Annotated else each
         if get_origin(kind) is Literal:
-            yield from (each for each in get_args(kind) if each != value)
+            yield from (other for other in get_args(kind) if other != value)
         elif kind is bool:
             yield not value
         elif isinstance(kind, type) and issubclass(kind, Enum):
-            yield from (each for each in kind if each is not value)
+            yield from (other for other in kind if other is not value)
         elif kind in {int, float}:
             size = 1 if value is None else value
             yield from (2 * size + 1, size + 1, size - 1, *([size / 2] if kind is float else []))
