@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -20,7 +21,6 @@ from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import instruments
 
 ROOT = Path(__file__).parents[2]
-FORMATTER = (sys.executable, "-m", "ruff", "format", "--check", "--line-length", "110", "--isolated")
 
 
 @pytest.fixture
@@ -55,9 +55,11 @@ def test_skeleton_passes_its_kit(kind: str, begun: Any, tmp_path: Path) -> None:
     _imported("my_plugin", folder)
     tests = _imported("test_my_plugin", folder)
     takes_folder = kind in {"source", "notifier"}
-    tests.test_conforms(*([tmp_path] if takes_folder else []))
-    if kind == "standard":
-        tests.test_printed_example()
+    if kind == "quantity":
+        tests.test_standard_conforms()
+        tests.test_source_conforms(tmp_path)
+    else:
+        tests.test_conforms(*([tmp_path] if takes_folder else []))
 
 
 def test_skeleton_of_an_instrument_is_read(begun: Any) -> None:
@@ -70,33 +72,28 @@ def test_skeleton_of_an_instrument_is_read(begun: Any) -> None:
 def test_skeleton_is_found_and_names_a_guide_that_there_is(kind: str, begun: Any) -> None:
     folder = begun(kind)
     registry = find_plugins({}, [folder / "my_plugin.py"])
-    assert "my-plugin" in {each.identifier for each in registry.offers()}
+    offered = {each.identifier for each in registry.offers()}
+    expected = {"my-plugin:1", "my-plugin-text"} if kind == "quantity" else {"my-plugin"}
+    assert expected <= offered
     for path in folder.glob("*.*"):
-        assert "{{" not in path.read_text(encoding="utf-8").replace("{{7*7}}", ""), path
+        assert not re.search(r"\{\{\w{2,}\}\}", path.read_text(encoding="utf-8")), path
     assert (ROOT / "docs" / "how-to" / GUIDES[kind]).is_file()
 
 
-def test_skeleton_is_as_the_formatter_leaves_it(begun: Any) -> None:
-    pytest.importorskip("ruff", reason="the formatter comes with the group lint, and is not installed")
+def test_skeleton_passes_formatter_and_linter(begun: Any) -> None:
+    pytest.importorskip("ruff", reason="ruff comes with the group lint, and is not installed")
     for kind in GUIDES:
         folder = begun(kind)
-        formatted = subprocess.run(
-            [
-                sys.executable,
-                "-m",
-                "ruff",
-                "format",
-                "--check",
-                "--line-length",
-                "110",
-                "--isolated",
-                str(folder),
-            ],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        assert formatted.returncode == 0, formatted.stdout
+        for command in (["format", "--check"], ["check"]):
+            options = ["--line-length", "110", "--isolated", "--no-cache", "."]
+            done = subprocess.run(
+                [sys.executable, "-m", "ruff", *command, *options],
+                capture_output=True,
+                cwd=folder,
+                text=True,
+                check=False,
+            )
+            assert done.returncode == 0, f"{kind}: {done.stdout}"
         for path in folder.glob("*.*"):
             path.unlink()
 

@@ -61,8 +61,8 @@ def _take(connection: socket.socket, taken: list[str]) -> None:
             if is_content and line != b".\r\n":
                 content.append(line.removeprefix(b".") if line.startswith(b"..") else line)
                 continue
-            if is_content:
-                taken.append(_as_read(content))
+            if is_content and (mail := _as_read(content)):
+                taken.append(mail)
             word = line[:4].upper()
             is_content = word == b"DATA"
             connection.sendall({b"DATA": b"354 go on\r\n", b"QUIT": b"221 bye\r\n"}.get(word, b"250 yes\r\n"))
@@ -71,8 +71,10 @@ def _take(connection: socket.socket, taken: list[str]) -> None:
 
 
 def _as_read(content: list[bytes]) -> str:
-    """Return a mail as a reader sees it."""
+    """Return a mail as Ada sees it; nothing of what is for somebody else."""
     mail = email.message_from_bytes(b"".join(content), policy=email.policy.default)
+    if "ada@" not in str(mail["To"]):
+        return ""
     body = mail.get_body()
     assert body is not None
     return f"{mail['Subject']}\n{body.get_content()}"
@@ -83,7 +85,11 @@ def mail_trial(_: pytest.MonkeyPatch) -> Iterator[tuple[Mail, NotifierTrial]]:
     keys = {"to": "ada@example.com", "server": "127.0.0.1"}
     with post_office() as (port, taken):
         to_nobody = {**keys, "port": closed_port()}
-        yield Mail(), NotifierTrial({**keys, "port": port}, lambda: "".join(taken), to_nobody)
+        to_another = {**keys, "to": "bob@example.com", "port": port}
+        yield (
+            Mail(),
+            NotifierTrial({**keys, "port": port}, lambda: "".join(taken), to_nobody, to_another=to_another),
+        )
 
 
 @contextmanager
@@ -93,7 +99,8 @@ def apprise_trial(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Apprise, No
     class Chat(BaseHTTPRequestHandler):
         def do_POST(self) -> None:
             sent = json.loads(self.rfile.read(int(self.headers["Content-Length"])))
-            taken.append(f"{sent['title']}\n{sent['message']}\n")
+            if "other" not in self.path:
+                taken.append(f"{sent['title']}\n{sent['message']}\n")
             self.send_response(200)
             self.end_headers()
 
@@ -103,10 +110,17 @@ def apprise_trial(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[Apprise, No
     with HTTPServer(("127.0.0.1", 0), Chat) as server:
         threading.Thread(target=server.serve_forever, daemon=True).start()
         monkeypatch.setenv("CHAT", f"json://me:{SECRET}@127.0.0.1:{server.server_port}")
+        monkeypatch.setenv("OTHER", f"json://me:{SECRET}@127.0.0.1:{server.server_port}/other")
         monkeypatch.setenv("NOBODY", f"json://me:{SECRET}@127.0.0.1:{closed_port()}")
         yield (
             Apprise(),
-            NotifierTrial({"secret": "CHAT"}, lambda: "".join(taken), {"secret": "NOBODY"}, (SECRET,)),
+            NotifierTrial(
+                {"secret": "CHAT"},
+                lambda: "".join(taken),
+                {"secret": "NOBODY"},
+                (SECRET,),
+                {"secret": "OTHER"},
+            ),
         )
         server.shutdown()
 

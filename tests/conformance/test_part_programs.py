@@ -18,7 +18,12 @@ PROGRAMS = find_plugins().programs_for()
 @pytest.mark.parametrize("check", PART_PROGRAM_CHECKS)
 def test_conforms(program: PartProgram, check: Callable[..., None]) -> None:
     control = CONTROLS[program.identifier]
-    check(program, lambda text: control(text).stops, {})
+
+    def run(text: str) -> list[tuple[float, float, float]]:
+        machine = control(text)
+        return [(*stop, feed) for stop, feed in zip(machine.stops, machine.feeds, strict=True)]
+
+    check(program, run, {})
 
 
 def test_every_part_program_has_a_control() -> None:

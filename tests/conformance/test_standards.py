@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
+from conformance.worked import examples_of
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import STANDARD_CHECKS
@@ -17,12 +18,21 @@ KEYS = {
     "iso230-4:2005": {"circle": {"radius": 150, "feed": 1000, "calibrated_length": True}},
     "iso230-6:2002": {"axes": {"X": [0, 500], "Y": [0, 400], "Z": [0, 300]}},
 }
+#: Other values of keys that the kit finds none for.
+OTHER_KEYS = {
+    "iso230-3": {"distance": {"X": 100, "Y": 200, "Z": 200}},
+    "iso230-1:2012": {"square": {"error": 1.5, "expanded_uncertainty": 0.5}},
+    "iso230-4:2005": {"circle": {"radius": 150, "feed": 1000, "calibrated_length": False}},
+    "iso230-6:2002": {"axes": {"X": [0, 400], "Y": [0, 400], "Z": [0, 300]}},
+}
 
 
 @pytest.mark.parametrize("standard", STANDARDS, ids=lambda standard: standard.identifier)
 @pytest.mark.parametrize("check", STANDARD_CHECKS)
 def test_conforms(standard: Standard, check: Callable[..., None]) -> None:
-    check(standard, standard.options.model_validate(KEYS.get(standard.identifier, {})))
+    name = standard.identifier
+    options = standard.options.model_validate(KEYS.get(name, {}))
+    check(standard, options, examples_of(standard), OTHER_KEYS.get(name))
 
 
 def test_the_standards_that_users_are_promised_are_there() -> None:

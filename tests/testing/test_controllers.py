@@ -16,7 +16,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.model.compensation.curve import CompensationTable
-from zlmreport.testing import CONTROLLER_CHECKS, check_controller, controllers
+from zlmreport.testing import CONTROLLER_CHECKS, ControlExample, check_controller, controllers
 
 COUNTER = itertools.count()
 
@@ -49,6 +49,43 @@ class ExemplaryController:
 
 
 EXEMPLARY = ExemplaryController()
+EXAMPLE = ControlExample(
+    {".tab": "0 0 -1.5\n50.25 -3.25 -4.75\n"}, ((0, 0, 1.5), (50.25, 3.25, 4.75)), deviation_step=0.01
+)
+
+
+def alike(**factors: float) -> dict[str, Any]:
+    """Return the sin of a controller that writes and reads another column alike."""
+
+    def changed(table: CompensationTable, power: int) -> CompensationTable:
+        columns = {name: getattr(table, name) * factor**power for name, factor in factors.items()}
+        return replace(table, **{name: read_only_floats(column) for name, column in columns.items()})
+
+    return {
+        "files": lambda _, table, options: EXEMPLARY.files(changed(table, 1), options),
+        "read": lambda _, files, table, options: changed(EXEMPLARY.read(files, table, options), -1),
+    }
+
+
+def swapped_alike() -> dict[str, Any]:
+    return {
+        "files": lambda _, table, options: EXEMPLARY.files(crossed(table), options),
+        "read": lambda _, files, table, options: crossed(EXEMPLARY.read(files, table, options)),
+    }
+
+
+def in_steps(position: float, deviation: float) -> dict[str, Any]:
+    """Return the sin of a controller that writes positions and deviations in steps, m."""
+
+    def stepped(table: CompensationTable) -> CompensationTable:
+        return replace(
+            table,
+            positions=read_only_floats(np.round(table.positions / position) * position),
+            forward=read_only_floats(np.round(table.forward / deviation) * deviation),
+            reverse=read_only_floats(np.round(table.reverse / deviation) * deviation),
+        )
+
+    return meaning(stepped)
 
 
 def written(change: Callable[[str], Any]) -> dict[str, Any]:
@@ -91,7 +128,18 @@ class Demanding(Options):
     grid: float = Field(description="Without a default.")
 
 
+TWO_WAYS = controllers.reads_what_its_maker_prints
 SINS = [
+    (TWO_WAYS, alike(forward=-1, reverse=-1), "sign, direction and unit are the control's"),
+    (
+        TWO_WAYS,
+        swapped_alike(),
+        "of the maker's file 1.5 µm are read at 0 mm forward; the control takes 0 µm",
+    ),
+    (TWO_WAYS, alike(forward=1e-3, reverse=1e-3), "the control takes 3.25 µm away"),
+    (TWO_WAYS, alike(positions=1e-3), "no row is read at 50.25 mm"),
+    (controllers.reads_what_it_writes, in_steps(1e-6, 1e-6), "the control takes steps of 0.01 µm"),
+    (controllers.reads_what_it_writes, in_steps(1e-3, 1e-8), "m off its position"),
     (controllers.is_named, {"identifier": "A control"}, "must be lower-case ASCII"),
     (controllers.is_named, {"title": "A control"}, "title must be Words"),
     (controllers.is_named, {"notes": (Words(en="", de="x"),)}, "a note says nothing in 'en'"),
@@ -138,7 +186,7 @@ def sinner(sin: dict[str, Any]) -> Any:
 
 @pytest.mark.parametrize("check", CONTROLLER_CHECKS)
 def test_the_exemplary_controller_passes(check: Callable[..., None]) -> None:
-    check(EXEMPLARY, {})
+    check(EXEMPLARY, {}, EXAMPLE)
 
 
 @pytest.mark.parametrize(
@@ -146,7 +194,7 @@ def test_the_exemplary_controller_passes(check: Callable[..., None]) -> None:
 )
 def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
     with pytest.raises(AssertionError) as failure:
-        check(sinner(sin), {})
+        check(sinner(sin), {}, EXAMPLE)
     assert sentence in str(failure.value)
 
 
@@ -156,9 +204,25 @@ def test_every_check_has_a_sin() -> None:
 
 def test_all_failures_are_reported_at_once() -> None:
     with pytest.raises(AssertionError) as failure:
-        check_controller(sinner({"confidence": "sure", "read": lambda *_: {}["x"]}))
+        check_controller(sinner({"confidence": "sure", "read": lambda *_: {}["x"]}), example=EXAMPLE)
     lines = str(failure.value).splitlines()
     assert [line.split(": ")[:2] for line in lines] == [
         ["is_named", "exemplary-control"],
         ["reads_what_it_writes", "exemplary-control"],
+        ["reads_what_its_maker_prints", "exemplary-control"],
     ]
+
+
+@pytest.mark.parametrize(
+    ("example", "sentence"),
+    [
+        (None, "give a file as the control's maker prints it"),
+        (replace(EXAMPLE, rows=EXAMPLE.rows[:1]), "two are needed at least"),
+        (replace(EXAMPLE, rows=((0, 0, 0), (1, 0, 0))), "that are not zero"),
+        (replace(EXAMPLE, rows=((0, 1, 1), (1, 2, 2))), "must differ forward and in reverse"),
+    ],
+    ids=["none", "one row", "zeros", "directions alike"],
+)
+def test_an_example_that_tells_nothing_does_not_pass(example: ControlExample | None, sentence: str) -> None:
+    with pytest.raises(AssertionError, match=sentence):
+        TWO_WAYS(EXEMPLARY, {}, example)

@@ -19,7 +19,7 @@ from zlmreport.job.types import Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Confusion
+from zlmreport.model.effects.effect import Confusion, Shape
 from zlmreport.testing import EFFECT_CHECKS, check_effect, effects, full_designs
 
 DESIGNS = full_designs()
@@ -65,6 +65,11 @@ TOO_MANY = Formula.of(
     ),
     AxisKind.LINEAR,
 )
+OF_DIRECTION: dict[str, Any] = {
+    "untestable": lambda *_: None,
+    "grid": lambda *_: np.empty((1, 0)),
+    "columns": lambda _, design, __: design.direction[:, np.newaxis] / 2,
+}
 SINS: list[tuple[str, dict[str, Any], str]] = [
     ("is_described", {"identifier": "Wave!"}, "identifier 'Wave!' must be lower-case"),
     ("is_described", {"title": same("")}, "title says nothing"),
@@ -83,6 +88,33 @@ SINS: list[tuple[str, dict[str, Any], str]] = [
         "confusions name periodic twice",
     ),
     ("names_what_it_is_taken_for", {"confusions": (Confusion("periodic", same("")),)}, "says nothing"),
+    (
+        "names_what_it_is_taken_for",
+        {"confusions": (Confusion("periodical", same("x")),)},
+        "no effect is called 'periodical'; did you mean 'periodic'",
+    ),
+    (
+        "cannot_be_tested_where_it_is_not_seen",
+        {"untestable": lambda *_: None},
+        "on a test of two targets no readings could tell its parameters apart from a constant",
+    ),
+    (
+        "cannot_be_tested_where_it_is_not_seen",
+        {"searched": (), **OF_DIRECTION},
+        "on a test in one direction no readings could tell its parameters apart from a constant",
+    ),
+    ("shape_is_what_it_follows", {"shape": Shape.TIME}, "shape is TIME, and its columns follow position"),
+    ("shape_is_what_it_follows", {"shape": Shape.DIRECTION}, "shape is DIRECTION"),
+    (
+        "shape_is_what_it_follows",
+        _columns(lambda columns, design: columns * design.time[:, np.newaxis] * 1e-4),
+        "shape is POSITION, and its columns follow position, time, too",
+    ),
+    (
+        "grid_stays_in_range",
+        {"grid": lambda *_: np.array([[1.5], [20.0]])},
+        "the grid of 'wavelength' leaves its range of 0 to 10 (SI) on every test: it begins at [1.5]",
+    ),
     ("parameters_are_described", {"linear": ()}, "linear is empty"),
     ("parameters_are_described", {"searched": (HEIGHT,)}, "names of parameters must be unique"),
     ("parameters_are_described", {"linear": (replace(HEIGHT, name="höhe"),)}, "must be an ASCII name"),
@@ -119,6 +151,11 @@ SINS: list[tuple[str, dict[str, Any], str]] = [
         "columns_are_readings_by_parameters",
         _columns(lambda columns, _: columns * next(_ANSWERS)),
         "the second answer differs",
+    ),
+    (
+        "rows_stand_alone",
+        _columns(lambda columns, design: columns + 1e3 * design.position.min()),
+        "(those above the lowest target stay)",
     ),
     (
         "rows_stand_alone",

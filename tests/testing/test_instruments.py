@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import islice
 from types import SimpleNamespace
 from typing import Any
@@ -18,7 +19,7 @@ from zlmreport.live.emulation.emulator import Emulator, Scene, Trouble
 from zlmreport.live.ports.dialogue import streamed
 from zlmreport.live.ports.port import Framing, LiveConnection, Port, PortOptions
 from zlmreport.live.ports.reading import Fault, LiveReading
-from zlmreport.testing import instruments
+from zlmreport.testing import InstrumentTraits, instruments
 
 
 class _Emulator:
@@ -80,6 +81,9 @@ class _Gauge:
         return found
 
 
+TRAITS = InstrumentTraits(has_check_sum=False, tells_lost_beam=True)
+
+
 class _RequiringOptions(PortOptions):
     password: str = Field(description="Required.")
 
@@ -103,10 +107,12 @@ def _careless(_self: object, _options: PortOptions) -> Any:
         instruments.options_are_described,
         instruments.follows_the_axis,
         instruments.no_cut_answer_is_usable,
+        instruments.no_garbled_answer_is_usable,
+        instruments.tells_of_a_lost_beam,
     ],
 )
 def test_a_sound_instrument_passes(check: Any) -> None:
-    check(_Gauge())
+    check(_Gauge(), TRAITS)
 
 
 @pytest.mark.parametrize(
@@ -120,13 +126,30 @@ def test_a_sound_instrument_passes(check: Any) -> None:
         (instruments.no_wrong_reading_is_usable, _sin(fault=Fault(0)), "the axis rests at 0, and 1.0 m"),
         (instruments.sign_turns_it_round, _sin(per_metre=-1e9), r"with sign '\+' readings go by"),
         (instruments.no_cut_answer_is_usable, _sin(takes_cut=True), "m is called usable"),
+        (instruments.tells_of_a_lost_beam, _sin(fault=Fault.UNREADABLE), "no reading says so"),
         (instruments.refuses_silence, _sin(open=lambda *_: sys.exit(0)), "raised SystemExit: 0"),
         (instruments.refuses_silence, _sin(open=_careless), "an AccessError is expected"),
     ],
 )
 def test_a_sin_is_found(check: Any, sinful: Any, sentence: str) -> None:
     with pytest.raises(AssertionError, match=sentence):
-        check(sinful)
+        check(sinful, TRAITS)
+
+
+def test_a_check_sum_that_nobody_looks_at_is_found() -> None:
+    with pytest.raises(AssertionError, match="a digit is another, and the check sum is not"):
+        instruments.no_garbled_answer_is_usable(_Gauge(), replace(TRAITS, has_check_sum=True))
+
+
+def test_the_author_says_what_the_manual_says() -> None:
+    for check in (instruments.no_garbled_answer_is_usable, instruments.tells_of_a_lost_beam):
+        with pytest.raises(AssertionError, match="say what its manual says"):
+            check(_Gauge())
+
+
+def test_an_instrument_that_knows_no_beam_need_not_tell_of_it() -> None:
+    traits = replace(TRAITS, tells_lost_beam=False)
+    instruments.tells_of_a_lost_beam(_sin(fault=Fault(0)), traits)
 
 
 def test_an_instrument_that_waits_for_ever_is_found(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -24,7 +25,7 @@ class BoardOptions(Options):
 
 
 class ExemplaryNotifier:
-    """Pins each message to a board; there is only one, called north."""
+    """Pins each message to a board; there are two, and one reads what is on that in the north."""
 
     identifier = "exemplary-board"
     title: Any = Words(en="A board", de="Ein Brett")
@@ -37,13 +38,20 @@ class ExemplaryNotifier:
         return str(options.board)
 
     def tell(self, message: Message, options: Any) -> None:
-        if options.board != "north":
+        if options.board not in {"north", "south"}:
             raise AccessError.at(Place(options.board), "there is no such board")
-        self.pinned.append(f"{message.title}\n{message.text}")
+        if options.board == "north":
+            self.pinned.append(f"{message.title}\n{message.text}")
 
 
 def trial(notifier: Any) -> NotifierTrial:
-    return NotifierTrial({"board": "north"}, lambda: "".join(notifier.pinned), {"board": "west"}, (SECRET,))
+    return NotifierTrial(
+        {"board": "north"},
+        lambda: "".join(notifier.pinned),
+        {"board": "west"},
+        (SECRET,),
+        {"board": "south"},
+    )
 
 
 def pinned(change: Callable[[Message], str]) -> dict[str, Any]:
@@ -109,9 +117,11 @@ SINS: list[tuple[Any, dict[str, Any], str]] = [
     ),
     (
         notifiers.tells_all_of_it_once,
-        pinned(lambda one: f"{one.title}\n{one.text}"[:90]),
-        "did not arrive as it is",
+        pinned(lambda one: f"{one.title}\n{one.text}"[:200]),
+        "lines of a message of",
     ),
+    (notifiers.tells_whom_its_keys_name, {"receiver": lambda *_: "the board"}, "for other keys too"),
+    (notifiers.tells_whom_its_keys_name, {"tell": careless}, "what somebody else is told arrives at"),
     (
         notifiers.tells_all_of_it_once,
         pinned(lambda one: f"{one.title}\n{one.text}" * 2),
@@ -148,6 +158,12 @@ def test_every_check_has_a_sin() -> None:
     assert {check for check, *_ in SINS} == set(NOTIFIER_CHECKS)
 
 
+def test_a_trial_names_somebody_else() -> None:
+    notifier = ExemplaryNotifier()
+    with pytest.raises(AssertionError, match="say by which keys somebody else is told"):
+        notifiers.tells_whom_its_keys_name(notifier, replace(trial(notifier), to_another=None))
+
+
 def test_all_failures_are_reported_at_once() -> None:
     notifier = sinner({"title": "", "receiver": lambda *_: ""})
     with pytest.raises(AssertionError) as failure:
@@ -155,4 +171,5 @@ def test_all_failures_are_reported_at_once() -> None:
     assert [line.split(":")[0] for line in str(failure.value).splitlines()] == [
         "is_named",
         "names_who_is_told",
+        "tells_whom_its_keys_name",
     ]

@@ -74,6 +74,21 @@ SINS = [
         {"write": on_paper(lambda text: text.replace("REST 3.5", "REST 3"))},
         "stop 2 is at -20.5 for 3 s; expected -20.5 for 3.5 s",
     ),
+    (
+        part_programs.moves_at_the_planned_feed,
+        {"write": on_paper(lambda text: re.sub(r"FEED \S+\n", "", text))},
+        "the motion to stop 1 has the feed nan; expected 1500 mm/min, stated before the first motion",
+    ),
+    (
+        part_programs.moves_at_the_planned_feed,
+        {"write": on_paper(lambda text: re.sub(r"(FEED \S+\n)(GO \S+\n)", r"\2\1", text))},
+        "the motion to stop 1 has the feed nan",
+    ),
+    (
+        part_programs.moves_at_the_planned_feed,
+        {"write": on_paper(lambda text: text.replace("FEED 1500", "FEED 25"))},
+        "the motion to stop 1 has the feed 25; expected 1500 mm/min",
+    ),
     (part_programs.is_plain_text, {"write": lambda *_: b"GO 1\n"}, "must return the text of a program"),
     (part_programs.is_plain_text, {"write": on_paper(lambda text: f"SAY ä\n{text}")}, "beyond ASCII"),
     (
@@ -116,6 +131,13 @@ def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], 
     with pytest.raises(AssertionError) as failure:
         check(sinner, run_steps, {})
     assert sentence in str(failure.value)
+
+
+def test_an_interpreter_tells_the_feed() -> None:
+    with pytest.raises(AssertionError, match=r"let the interpreter return \(position, seconds, feed\)"):
+        part_programs.moves_at_the_planned_feed(
+            ExemplaryProgram(), lambda text: [stop[:2] for stop in run_steps(text)], {}
+        )
 
 
 def test_every_check_has_a_sin() -> None:

@@ -60,6 +60,23 @@ def in_nanometres(_self: object, certificate: Certificate) -> bytes:
     return json.dumps([certificate.number, certificate.title, parameter.value * 1e9]).encode()
 
 
+def backwards(_self: object, certificate: Certificate) -> bytes:
+    return ExemplaryPage().render(replace(certificate, sections=certificate.sections[::-1]))
+
+
+def by_symbol(_self: object, certificate: Certificate) -> bytes:
+    found = sorted(certificate.evaluations[0].parameters, key=lambda each: each.quantity.symbol)
+    return json.dumps([each.value for each in found]).encode()
+
+
+def in_one_unit(_self: object, certificate: Certificate) -> bytes:
+    return json.dumps([1e6 * each.value for each in certificate.evaluations[0].parameters]).encode()
+
+
+def joined_by_commas(_self: object, certificate: Certificate) -> bytes:
+    return f"title,number,value\n{certificate.title},{certificate.number},1\n".encode()
+
+
 SINS = [
     (renderers.is_named, {"identifier": "PDF!"}, "lower-case ASCII"),
     (renderers.is_named, {"title": Words(en="", de="Titel")}, "title says nothing in 'en'"),
@@ -107,6 +124,38 @@ SINS = [
         {"render": on_paper(lambda page: page.replace(b"{{7*7}}", b"49"))},
         "does not come out as it was typed",
     ),
+    (
+        renderers.keeps_letters_and_signs,
+        {
+            "render": on_paper(
+                lambda page: page.decode().encode("latin-1", "replace").decode("latin-1").encode()
+            )
+        },
+        "do not come out as they were typed",
+    ),
+    (
+        renderers.keeps_letters_and_signs,
+        {"render": on_paper(lambda page: page.replace("Ł".encode(), b"L"))},
+        "Ł do not come out as they were typed",
+    ),
+    (renderers.keeps_the_order, {"render": backwards}, "not in the order of the certificate"),
+    (renderers.keeps_the_order, {"suffix": ".json", "render": by_symbol}, "not in the order"),
+    (
+        renderers.keeps_the_order,
+        {"suffix": ".json", "render": in_one_unit},
+        "does not carry 1.57882; a parameter is in SI, or in its own unit",
+    ),
+    (renderers.keeps_the_order, {"suffix": ".odt"}, "say how a file '.odt' is read"),
+    (
+        renderers.keeps_letters_and_signs,
+        {"render": on_paper(lambda page: page.decode().encode("latin-1", "replace") + b"\xc4")},
+        "the file is not UTF-8",
+    ),
+    (
+        renderers.sets_markup_as_text,
+        {"suffix": ".csv", "render": joined_by_commas},
+        "row 2 has 4 cells, and the first has 3",
+    ),
 ]
 
 
@@ -138,7 +187,18 @@ def test_all_failures_are_reported_at_once() -> None:
     with pytest.raises(AssertionError) as failure:
         check_renderer(sinner)
     checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
-    assert checks == ["names_the_certificate", "prints_what_the_document_says", "sets_markup_as_text"]
+    assert checks == [
+        "names_the_certificate",
+        "prints_what_the_document_says",
+        "sets_markup_as_text",
+        "keeps_letters_and_signs",
+        "keeps_the_order",
+    ]
+
+
+def test_the_author_says_how_an_unknown_format_is_read() -> None:
+    sinner = type("Other", (ExemplaryPage,), {"suffix": ".odt"})()
+    check_renderer(sinner, read=renderers._html_text)
 
 
 @pytest.mark.parametrize("language", Language)

@@ -102,6 +102,48 @@ class Fickle(ExemplarySource):
         return replace(measurements, deviation=read_only_floats(measurements.deviation * self.factor))
 
 
+def forgiving(self: Any, options: Any, context: SourceContext) -> MeasurementSet:
+    """Read one direction only where there are not enough numbers for both."""
+    words = options.file.read_text(encoding="ascii").split()
+    if len(words) == 6:
+        return ExemplarySource.read(self, options, context)
+    options.file.write_text(" ".join((words + ["0"] * 6)[:6]), encoding="ascii")
+    return shortened(ExemplarySource.read(self, options, context))
+
+
+def _lenient(number: Callable[[str], float]) -> Callable[..., MeasurementSet]:
+    """Return a reader that takes any word for a number."""
+
+    def read(self: Any, options: Any, context: SourceContext) -> MeasurementSet:
+        values = [number(word) for word in options.file.read_text(encoding="ascii").split()]
+        options.file.write_text("1 2 3 4 5 6", encoding="ascii")
+        sound = ExemplarySource.read(self, options, context)
+        return replace(sound, deviation=read_only_floats(np.array(values) * 1e-6))
+
+    return read
+
+
+def _as_missing(word: str) -> float:
+    try:
+        return float(word)
+    except ValueError:
+        return np.nan
+
+
+def _up_to_the_letter(word: str) -> float:
+    return float(word.partition("x")[0])
+
+
+def in_millimetres(self: Any, options: Any, context: SourceContext) -> MeasurementSet:
+    return replace(ExemplarySource.read(self, options, replace(context, axis=Axis("X"))), axis=context.axis)
+
+
+def in_micrometres(self: Any, options: Any, context: SourceContext) -> MeasurementSet:
+    sound = ExemplarySource.read(self, options, context)
+    length = ExemplarySource.read(self, options, replace(context, axis=Axis("X")))
+    return replace(sound, deviation=length.deviation)
+
+
 WRITABLE = np.array([1.0, 2.0, 3.0, 4.0, 5.0, 6.0])
 SINS = [
     (sources.is_named, {"identifier": "Exemplary Text"}, "lower-case ASCII"),
@@ -164,6 +206,27 @@ SINS = [
     (sources.damaged_files_are_refused, {"read": negligent}, "a file that is not there, and it reads"),
     (sources.damaged_files_are_refused, {"read": careless}, "FileNotFoundError"),
     (sources.damaged_files_are_refused, {"read": nameless}, "does not name the file"),
+    (
+        sources.no_number_is_guessed,
+        {"read": _lenient(_as_missing)},
+        "line 1 of 'file' holds '1x', and that makes 1 readings fewer without a word",
+    ),
+    (sources.no_number_is_guessed, {"read": _lenient(_up_to_the_letter)}, "other readings without a word"),
+    (
+        sources.no_short_line_is_dropped,
+        {"read": forgiving},
+        "line 1 of 'file' lost its last word, and that makes 3 readings fewer without a word",
+    ),
+    (
+        sources.follows_the_kind_of_axis,
+        {"read": in_millimetres},
+        "read as of a rotary axis the targets are [ 0.          5.72957795 11.4591559 ] °",
+    ),
+    (
+        sources.follows_the_kind_of_axis,
+        {"read": in_micrometres},
+        "ask the axis for its units (axis.deviation",
+    ),
 ]
 
 
@@ -209,7 +272,12 @@ def test_all_failures_are_reported_at_once(keys: dict[str, Any]) -> None:
     with pytest.raises(AssertionError) as failure:
         check_source(sinner, keys, holds=HOLDS)
     checks = [line.partition(":")[0] for line in str(failure.value).splitlines()]
-    assert checks == ["reads_a_measurement_set", "reads_what_the_file_holds", "keeps_the_axis"]
+    assert checks == [
+        "reads_a_measurement_set",
+        "reads_what_the_file_holds",
+        "keeps_the_axis",
+        "follows_the_kind_of_axis",
+    ]
 
 
 ZEROED = FileContents(5, ((0.0, "+", 1, 1.5), (0.0, "-", 1, 0.5)), missing=1)

@@ -17,7 +17,15 @@ from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Finding, Pos
 from zlmreport.evaluation.statistics import PositionStatistics, largest
 from zlmreport.job.types import Options
 from zlmreport.language import Words, same
-from zlmreport.testing import STANDARD_CHECKS, arithmetic, check_standard, standards
+from zlmreport.testing import (
+    STANDARD_CHECKS,
+    WorkedExample,
+    arithmetic,
+    bidirectional_test,
+    check_standard,
+    standards,
+)
+from zlmreport.testing.examples import every_key_matters, gives_the_worked_values
 from zlmreport.testing.standards import (
     brackets_are_as_long_as_their_parameter,
     brackets_span_what_is_drawn,
@@ -101,7 +109,33 @@ def no_figures_of_one_target(_self: object, evaluation: Evaluation, options: Any
     return EXEMPLARY.figures(evaluation, options)
 
 
+TEST = bidirectional_test([0, 100], [[1.0, 3.0], [5.0, 7.0]], [[-11.0, -9.0], [-7.0, -5.0]])
+ALIKE = bidirectional_test([0, 100], [[1.0, 3.0], [5.0, 7.0]], [[1.0, 3.0], [5.0, 7.0]])
+WITHOUT_SCATTER = bidirectional_test([0, 100], [[1.0], [5.0]], [[-11.0], [-7.0]])
+EXAMPLE = WorkedExample(TEST, {"E": 4.0, "R": 5.656854})
+EXAMPLES = [EXAMPLE]
+
+
+def _of(*, factor: float = 2.0, reversal: float = 0.0) -> Callable[..., Arithmetic]:
+    """Return formulas with another factor, or another term."""
+
+    def arithmetic(_self: Any, statistics: PositionStatistics, _options: Any) -> Arithmetic:
+        found = EXEMPLARY.arithmetic(statistics, ExemplaryOptions(factor=factor))
+        added = reversal * largest(np.abs(statistics.mean_positive - statistics.mean_negative))
+        return replace(found, parameters={**found.parameters, "R": found.parameters["R"] + added})
+
+    return arithmetic
+
+
 SINS = [
+    (gives_the_worked_values, {"arithmetic": _of(factor=3.0)}, "R is 8.48528 µm; the example has 5.65685"),
+    (gives_the_worked_values, {"arithmetic": _of(factor=1.0)}, "R is 2.82843 µm; the example has 5.65685"),
+    (gives_the_worked_values, {"arithmetic": _of(reversal=1.0)}, "a term that was left out"),
+    (
+        every_key_matters,
+        {"arithmetic": _of()},
+        "job key 'factor' is ignored: 5.0 or 3.0 or 1.0 or 1.0 gives what 2.0 gives",
+    ),
     (standards.is_named, {"identifier": "EX 1"}, "lower-case ASCII"),
     (standards.is_named, {"designation": " "}, "designation"),
     (standards.is_named, {"title": GERMAN_ONLY}, "title says nothing in 'en'"),
@@ -358,7 +392,7 @@ def sinner(sin: dict[str, Any]) -> Any:
 
 @pytest.mark.parametrize("check", STANDARD_CHECKS)
 def test_the_exemplary_standard_passes(check: Callable[..., None]) -> None:
-    check(EXEMPLARY, ExemplaryOptions())
+    check(EXEMPLARY, ExemplaryOptions(), EXAMPLES)
 
 
 @pytest.mark.parametrize(
@@ -366,7 +400,7 @@ def test_the_exemplary_standard_passes(check: Callable[..., None]) -> None:
 )
 def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], sentence: str) -> None:
     with pytest.raises(AssertionError) as failure:
-        check(sinner(sin), ExemplaryOptions())
+        check(sinner(sin), ExemplaryOptions(), EXAMPLES)
     assert sentence in str(failure.value)
 
 
@@ -381,7 +415,7 @@ def test_every_check_has_a_sin() -> None:
 
 def test_all_failures_are_reported_at_once_with_the_standard_s_name() -> None:
     with pytest.raises(AssertionError) as failure:
-        check_standard(sinner({"designation": "", "figures": lambda *_: ()}))
+        check_standard(sinner({"designation": "", "figures": lambda *_: ()}), examples=EXAMPLES)
     lines = str(failure.value).splitlines()
     assert [line.split(": ")[:2] for line in lines] == [
         ["is_named", "exemplary:1"],
@@ -390,4 +424,34 @@ def test_all_failures_are_reported_at_once_with_the_standard_s_name() -> None:
 
 
 def test_job_keys_are_validated_as_a_job_file_would_give_them() -> None:
-    check_standard(ExemplaryStandard(), {"factor": 3})
+    values = {"E": 4.0, "R": 8.485281}
+    check_standard(ExemplaryStandard(), {"factor": 3}, examples=[replace(EXAMPLE, values=values)])
+
+
+@pytest.mark.parametrize(
+    ("examples", "sentence"),
+    [
+        ([], "give a worked example: check_standard"),
+        ([replace(EXAMPLE, values={"E": 4.0})], "they state no value, other than zero, of R"),
+        ([replace(EXAMPLE, values={"E": 4.0, "R": 0.0})], "of R"),
+        ([replace(EXAMPLE, measurements=ALIKE)], "a reversal must be wider than the readings scatter"),
+        ([replace(EXAMPLE, measurements=WITHOUT_SCATTER)], "readings must scatter"),
+        ([EXAMPLE, replace(EXAMPLE, values={"Q": 1.0})], "Q is no parameter of it; it has E, R"),
+        ([EXAMPLE, replace(EXAMPLE, measurements=WITHOUT_SCATTER)], "R is not defined"),
+    ],
+)
+def test_examples_that_tell_nothing_do_not_pass(examples: list[WorkedExample], sentence: str) -> None:
+    with pytest.raises(AssertionError, match=sentence):
+        gives_the_worked_values(EXEMPLARY, ExemplaryOptions(), examples)
+
+
+class _Worded(ExemplaryOptions):
+    word: str = Field("", description="No type tells another value of it.")
+
+
+def test_the_author_states_another_value_where_the_type_tells_none() -> None:
+    standard = sinner({"options": _Worded})
+    with pytest.raises(AssertionError, match="job key 'word': the kit finds no other value for it"):
+        every_key_matters(standard, _Worded(), EXAMPLES)
+    with pytest.raises(AssertionError, match="job key 'word' is ignored: 'x' gives what '' gives"):
+        every_key_matters(standard, _Worded(), EXAMPLES, {"word": "x"})

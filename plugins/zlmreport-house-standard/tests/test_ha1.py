@@ -12,7 +12,7 @@ from zlmreport.plugin import MeasurementSet, same_in_all_languages
 from zlmreport.plugin.extension import Acts, Contribution, Distribution, with_uncertainty
 from zlmreport.plugin.renderer import Budget
 from zlmreport.plugin.standard import decided, decision_rule, evaluate
-from zlmreport.testing import STANDARD_CHECKS, bidirectional_test
+from zlmreport.testing import STANDARD_CHECKS, WorkedExample, bidirectional_test
 from zlmreport_house_standard.ha1 import HouseAcceptance, HouseAcceptanceOptions
 
 #: The worked example of the rule: mm, and µm in a row for each target.
@@ -21,6 +21,8 @@ POSITIVE = [[0, 1, 2], [3, 4, 5], [6, 6, 9], [8, 9, 10], [10, 12, 11]]
 NEGATIVE = [[-3, -2, -4], [0, 1, -1], [2, 1, 0], [5, 4, 3], [7, 9, 5]]
 #: symbol, weight, value in µm
 RESULTS = [("D", 0.5, 11.0), ("H", 0.5, 6.0), ("W", 0.5, 4.0), ("T", 0.5, 12.0), ("T", 1.0, 13.0)]
+#: The parameters with the key as it is preset.
+PRESET = {symbol: value for symbol, weight, value in RESULTS if weight == 0.5}
 #: One unit of the sixth decimal of a micrometre: the example's numbers are whole, only doubles are rounded.
 TOLERANCE = 1e-6
 
@@ -31,8 +33,8 @@ def example() -> MeasurementSet:
 
 
 @pytest.mark.parametrize("check", STANDARD_CHECKS)
-def test_conforms_to_what_every_standard_must_do(check: Callable[..., None]) -> None:
-    check(HouseAcceptance(), HouseAcceptanceOptions())
+def test_conforms_to_what_every_standard_must_do(check: Callable[..., None], example: MeasurementSet) -> None:
+    check(HouseAcceptance(), HouseAcceptanceOptions(), [WorkedExample(example, PRESET)])
 
 
 @pytest.mark.parametrize(("symbol", "weight", "expected"), RESULTS)

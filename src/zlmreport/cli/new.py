@@ -21,7 +21,10 @@ GUIDES = {
     "program": "write-a-part-program.md",
     "controller": "compensate-an-axis.md",
     "notifier": "run-a-fleet.md",
+    "quantity": "add-a-quantity.md",
 }
+#: The groups of entry points, where they are not those of the kind: a quantity is a standard and a source.
+_GROUPS = {"program": "zlmreport.part_program", "quantity": "zlmreport"}
 _PLACE = Place("zlmreport new")
 _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 
@@ -29,12 +32,24 @@ _NAME = re.compile(r"[a-z][a-z0-9]*(-[a-z0-9]+)*")
 def run(options: Namespace) -> int:
     """Write the folder of a plugin; no file that is there already is touched."""
     kind, name = _kind(options.kind), _name(options.name)
-    folder = Path(name)
+    folder, module = Path(name), name.replace("-", "_")
+    documents = skeleton_of(kind, name)
+    further = ""
+    if options.job:
+        documents[f"{module}.yaml"], further = _of_formula(options, kind, name)
+    for path in write_new([Document(folder / path, content) for path, content in documents.items()]):
+        print(shown_path(path))
+    print(f"next: python -m pytest {shown_path(folder / f'test_{module}.py')}{further}")
+    return 0
+
+
+def skeleton_of(kind: str, name: str) -> dict[str, bytes]:
+    """Return the files of a plugin to begin with, by their paths in its folder."""
     words = name.replace("-", " ")
     module = name.replace("-", "_")
     meant = {
         "kind": kind,
-        "group": "part_program" if kind == "program" else kind,
+        "group": _GROUPS.get(kind, f"zlmreport.{kind}"),
         "guide": GUIDES[kind],
         "identifier": name,
         "module": module,
@@ -46,16 +61,9 @@ def run(options: Namespace) -> int:
     }
     wanted = {f"{module}.py": f"{kind}.py", f"test_{module}.py": f"{kind}_test.py"}
     wanted |= {each: each for each in ("pyproject.toml", "README.md")}
-    documents = {path: _filled(skeleton, meant) for path, skeleton in wanted.items()}
-    further = ""
     if kind == "effect":
-        documents[f"{module}.yaml"] = _filled("effect.yaml", meant)
-    if options.job:
-        documents[f"{module}.yaml"], further = _of_formula(options, kind, name)
-    for path in write_new([Document(folder / path, content) for path, content in documents.items()]):
-        print(shown_path(path))
-    print(f"next: python -m pytest {shown_path(folder / f'test_{module}.py')}{further}")
-    return 0
+        wanted[f"{module}.yaml"] = "effect.yaml"
+    return {path: _filled(skeleton, meant) for path, skeleton in wanted.items()}
 
 
 def _of_formula(options: Namespace, kind: str, name: str) -> tuple[bytes, str]:

@@ -175,7 +175,9 @@ def as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
     `kind`: Of the axis of the job.
     """
     entries = dict(item.entries)
-    lacking = parse(f"needs: {{axis: {kind.value}}}\n{_LACKING}".encode(), "").entries
+    # Beside a constant each parameter needs a position of its own, where the formula goes by positions.
+    targets = f", targets: {len(formula.keys.parameters) + 1}" if "P" in formula.names else ""
+    lacking = parse(f"needs: {{axis: {kind.value}{targets}}}\n{_LACKING}".encode(), "").entries
     entries |= {name: entry for name, entry in lacking.items() if name not in entries}
     parameters = entries["parameters"].value
     if isinstance(parameters, Keys):

@@ -26,10 +26,11 @@ from zlmreport.testing.circle_programs import (
     check_circle_program,
     sample_circle_path,
 )
-from zlmreport.testing.controllers import CONTROLLER_CHECKS, check_controller
+from zlmreport.testing.controllers import CONTROLLER_CHECKS, ControlExample, check_controller
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
+from zlmreport.testing.examples import WorkedExample
 from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
-from zlmreport.testing.instruments import INSTRUMENT_CHECKS, check_instrument
+from zlmreport.testing.instruments import INSTRUMENT_CHECKS, InstrumentTraits, check_instrument
 from zlmreport.testing.measurements import bidirectional_test, full_designs, simulated_test
 from zlmreport.testing.notifiers import NOTIFIER_CHECKS, NotifierTrial, check_notifier
 from zlmreport.testing.part_programs import PART_PROGRAM_CHECKS, check_part_program, sample_motion
@@ -50,8 +51,11 @@ __all__ = [
     "SOURCE_CHECKS",
     "STANDARD_CHECKS",
     "CircleMove",
+    "ControlExample",
     "FileContents",
+    "InstrumentTraits",
     "NotifierTrial",
+    "WorkedExample",
     "bidirectional_test",
     "check_circle_effect",
     "check_circle_program",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
@@ -30,7 +31,7 @@ _RELATIVE, _ABSOLUTE = 1e-9, 1e-9 * _SPREAD
 
 
 @check
-def gives_every_quantity(standard: Standard, options: Options) -> None:
+def gives_every_quantity(standard: Standard, options: Options, *_: Any) -> None:
     """Check that there is one value for each parameter, and one at each position for each own column."""
     arithmetic = _arithmetic(standard, options, _readings(3))
     for owner, given, declared, shape in (
@@ -54,7 +55,7 @@ def gives_every_quantity(standard: Standard, options: Options) -> None:
 
 
 @check
-def stack_equals_loop(standard: Standard, options: Options) -> None:
+def stack_equals_loop(standard: Standard, options: Options, *_: Any) -> None:
     """Check that a stack of tests, complete or not, gives what each test gives alone: batch first."""
     stack = _readings(2, 4)
     stack[0, 1, Approach.NEGATIVE.index, 3, 2] = np.nan
@@ -74,7 +75,7 @@ def stack_equals_loop(standard: Standard, options: Options) -> None:
 
 
 @check
-def order_of_runs_is_irrelevant(standard: Standard, options: Options) -> None:
+def order_of_runs_is_irrelevant(standard: Standard, options: Options, *_: Any) -> None:
     """Check that numbering the runs another way changes nothing."""
     readings = _readings()
     before = _values(_arithmetic(standard, options, readings))
@@ -86,7 +87,7 @@ def order_of_runs_is_irrelevant(standard: Standard, options: Options) -> None:
 
 
 @check
-def scales_with_the_readings(standard: Standard, options: Options) -> None:
+def scales_with_the_readings(standard: Standard, options: Options, *_: Any) -> None:
     """Check that deviations twice as large give parameters twice as large: they are lengths or angles."""
     readings = _readings()
     before = _values(_arithmetic(standard, options, readings))
@@ -98,7 +99,7 @@ def scales_with_the_readings(standard: Standard, options: Options) -> None:
 
 
 @check
-def moves_no_more_than_an_offset(standard: Standard, options: Options) -> None:
+def moves_no_more_than_an_offset(standard: Standard, options: Options, *_: Any) -> None:
     """Check that an offset of all readings moves no parameter by more than itself."""
     readings, offset = _readings(), 2 * _SPREAD
     before = _values(_arithmetic(standard, options, readings))
@@ -112,7 +113,7 @@ def moves_no_more_than_an_offset(standard: Standard, options: Options) -> None:
 
 
 @check
-def one_missing_reading_takes_nothing_away(standard: Standard, options: Options) -> None:
+def one_missing_reading_takes_nothing_away(standard: Standard, options: Options, *_: Any) -> None:
     """Check that one missing reading leaves every parameter defined that the complete test defines."""
     readings = _readings()
     complete = _arithmetic(standard, options, readings)
@@ -125,7 +126,7 @@ def one_missing_reading_takes_nothing_away(standard: Standard, options: Options)
 
 
 @check
-def undefined_is_nan(standard: Standard, options: Options) -> None:
+def undefined_is_nan(standard: Standard, options: Options, *_: Any) -> None:
     """Check that what a test does not define is NaN: not zero, not infinite, no warning, no exception.
 
     What is zero of the complete test too is so by definition, as both ends of a line that goes through them.
@@ -147,7 +148,7 @@ def undefined_is_nan(standard: Standard, options: Options) -> None:
 
 
 @check
-def nothing_gives_nothing(standard: Standard, options: Options) -> None:
+def nothing_gives_nothing(standard: Standard, options: Options, *_: Any) -> None:
     """Check that a test without a reading defines no parameter."""
     readings = np.full_like(_readings(), np.nan)
     for symbol, value in _values(_arithmetic(standard, options, readings)).items():
@@ -158,7 +159,7 @@ def nothing_gives_nothing(standard: Standard, options: Options) -> None:
 
 
 @check
-def defines_what_it_declares(standard: Standard, options: Options) -> None:
+def defines_what_it_declares(standard: Standard, options: Options, *_: Any) -> None:
     """Check that each parameter is defined by a complete test, or at least by some test."""
     tests = [_readings(), *_incomplete().values(), _readings()[..., :1]]
     found = [_values(_arithmetic(standard, options, readings)) for readings in tests]
@@ -170,7 +171,7 @@ def defines_what_it_declares(standard: Standard, options: Options) -> None:
 
 
 @check
-def values_are_lengths_that_readings_have(standard: Standard, options: Options) -> None:
+def values_are_lengths_that_readings_have(standard: Standard, options: Options, *_: Any) -> None:
     """Check that values are of the size of the readings, in metres, and that no spread is negative."""
     readings = _readings()
     arithmetic = _arithmetic(standard, options, readings)
@@ -192,7 +193,7 @@ def values_are_lengths_that_readings_have(standard: Standard, options: Options) 
 
 
 @check
-def directions_are_not_swapped(standard: Standard, options: Options) -> None:
+def directions_are_not_swapped(standard: Standard, options: Options, *_: Any) -> None:
     """Check that symbols with ``_fwd`` follow readings taken upwards, and those with ``_bwd`` the others."""
     readings = _readings()
     before = _values(_arithmetic(standard, options, readings))
@@ -210,7 +211,7 @@ def directions_are_not_swapped(standard: Standard, options: Options) -> None:
 
 
 @check
-def alters_no_input(standard: Standard, options: Options) -> None:
+def alters_no_input(standard: Standard, options: Options, *_: Any) -> None:
     """Check that the statistics are as they were after the arithmetic has used them."""
     statistics, kept = (_statistics(standard, _readings(3)) for _ in range(2))
     _of(standard, options, statistics)
@@ -220,7 +221,7 @@ def alters_no_input(standard: Standard, options: Options) -> None:
 
 
 @check
-def gives_the_same_again(standard: Standard, options: Options) -> None:
+def gives_the_same_again(standard: Standard, options: Options, *_: Any) -> None:
     """Check that the same readings give the same bits."""
     first, second = (_arithmetic(standard, options, _readings()) for _ in range(2))
     expect(

@@ -60,10 +60,13 @@ from zlmreport.job.measurement_keys import AxisKeys, Environment, Instrument, Ma
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.units import ARCSECOND
 from zlmreport.testing.measurements import simulated_test
 
 #: Text that a renderer must set as it stands: it would be a tag, an entity, or a template's expression.
-MARKUP = '<zlm-markup a="1">&amp;{{7*7}}{%x%}</zlm-markup>'
+MARKUP = '<zlm-markup a="1">&amp;,;{{7*7}}{%x%}</zlm-markup>'
+#: Letters and signs of customers' names and of results, most of which Latin-1 has not.
+LETTERS = "Łódź Žďár Ångström Ωμέγα ≤ − ″"
 NUMBER = "KIT-2026-0001"
 _PLACE_OF_A_WORD = "Word"
 _PAGE_WORDS = {
@@ -139,6 +142,41 @@ def worded_certificate() -> tuple[Certificate, Mapping[str, str]]:
         for name in ("title", "subtitle", "letterhead", "cover", "sections")
     }
     return replace(plain, **printed), words
+
+
+def ordered_certificate() -> tuple[Certificate, tuple[str, ...], tuple[tuple[float, float], ...]]:
+    """Return a certificate whose order can be seen: its words, and its values in SI and in users' units.
+
+    The words stand in sections, one block after the other. The parameters are in no order of symbols or
+    values, and one of them is not in the unit of the readings.
+    """
+    plain = sample_certificate()
+    words = tuple(f"Order{number:02d}" for number in (7, 3, 9, 1, 8, 2, 6, 4, 5))
+    sections = tuple(
+        Section(
+            f"section-{start}",
+            words[start],
+            (Paragraph(words[start + 1]), Notice(words[start + 2], (words[start + 2],))),
+        )
+        for start in range(0, len(words), 3)
+    )
+    evaluation = plain.evaluations[0]
+    unit = evaluation.measurements.axis.deviation_unit
+    parameters = tuple(
+        Parameter(
+            Quantity(symbol, symbol, same(symbol), Group.SYSTEMATIC, symbol, same(symbol), unit=own), value
+        )
+        for symbol, own, value in (
+            ("K3", None, 4.321987e-6),
+            ("K1", ARCSECOND, 7.654321e-6),
+            ("K2", None, 1.234567e-6),
+        )
+    )
+    values = tuple(
+        (each.value, float(each.quantity.unit_or(unit).from_si(each.value))) for each in parameters
+    )
+    evaluations = (replace(evaluation, parameters=parameters, columns=()),)
+    return replace(plain, sections=sections, evaluations=evaluations), words, values
 
 
 def _job(measurements: MeasurementSet, text: str) -> Job:

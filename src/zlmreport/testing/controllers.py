@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -25,11 +25,39 @@ from zlmreport.testing.expectations import (
 
 #: Where the kit asks for a table.
 PLACE = Place("job.yaml", 9, 3)
-#: Half of the coarsest step in which a control takes a deviation, m.
-_HALF_A_QUANTUM = 0.55e-6
+#: Of half a step, what rounding may take: a half may go either way.
+_HALF = 0.55
+#: What decimals of a file leave open of a stated example, of a step.
+_DIGITS = 0.02
 
 
-def sample_table(rows: int = 11, step: float = 0.03) -> CompensationTable:
+@dataclass(frozen=True, slots=True)
+class ControlExample:
+    """A file as the control's maker prints it, and what the control takes away when it reads it.
+
+    Attributes
+    ----------
+    files
+        The texts by the ends of their names, as `Controller.files` returns them: of the maker's manual, or
+        saved by a control whose axis was measured.
+    rows
+        Some rows of it: the position, mm (°), and e = actual − nominal moving forward and in reverse, µm (″),
+        that the control takes away there. A deviation that it takes away moves the axis the other way. Of a
+        control whose table has one column, the third number is the second.
+    keys
+        The job keys with which this file is written.
+    deviation_step, position_step
+        The finest steps in which the control takes a deviation, µm (″), and a position, mm (°).
+    """
+
+    files: Mapping[str, str]
+    rows: tuple[tuple[float, float, float], ...]
+    keys: Mapping[str, Any] | None = None
+    deviation_step: float = 0.1
+    position_step: float = 0.001
+
+
+def sample_table(rows: int = 11, step: float = 0.030125) -> CompensationTable:
     """Return a table of an axis X that begins at zero: forward and reverse part by 12 µm."""
     positions = step * np.arange(rows)
     forward = 4e-6 * np.sin(7 * positions) + 20e-6 * positions
@@ -44,7 +72,7 @@ def sample_table(rows: int = 11, step: float = 0.03) -> CompensationTable:
 
 
 @check
-def is_named(controller: Controller, _keys: Mapping[str, Any]) -> None:
+def is_named(controller: Controller, _keys: Mapping[str, Any], *_: Any) -> None:
     """Check its identifier, its title, its notes and its confidence."""
     expect_named(controller, Controller)
     for note in controller.notes:
@@ -54,17 +82,20 @@ def is_named(controller: Controller, _keys: Mapping[str, Any]) -> None:
 
 
 @check
-def options_are_described(controller: Controller, _keys: Mapping[str, Any]) -> None:
+def options_are_described(controller: Controller, _keys: Mapping[str, Any], *_: Any) -> None:
     """Check that its job keys are described, none is a key of the core, and all have defaults."""
     expect_options(controller, frozenset({"controller"}))
     controller.options()
 
 
 @check
-def reads_what_it_writes(controller: Controller, keys: Mapping[str, Any]) -> None:
-    """Check that its files, read as the control does, take away what was asked, with the same sign."""
+def reads_what_it_writes(
+    controller: Controller, keys: Mapping[str, Any], example: ControlExample | None = None
+) -> None:
+    """Check that its files, read as the control does, take away what was asked, where it was asked."""
     table, options = sample_table(), controller.options.model_validate(dict(keys))
     files = controller.files(table, options)
+    stated = example or ControlExample({}, ())
     expect(
         isinstance(files, Mapping) and all(isinstance(text, str) for text in files.values()),
         f"{controller.identifier}: files must return texts by the ends of their names, not {files!r}",
@@ -80,16 +111,84 @@ def reads_what_it_writes(controller: Controller, keys: Mapping[str, Any]) -> Non
     )
     rows, asked = len(decoded.positions), len(table.positions)
     expect(rows >= asked, f"{controller.identifier}: read back, the table has {rows} rows instead of {asked}")
+    apart = float(np.abs(decoded.positions - table.positions[:, np.newaxis]).min(axis=1).max())
+    finest = _HALF * table.axis.position_unit.to_si(stated.position_step)
+    expect(
+        apart <= finest,
+        f"{controller.identifier}: read back, a row stands {apart:.2e} m off its position; the control takes "
+        f"steps of {stated.position_step:g} mm (ControlExample.position_step)",
+    )
     meant = table.at(table.positions)
     if not controller.is_directional:
         meant = np.broadcast_to(meant.mean(axis=0), meant.shape)
     difference = decoded.at(table.positions) - meant
     off = float(np.abs(difference - difference.mean()).max())  # a control may want zero at its first row
-    expect(off <= _HALF_A_QUANTUM, f"{controller.identifier}: read back, the table is off by {off:.2e} m")
+    finest = _HALF * table.axis.deviation_unit.to_si(stated.deviation_step)
+    expect(
+        off <= finest,
+        f"{controller.identifier}: read back, the table is off by {off:.2e} m; the control takes steps of "
+        f"{stated.deviation_step:g} µm (ControlExample.deviation_step)",
+    )
 
 
 @check
-def writes_the_same_again(controller: Controller, keys: Mapping[str, Any]) -> None:
+def reads_what_its_maker_prints(
+    controller: Controller, _keys: Mapping[str, Any], example: ControlExample | None = None
+) -> None:
+    """Check that a file of the control's maker is read as the control reads it: sign, directions, units."""
+    where = controller.identifier
+    expect(
+        example,
+        f"{where}: give a file as the control's maker prints it, and what the control takes away: "
+        "check_controller(…, example=ControlExample(files, rows)); nobody else can see a sign or a direction "
+        "that is wrong in both ways",
+    )
+    assert example is not None  # noqa: S101  # said above; for type checkers
+    _expect_telling(controller, example)
+    axis = Axis("X")
+    at, forward, reverse = (read_only_floats(column) for column in zip(*example.rows, strict=True))
+    positions = axis.position_unit.to_si(at)
+    meant = CompensationTable(
+        axis,
+        "KIT-7",
+        read_only_floats(positions),
+        read_only_floats(axis.deviation_unit.to_si(forward)),
+        read_only_floats(axis.deviation_unit.to_si(reverse)),
+        PLACE,
+    )
+    read = controller.read(example.files, meant, controller.options.model_validate(dict(example.keys or {})))
+    apart = np.abs(read.positions - positions[:, np.newaxis]).min(axis=1, initial=np.inf)
+    for row, distance in zip(example.rows, apart, strict=True):
+        expect(
+            distance <= axis.position_unit.to_si(_HALF * example.position_step),
+            f"{where}: of the maker's file no row is read at {row[0]:g} mm, but at "
+            f"{axis.position_unit.from_si(read.positions)}",
+        )
+    found = axis.deviation_unit.from_si(read.at(read_only_floats(positions)))
+    for name, values, wanted in (("forward", found[0], forward), ("reverse", found[1], reverse)):
+        for position, value, stated in zip(at, values, wanted, strict=True):
+            expect(
+                abs(value - stated) <= max(_DIGITS * example.deviation_step, 1e-6),
+                f"{where}: of the maker's file {value:.6g} µm are read at {position:g} mm {name}; the "
+                f"control takes {stated:.6g} µm away (sign, direction and unit are the control's)",
+            )
+
+
+def _expect_telling(controller: Controller, example: ControlExample) -> None:
+    """Expect rows of which the usual mistakes would change one."""
+    where = f"{controller.identifier}: rows of the maker's file"
+    expect(len(example.rows) > 1, f"{where}: two are needed at least")
+    sums = [forward + reverse for _, forward, reverse in example.rows]
+    expect(any(sums), f"{where} must have deviations that are not zero, for a wrong sign to show")
+    if controller.is_directional:
+        expect(
+            any(forward != reverse for _, forward, reverse in example.rows),
+            f"{where} must differ forward and in reverse, for swapped directions to show",
+        )
+
+
+@check
+def writes_the_same_again(controller: Controller, keys: Mapping[str, Any], *_: Any) -> None:
     """Check that the same table gives the same files."""
     options = controller.options.model_validate(dict(keys))
     expect(
@@ -99,7 +198,7 @@ def writes_the_same_again(controller: Controller, keys: Mapping[str, Any]) -> No
 
 
 @check
-def refuses_rows_that_do_not_rise(controller: Controller, keys: Mapping[str, Any]) -> None:
+def refuses_rows_that_do_not_rise(controller: Controller, keys: Mapping[str, Any], *_: Any) -> None:
     """Check that a table whose rows coincide is refused where it is asked for, and not cut off."""
     table, options = sample_table(), controller.options.model_validate(dict(keys))
     still = replace(table, positions=read_only_floats(np.zeros_like(table.positions)))
@@ -113,17 +212,36 @@ def refuses_rows_that_do_not_rise(controller: Controller, keys: Mapping[str, Any
         raise AssertionError(message)
 
 
-#: Every check of a controller, each called with it and its job keys.
+#: Every check of a controller, each called with it, its job keys, and the example of its maker.
 CONTROLLER_CHECKS = (
     is_named,
     options_are_described,
     reads_what_it_writes,
+    reads_what_its_maker_prints,
     writes_the_same_again,
     refuses_rows_that_do_not_rise,
 )
 
 
-def check_controller(controller: Controller, keys: Mapping[str, Any] | None = None) -> None:
-    """Run every check on a controller; raise `AssertionError` with a line for every check that fails."""
+def check_controller(
+    controller: Controller, keys: Mapping[str, Any] | None = None, *, example: ControlExample | None = None
+) -> None:
+    """Run every check on a controller.
+
+    Parameters
+    ----------
+    controller
+        The object that the plugin's hook returns.
+    keys
+        Its job keys; none if they are not given.
+    example
+        A file of the control's maker; without it nobody can tell a wrong sign that is written and read alike,
+        and the kit does not pass.
+
+    Raises
+    ------
+    AssertionError
+        With a line for every check that fails.
+    """
     expect_members(controller, Controller)
-    run_all(CONTROLLER_CHECKS, controller, keys or {})
+    run_all(CONTROLLER_CHECKS, controller, keys or {}, example)

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
+from zlmreport.errors import did_you_mean
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_parts import Formula
 from zlmreport.job.types import keys_in
@@ -16,6 +19,8 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Confusion, Dimension, Effect, Parameter, Shape
 from zlmreport.model.fitting.observations import of_readings
+from zlmreport.plugin.kinds import EFFECT
+from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing.expectations import (
     check,
     expect,
@@ -31,6 +36,15 @@ Designs = Mapping[str, Design]
 
 #: m or rad: what no effect of a plausible size does to an axis; micrometres given as metres do.
 _NO_DEVIATION = 0.01
+#: Of what would be nothing without rounding, relative; and how many rows of a grid are tried together.
+_ROUNDING, _ROWS_TRIED = 1e-9, 24
+#: What columns of each shape must change with; a log goes with time, or tells faces apart.
+_FOLLOWED = {
+    Shape.POSITION: {"position"},
+    Shape.DIRECTION: {"direction", "a log"},
+    Shape.TIME: {"time", "a log"},
+    Shape.RUN: {"run"},
+}
 _MEMBERS = (
     *(
         "identifier",
@@ -50,7 +64,7 @@ _MEMBERS = (
 
 
 @check
-def is_complete(effect: Effect, _: Designs) -> None:
+def is_complete(effect: Effect, *_more: Any) -> None:
     """Check that the protocol is complete."""
     missing = [member for member in _MEMBERS if not hasattr(effect, member)]
     expect(
@@ -59,7 +73,7 @@ def is_complete(effect: Effect, _: Designs) -> None:
 
 
 @check
-def is_described(effect: Effect, _: Designs) -> None:
+def is_described(effect: Effect, *_more: Any) -> None:
     """Check that it has a name that can be typed, and says in every language what it is and looks like."""
     expect_identifier(effect.identifier, repr(effect))
     expect_words(effect.title, f"{effect.identifier}: title")
@@ -71,19 +85,26 @@ def is_described(effect: Effect, _: Designs) -> None:
 
 
 @check
-def says_what_to_do(effect: Effect, _: Designs) -> None:
+def says_what_to_do(effect: Effect, *_more: Any) -> None:
     """Check that it says in every language what to do about it, and what a compensation can do."""
     expect_words(effect.remedy, f"{effect.identifier}: remedy")
 
 
 @check
-def names_what_it_is_taken_for(effect: Effect, _: Designs) -> None:
+def names_what_it_is_taken_for(effect: Effect, _designs: Designs, beside: Iterable[str] = ()) -> None:
     """Check that each confusion names another effect, once, and the measurement that tells them apart."""
+    known = {effect.identifier, *beside, *find_plugins().identifiers(EFFECT)}
     for confusion in effect.confusions:
         where = f"{effect.identifier}: confusions"
         expect(isinstance(confusion, Confusion), f"{where} must hold Confusion(effect, told_apart_by)")
         expect_identifier(confusion.effect, where)
         expect(confusion.effect != effect.identifier, f"{where}: an effect is not taken for itself")
+        expect(
+            confusion.effect in known,
+            f"{where}: no effect is called {confusion.effect!r}; "
+            f"{did_you_mean(confusion.effect, sorted(known))} "
+            "(effects of the same plugin that are not installed: check_effect(…, beside=[…]))",
+        )
         expect_words(confusion.told_apart_by, f"{where}: {confusion.effect}")
     named = Counter(confusion.effect for confusion in effect.confusions)
     twice = [name for name, times in named.items() if times > 1]
@@ -91,7 +112,7 @@ def names_what_it_is_taken_for(effect: Effect, _: Designs) -> None:
 
 
 @check
-def parameters_are_described(effect: Effect, _: Designs) -> None:
+def parameters_are_described(effect: Effect, *_more: Any) -> None:
     """Check that parameters have unique ASCII names, units and descriptions, and ranges that are some."""
     for form in effect.forms():
         parameters = (*form.linear, *form.searched)
@@ -103,7 +124,7 @@ def parameters_are_described(effect: Effect, _: Designs) -> None:
 
 
 @check
-def keys_are_described(effect: Effect, _: Designs) -> None:
+def keys_are_described(effect: Effect, *_more: Any) -> None:
     """Check that its own job keys are described, and none is called like a parameter."""
     expect_options(effect)
     expect(
@@ -116,7 +137,7 @@ def keys_are_described(effect: Effect, _: Designs) -> None:
 
 
 @check
-def settings_make_the_form(effect: Effect, _: Designs) -> None:
+def settings_make_the_form(effect: Effect, *_more: Any) -> None:
     """Check that each form can be asked for by its settings, and that all forms have one name."""
     for form in (effect, *effect.forms()):
         where = f"{effect.identifier}: form {form.settings!r}"
@@ -130,7 +151,7 @@ def settings_make_the_form(effect: Effect, _: Designs) -> None:
 
 
 @check
-def says_what_it_lacks(effect: Effect, designs: Designs) -> None:
+def says_what_it_lacks(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that `untestable` answers on any test, and that there is a test on which nothing is lacking."""
     testable = False
     for kind, design in {**designs, **poor_designs()}.items():
@@ -147,7 +168,121 @@ def says_what_it_lacks(effect: Effect, designs: Designs) -> None:
 
 
 @check
-def grid_is_one(effect: Effect, designs: Designs) -> None:
+def cannot_be_tested_where_it_is_not_seen(effect: Effect, *_more: Any) -> None:
+    """Check that `untestable` answers on a test on which no readings could tell its parameters apart.
+
+    Beside a constant, which every model has: a lost motion that is met from one direction is an offset, and
+    a length of segments is not known from two targets. On a single target it need not be told from that.
+    """
+    for form in effect.forms():
+        complete = [each for each in full_designs().values() if form.untestable(each) is None]
+        has_constant = any(
+            _independent(form, each, beside_constant=True) <= len(form.linear) for each in complete
+        )
+        for kind, design in poor_designs().items():
+            if form.untestable(design) is not None:
+                continue
+            beside = not has_constant and len(design.target_positions) > 1
+            found = _independent(form, design, beside_constant=beside)
+            wanted = len(form.linear) + beside + (len(form.grid(design)) > 1)
+            expect(
+                found >= wanted,
+                f"{effect.identifier}: on {kind} no readings could tell its parameters apart"
+                f"{' from a constant' if beside else ''}, and untestable does not say so; return Words that "
+                "say what is lacking (needs_both_directions, needs_targets … of zlmreport.plugin.effect)",
+            )
+
+
+def _independent(form: Effect, design: Design, *, beside_constant: bool) -> int:
+    """Return how many courses of deviations its columns make over a test, for all that is searched."""
+    columns = [form.columns(design, theta) for theta in _spread(form.grid(design))]
+    if beside_constant:
+        columns.append(np.ones((len(design.position), 1)))
+    matrix = np.hstack(columns)
+    lengths = np.linalg.norm(matrix, axis=0)
+    matrix = matrix[:, lengths > 0] / lengths[lengths > 0]
+    return int(np.linalg.matrix_rank(matrix, tol=_ROUNDING * max(matrix.shape))) if matrix.size else 0
+
+
+def _spread(grid: FloatArray) -> FloatArray:
+    """Return some rows of a grid, evenly from the first on."""
+    return grid[:: max(1, len(grid) // _ROWS_TRIED)]
+
+
+@check
+def shape_is_what_it_follows(effect: Effect, designs: Designs, *_more: Any) -> None:
+    """Check that the columns change along what the shape says: position, direction, time (a log), run."""
+    for form in effect.forms():
+        followed = _followed(form, designs)
+        shape, wanted = form.shape, _FOLLOWED[form.shape]
+        found = ", ".join(sorted(followed)) or "nothing"
+        expect(
+            followed & wanted or (shape is Shape.POSITION and not followed),
+            f"{effect.identifier}: shape is {shape.name}, and its columns follow {found}",
+        )
+        expect(
+            shape is not Shape.POSITION or not followed & {"time", "a log", "run"},
+            f"{effect.identifier}: shape is {shape.name}, and its columns follow {found}, too; an effect "
+            "that comes with time is Shape.TIME, one that differs by runs Shape.RUN",
+        )
+
+
+def _followed(form: Effect, designs: Designs) -> set[str]:
+    """Return along what columns change: what must be altered of a test to alter them."""
+    found: set[str] = set()
+    for design in designs.values():
+        if form.untestable(design) is None:
+            for theta in _some(form.grid(design)):
+                columns = form.columns(design, theta)
+                for name, altered in _altered(design).items():
+                    other = form.columns(altered, theta)
+                    if not np.allclose(other, columns, rtol=1e-9, atol=1e-12):
+                        found.add(name)
+    return found
+
+
+def _altered(design: Design) -> Mapping[str, Design]:
+    """Return the same test but for one thing each."""
+    shift = 0.05 * design.length * (1 + design.target % 3)
+    logs = {name: read_only_floats(1.0 - log) for name, log in design.conditions.items()}
+    return {
+        "position": replace(design, position=read_only_floats(design.position + shift)),
+        "direction": replace(
+            design,
+            direction=read_only_floats(-design.direction),
+            since_reversal=read_only_floats(1.7 * design.since_reversal + 0.01),
+        ),
+        "run": replace(design, run=design.run.max() + 1 - design.run),
+        "time": replace(design, time=read_only_floats(1.3 * design.time + 7.0)),
+        "a log": replace(design, conditions=logs, rates={}),
+    }
+
+
+@check
+def grid_stays_in_range(effect: Effect, designs: Designs, *_more: Any) -> None:
+    """Check that the search begins within the range of each parameter, on one test of those at least.
+
+    On others it may begin outside: a test of a minute knows nothing of time constants of hours.
+    """
+    for form in effect.forms():
+        for number, parameter in enumerate(form.searched):
+            columns = [
+                form.grid(design)[:, number] for design in designs.values() if form.untestable(design) is None
+            ]
+            low = -np.inf if parameter.smallest is None else parameter.smallest
+            high = np.inf if parameter.largest is None else parameter.largest
+            slack = _ROUNDING * max(abs(each) for each in (low, high, 1.0) if np.isfinite(each))
+            expect(
+                any(np.all((each >= low - slack) & (each <= high + slack)) for each in columns)
+                or not columns,
+                f"{effect.identifier}: the grid of {parameter.name!r} leaves its range of {low:.6g} to "
+                f"{high:.6g} (SI) on every test: it begins at {[float(each.min()) for each in columns][:1]} "
+                f"and ends at {[float(each.max()) for each in columns][:1]}",
+            )
+
+
+@check
+def grid_is_one(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that the grid has a finite row for each start, and a column for each searched parameter."""
     for form, kind, design in _tested(effect, designs):
         grid = form.grid(design)
@@ -161,7 +296,7 @@ def grid_is_one(effect: Effect, designs: Designs) -> None:
 
 
 @check
-def columns_are_readings_by_parameters(effect: Effect, designs: Designs) -> None:
+def columns_are_readings_by_parameters(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check the columns' shape, that they are finite, and that the same question has the same answer."""
     for form, kind, design in _tested(effect, designs):
         for theta in _some(form.grid(design)):
@@ -176,22 +311,37 @@ def columns_are_readings_by_parameters(effect: Effect, designs: Designs) -> None
 
 
 @check
-def rows_stand_alone(effect: Effect, designs: Designs) -> None:
+def rows_stand_alone(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that a row depends on its own reading, the axis and the span, and on no other reading."""
     for form, kind, design in _tested(effect, designs):
-        half = of_readings(design, np.arange(0, len(design.position), 2))
         for theta in _some(form.grid(design)):
-            whole = form.columns(design, theta)[::2]
-            alone = form.columns(half, theta)
-            expect(
-                np.allclose(alone, whole, rtol=1e-12, atol=0.0),
-                f"{effect.identifier}: columns on {kind} change when other readings are left out; "
-                "normalise by Design.span, not by the readings",
-            )
+            columns = form.columns(design, theta)
+            for which, kept in _parts(design).items():
+                alone = form.columns(of_readings(design, kept), theta)
+                expect(
+                    np.allclose(alone, columns[kept], rtol=1e-12, atol=0.0),
+                    f"{effect.identifier}: columns on {kind} change when other readings are left out "
+                    f"({which} stay); normalise by Design.span, not by the readings",
+                )
+
+
+def _parts(design: Design) -> Mapping[str, Any]:
+    """Return the numbers of some of a test's readings, of which the lowest, the first, the last are not."""
+    every = np.arange(len(design.position))
+    parts = {
+        "every second": every[::2],
+        "the others of them": every[1::2],
+        "those above the lowest target": every[design.position > design.position.min()],
+        "those below the highest target": every[design.position < design.position.max()],
+        "the later half": every[len(every) // 2 :],
+        "the earlier half": every[: len(every) // 2],
+        "those moving upwards": every[design.direction > 0],
+    }
+    return {which: kept for which, kept in parts.items() if len(kept)}
 
 
 @check
-def plausible_sizes_are_metres(effect: Effect, designs: Designs) -> None:
+def plausible_sizes_are_metres(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that the largest plausible parameters make deviations in metres (radians), not micrometres."""
     for form, kind, design in _tested(effect, designs):
         bounds = [_largest(parameter) for parameter in form.linear]
@@ -205,7 +355,7 @@ def plausible_sizes_are_metres(effect: Effect, designs: Designs) -> None:
 
 
 @check
-def is_seen_somewhere(effect: Effect, designs: Designs) -> None:
+def is_seen_somewhere(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that on some test the columns are neither zero nor alike."""
     for form, _, design in _tested(effect, designs):
         for theta in _some(form.grid(design)):
@@ -217,7 +367,7 @@ def is_seen_somewhere(effect: Effect, designs: Designs) -> None:
 
 
 @check
-def every_parameter_matters(effect: Effect, designs: Designs) -> None:
+def every_parameter_matters(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that another value of each searched parameter makes other columns on some test."""
     for form in effect.forms():
         for number, parameter in enumerate(form.searched):
@@ -241,7 +391,7 @@ def _changes_with(form: Effect, design: Design, number: int) -> bool:
 
 
 @check
-def formula_determines_its_parameters(effect: Effect, _: Designs) -> None:
+def formula_determines_its_parameters(effect: Effect, *_more: Any) -> None:
     """Check, where it is written as a formula, that readings can tell all its parameters apart."""
     for form in effect.forms():
         formula = getattr(form, "formula", None)
@@ -253,7 +403,7 @@ def formula_determines_its_parameters(effect: Effect, _: Designs) -> None:
 
 
 @check
-def expected_values_are_of_parameters(effect: Effect, designs: Designs) -> None:
+def expected_values_are_of_parameters(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that values which follow from the axis are finite, and those of its parameters."""
     for kind, design in designs.items():
         names = {parameter.name for parameter in (*effect.linear, *effect.searched)}
@@ -291,7 +441,7 @@ def _some(grid: FloatArray) -> FloatArray:
     return read_only_floats(grid[np.unique([0, len(grid) // 2, len(grid) - 1])])
 
 
-#: Every check of an effect, each called with the effect and designs on which it may be tested.
+#: Every check of an effect, each called with it, designs on which it may be tested, and effects beside it.
 EFFECT_CHECKS = (
     is_complete,
     is_described,
@@ -301,6 +451,9 @@ EFFECT_CHECKS = (
     keys_are_described,
     settings_make_the_form,
     says_what_it_lacks,
+    cannot_be_tested_where_it_is_not_seen,
+    shape_is_what_it_follows,
+    grid_stays_in_range,
     grid_is_one,
     columns_are_readings_by_parameters,
     rows_stand_alone,
@@ -312,7 +465,7 @@ EFFECT_CHECKS = (
 )
 
 
-def check_effect(effect: Effect, designs: Designs | None = None) -> None:
+def check_effect(effect: Effect, designs: Designs | None = None, *, beside: Iterable[str] = ()) -> None:
     """Run every check on an effect.
 
     Parameters
@@ -322,6 +475,8 @@ def check_effect(effect: Effect, designs: Designs | None = None) -> None:
     designs
         Tests on which it can be tested, by what they are: for an effect that needs a log of its own. The
         kit's complete tests have all logs and keys that are known by name.
+    beside
+        Identifiers of further effects of the plugin, which its confusions may name before it is installed.
 
     Raises
     ------
@@ -330,4 +485,4 @@ def check_effect(effect: Effect, designs: Designs | None = None) -> None:
     """
     tried = {**full_designs(), **(designs or {})}
     is_complete(effect, tried)
-    run_all(EFFECT_CHECKS, effect, tried)
+    run_all(EFFECT_CHECKS, effect, tried, tuple(beside))

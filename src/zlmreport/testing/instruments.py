@@ -5,11 +5,13 @@ The emulator is put on a socket of this computer, so no hardware is needed; a ch
 
 from __future__ import annotations
 
+import re
 import socket
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
@@ -44,14 +46,31 @@ _TROUBLE_AT = 6.0
 _WATCHED, _PATIENCE = 1.6, 20.0
 
 
+@dataclass(frozen=True, slots=True)
+class InstrumentTraits:
+    """What the author of an instrument's plugin knows of its protocol, from its manual.
+
+    Attributes
+    ----------
+    has_check_sum
+        Whether what it sends carries a check by which a wrong digit is noticed. Without one nobody can tell
+        a garbled digit from another reading.
+    tells_lost_beam
+        Whether it says that its signal was lost, so that its count is void from then on.
+    """
+
+    has_check_sum: bool
+    tells_lost_beam: bool
+
+
 @check
-def is_named(instrument: Instrument) -> None:
+def is_named(instrument: Instrument, *_: Any) -> None:
     """Check that it has an identifier that can be typed, and a title in every language."""
     expect_named(instrument, Instrument)
 
 
 @check
-def options_are_described(instrument: Instrument) -> None:
+def options_are_described(instrument: Instrument, *_: Any) -> None:
     """Check that its keys are described, that a port is one of them, and that nothing else is required."""
     expect_options(instrument, _CORE_KEYS)
     fields = instrument.options.model_fields
@@ -61,7 +80,7 @@ def options_are_described(instrument: Instrument) -> None:
 
 
 @check
-def follows_the_axis(instrument: Instrument) -> None:
+def follows_the_axis(instrument: Instrument, *_: Any) -> None:
     """Check that readings go where the axis goes, and are sound, in order and stamped with their arrival."""
     name = instrument.identifier
     with _emulated(instrument) as port:
@@ -81,7 +100,7 @@ def follows_the_axis(instrument: Instrument) -> None:
 
 
 @check
-def sign_turns_it_round(instrument: Instrument) -> None:
+def sign_turns_it_round(instrument: Instrument, *_: Any) -> None:
     """Check that the sign, if there is such a key, is applied to the readings."""
     if "sign" not in instrument.options.model_fields:
         return
@@ -96,7 +115,7 @@ def sign_turns_it_round(instrument: Instrument) -> None:
 
 
 @check
-def no_wrong_reading_is_usable(instrument: Instrument) -> None:
+def no_wrong_reading_is_usable(instrument: Instrument, *_: Any) -> None:
     """Check that whatever goes wrong, what is called usable is right until the zero is called lost."""
     for trouble in ((Trouble.SKIPPED, Trouble.ERROR), (Trouble.LOST_BEAM,)):
         where = f"{instrument.identifier}: {', '.join(trouble)}"
@@ -117,14 +136,51 @@ def no_wrong_reading_is_usable(instrument: Instrument) -> None:
 
 
 @check
-def no_cut_answer_is_usable(instrument: Instrument) -> None:
+def no_cut_answer_is_usable(instrument: Instrument, *_: Any) -> None:
     """Check that what arrives with its end cut off is no reading: 1 is not 1.234 with the rest lost."""
+    _expect_none_usable(instrument, _CutOff, "cut off")
+
+
+@check
+def no_garbled_answer_is_usable(instrument: Instrument, traits: InstrumentTraits | None = None) -> None:
+    """Check that what arrives with a wrong sign in it is no reading; of digits, where a check tells."""
+    _expect_traits(instrument, traits)
+    _expect_none_usable(instrument, _Unreadable, "garbled (a digit is '?')")
+    if traits and traits.has_check_sum:
+        _expect_none_usable(instrument, _WrongDigit, "garbled (a digit is another, and the check sum is not)")
+
+
+@check
+def tells_of_a_lost_beam(instrument: Instrument, traits: InstrumentTraits | None = None) -> None:
+    """Check that a lost signal ends the count: a reading is void and says that the zero is lost."""
+    _expect_traits(instrument, traits)
+    if traits and not traits.tells_lost_beam:
+        return
     name = instrument.identifier
+    with _emulated(instrument, MovingAxis(), Trouble.LOST_BEAM) as port:
+        readings = _watched(instrument, port)
+    expect(
+        any(reading.loses_zero for reading in readings),
+        f"{name}: the beam was lost, and no reading says so (a Fault that loses the zero, as "
+        "Fault.BEAM_LOST); a run would go on with a count that is void",
+    )
+
+
+def _expect_traits(instrument: Instrument, traits: InstrumentTraits | None) -> None:
+    expect(
+        traits,
+        f"{instrument.identifier}: say what its manual says: check_instrument(…, traits=InstrumentTraits("
+        "has_check_sum=…, tells_lost_beam=…)); nobody else can tell a wrong digit from a reading",
+    )
+
+
+def _expect_none_usable(instrument: Instrument, damaging: type[_Damaging], what: str) -> None:
+    """Expect that nothing is called usable that is not where the axis is, though sendings are damaged."""
     axis = MovingAxis((0.0, _FAR), feed=_AT_ONCE, dwell=_DWELL)
     troubles = Troubles()
-    cut = _CutOff(instrument.emulator(Scene(axis, troubles)))
+    damaged = damaging(instrument.emulator(Scene(axis, troubles)))
     try:
-        with _served(cut, troubles) as port:
+        with _served(damaged, troubles) as port:
             readings = _watched(instrument, port)
     except AccessError:
         return  # it gave up, and said so
@@ -132,34 +188,34 @@ def no_cut_answer_is_usable(instrument: Instrument) -> None:
         is_there = any(abs(reading.value - at) < _COARSEST for at in (0.0, _FAR))
         expect(
             is_there or not reading.is_usable,
-            f"{name}: the axis rests at 0 and at {_FAR} m, some of what the instrument sends is cut off, and "
-            f"{reading.value} m is called usable",
+            f"{instrument.identifier}: the axis rests at 0 and at {_FAR} m, some of what the instrument "
+            f"sends is {what}, and {reading.value} m is called usable",
         )
 
 
 @check
-def notices_the_cable(instrument: Instrument) -> None:
+def notices_the_cable(instrument: Instrument, *_: Any) -> None:
     """Check that readings end with an `AccessError` when the instrument is unplugged."""
     with _emulated(instrument, None, Trouble.UNPLUGGED) as port:
         _expect_end(instrument, port, "it was unplugged")
 
 
 @check
-def refuses_silence(instrument: Instrument) -> None:
+def refuses_silence(instrument: Instrument, *_: Any) -> None:
     """Check that a port at which nothing speaks ends with an `AccessError`."""
     with socket.create_server(("127.0.0.1", 0)) as silent:
         _expect_end(instrument, f"socket://127.0.0.1:{silent.getsockname()[1]}", "nothing speaks")
 
 
 @check
-def refuses_another_device(instrument: Instrument) -> None:
+def refuses_another_device(instrument: Instrument, *_: Any) -> None:
     """Check that what another device sends ends with an `AccessError`."""
     with _served(_Babble(), Troubles()) as port:
         _expect_end(instrument, port, "another device speaks")
 
 
 @check
-def refuses_a_port_that_is_not_there(instrument: Instrument) -> None:
+def refuses_a_port_that_is_not_there(instrument: Instrument, *_: Any) -> None:
     """Check that a port that is not there, and a word that is none, are refused."""
     for port in ("/dev/there-is-no-such-port", "socket://127.0.0.1:1", "no-such-scheme://x"):
         _expect_end(instrument, port, f"there is no port {port}")
@@ -199,23 +255,59 @@ def _watched(instrument: Instrument, port: str, **keys: Any) -> list[LiveReading
     return found
 
 
-class _CutOff:
-    """An instrument of whose sendings some lose their second half, as on a line that loses bytes."""
+class _Damaging:
+    """An instrument of whose sendings some arrive damaged."""
 
     def __init__(self, emulator: Any) -> None:
         self._emulator = emulator
         self._sent = 0
 
     def unasked(self, time: float) -> bytes:
-        return self._cut(self._emulator.unasked(time))
+        return self._passed(self._emulator.unasked(time))
 
     def answer(self, data: bytes, time: float) -> bytes:
-        return self._cut(self._emulator.answer(data, time))
+        return self._passed(self._emulator.answer(data, time))
 
-    def _cut(self, sending: bytes) -> bytes:
+    def _passed(self, sending: bytes) -> bytes:
         self._sent += bool(sending)
-        is_cut = sending and self._sent > _SOUND_FIRST and self._sent % 4 == 0
-        return sending[: len(sending) // 2] if is_cut else sending
+        is_damaged = sending and self._sent > _SOUND_FIRST and self._sent % 4 == 0
+        return self._damaged(sending) if is_damaged else sending
+
+    def _damaged(self, sending: bytes) -> bytes:
+        raise NotImplementedError
+
+
+class _CutOff(_Damaging):
+    """It loses the second half, as a line does that loses bytes."""
+
+    def _damaged(self, sending: bytes) -> bytes:
+        return sending[: len(sending) // 2]
+
+
+class _Unreadable(_Damaging):
+    """A digit in the middle of the longest number is no digit."""
+
+    def _damaged(self, sending: bytes) -> bytes:
+        at = _middle_digit(sending)
+        return sending if at is None else sending[:at] + b"?" + sending[at + 1 :]
+
+
+class _WrongDigit(_Damaging):
+    """A digit in the middle of the longest number is another."""
+
+    def _damaged(self, sending: bytes) -> bytes:
+        at = _middle_digit(sending)
+        return (
+            sending
+            if at is None
+            else sending[:at] + b"%d" % (9 - int(sending[at : at + 1])) + sending[at + 1 :]
+        )
+
+
+def _middle_digit(sending: bytes) -> int | None:
+    """Return where the middle digit of the longest number stands; None where there is no number."""
+    found = max(re.finditer(rb"\d+", sending), key=lambda each: len(each[0]), default=None)
+    return None if found is None else (found.start() + found.end() - 1) // 2
 
 
 class _Babble:
@@ -261,7 +353,7 @@ def _served(emulator: Any, troubles: Troubles) -> Iterator[str]:
         thread.join()
 
 
-#: Every check of an instrument, each called with it.
+#: Every check of an instrument, each called with it and with what its author knows of its protocol.
 INSTRUMENT_CHECKS = (
     is_named,
     options_are_described,
@@ -269,6 +361,8 @@ INSTRUMENT_CHECKS = (
     sign_turns_it_round,
     no_wrong_reading_is_usable,
     no_cut_answer_is_usable,
+    no_garbled_answer_is_usable,
+    tells_of_a_lost_beam,
     notices_the_cable,
     refuses_silence,
     refuses_another_device,
@@ -276,13 +370,15 @@ INSTRUMENT_CHECKS = (
 )
 
 
-def check_instrument(instrument: Instrument) -> None:
+def check_instrument(instrument: Instrument, *, traits: InstrumentTraits | None = None) -> None:
     """Run every check on a live instrument.
 
     Parameters
     ----------
     instrument
         The object that the plugin's hook returns.
+    traits
+        What its manual says of its protocol; without it the kit does not pass.
 
     Raises
     ------
@@ -290,4 +386,4 @@ def check_instrument(instrument: Instrument) -> None:
         With a line for every check that fails.
     """
     expect_members(instrument, Instrument)
-    run_all(INSTRUMENT_CHECKS, instrument)
+    run_all(INSTRUMENT_CHECKS, instrument, traits)

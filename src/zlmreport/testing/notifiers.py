@@ -18,11 +18,15 @@ from zlmreport.testing.expectations import (
     run_all,
 )
 
+#: How many lines a message of the kit has: as after a bad night, some thousand characters.
+_LINES = 60
 #: With what is easily lost on the way: letters beyond ASCII, a dot alone on a line, what looks like markup.
 SAMPLE = Message(
     Occasion.DIGEST,
     "Hall Süd: 1 failed, 1 changed",
-    "Failed\n- jobs/x.yaml: <b> & 'Lagerweg' too short\n.\n\nChanged\n- MC 800, X: A + 4.2 µm, R − 0.3 µm\n",
+    "Failed\n- jobs/x.yaml: <b> & 'Lagerweg' too short\n.\n\nUnchanged\n"
+    + "".join(f"- MC {number}, Y: nothing new since the last night\n" for number in range(100, 100 + _LINES))
+    + "\nChanged\n- MC 800, X: A + 4.2 µm, R − 0.3 µm\n",
 )
 
 
@@ -40,12 +44,16 @@ class NotifierTrial:
         Keys by which nobody takes it: a closed port, an unknown address.
     secrets
         Passwords, and addresses that hold them, which no message may show.
+    to_another
+        Keys by which somebody else is told, of whose messages `taken` returns nothing; without them the kit
+        cannot tell a notifier that knows one receiver only, and does not pass.
     """
 
     keys: Mapping[str, Any]
     taken: Callable[[], str]
     to_nobody: Mapping[str, Any]
     secrets: tuple[str, ...] = field(default=())
+    to_another: Mapping[str, Any] | None = None
 
 
 def _options(notifier: Notifier, keys: Mapping[str, Any]) -> Any:
@@ -83,11 +91,38 @@ def tells_all_of_it_once(notifier: Notifier, trial: NotifierTrial) -> None:
     notifier.tell(SAMPLE, _options(notifier, trial.keys))
     taken = trial.taken().removeprefix(before)
     expect(taken, f"{notifier.identifier}: nothing arrived, and tell raised nothing")
-    for line in (SAMPLE.title, *SAMPLE.text.split("\n\n")[0].splitlines(), *SAMPLE.text.splitlines()[-2:]):
-        expect(line in taken, f"{notifier.identifier}: {line!r} did not arrive as it is, but {taken!r}")
+    lines = [line for line in (SAMPLE.title, *SAMPLE.text.splitlines()) if line]
+    lost = [line for line in lines if line not in taken]
+    expect(
+        not lost,
+        f"{notifier.identifier}: {lost[:1]} did not arrive as it is ({len(lost)} of {len(lines)} lines of a "
+        f"message of {len(SAMPLE.text)} characters are not there); what arrived ends with {taken[-80:]!r}",
+    )
     marked = SAMPLE.text.splitlines()[-1]
     expect(
         taken.count(marked) == 1, f"{notifier.identifier}: the message arrived {taken.count(marked)} times"
+    )
+
+
+@check
+def tells_whom_its_keys_name(notifier: Notifier, trial: NotifierTrial) -> None:
+    """Check that other keys name another receiver, and that what another is told does not come here."""
+    name = notifier.identifier
+    expect(
+        trial.to_another,
+        f"{name}: say by which keys somebody else is told: NotifierTrial(…, to_another={{…}}); nobody else "
+        "can see a notifier that tells always the same",
+    )
+    one, another = _options(notifier, trial.keys), _options(notifier, trial.to_another or {})
+    expect(
+        notifier.receiver(one) != notifier.receiver(another),
+        f"{name}: receiver is {notifier.receiver(one)!r} for other keys too; what was told to one receiver "
+        "is not told to it again, so the second would hear nothing",
+    )
+    before = trial.taken()
+    notifier.tell(SAMPLE, another)
+    expect(
+        trial.taken() == before, f"{name}: what somebody else is told arrives at {notifier.receiver(one)!r}"
     )
 
 
@@ -114,6 +149,7 @@ NOTIFIER_CHECKS = (
     options_are_described,
     names_who_is_told,
     tells_all_of_it_once,
+    tells_whom_its_keys_name,
     says_when_nobody_takes_it,
 )
 

@@ -30,6 +30,8 @@ from zlmreport.testing.expectations import (
 _SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
 _CORE_KEYS = frozenset({"program"})
 _LONGEST_LINE = 200
+#: By how much a feed may be rounded, mm/min.
+_FEED = 0.51
 
 
 def expect_program_named(program: Any, protocol: type, suffix: str) -> None:
@@ -132,8 +134,9 @@ def sample_motion(
     return motion_of(NUMBER, axis, plan, PLACE)
 
 
-#: From the text of a program to the stops: the position, mm or °, and the time at rest there, s.
-Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float]]]
+#: From the text of a program to the stops: the position, mm or °, the time at rest there, s, and the feed
+#: that holds on the way there, mm/min or °/min; NaN where the program has stated none so far.
+Interpreter: TypeAlias = Callable[[str], Sequence[tuple[float, float, float]]]
 
 #: Names that would become commands if they were taken as they are.
 _HOSTILE = ("X) G0 X9999 (", "X\nG0 X9999\n", "X;G0 X9999", "MSG,%\rM3 S9999", "Ä" * 300)
@@ -164,10 +167,30 @@ def leads_to_every_reading_from_its_side(
         expect(len(run) == len(planned), f"{where}: {len(run)} stops; expected {len(planned)}")
         for number, (is_at, should) in enumerate(zip(run, planned, strict=True), start=1):
             expect(
-                _near(is_at, should),
+                _near(is_at[:2], should),
                 f"{where}: stop {number} is at {is_at[0]:g} for {is_at[1]:g} s; expected {should[0]:g} for "
                 f"{should[1]:g} s",
             )
+
+
+@check
+def moves_at_the_planned_feed(
+    program: PartProgram, interpreter: Interpreter, keys: Mapping[str, Any]
+) -> None:
+    """Check that a feed is stated before the first motion, and holds for all of them."""
+    motion = sample_motion()
+    run = list(interpreter(_written(program, motion, keys)))
+    expect(
+        all(len(stop) == 3 for stop in run),
+        f"{program.identifier}: let the interpreter return (position, seconds, feed) of each stop, with NaN "
+        "for a feed that was not stated yet; nobody else can see a first motion without one",
+    )
+    for number, (*_, feed) in enumerate(run, start=1):
+        expect(
+            abs(feed - motion.feed) < _FEED,
+            f"{program.identifier}: the motion to stop {number} has the feed {feed:g}; expected "
+            f"{motion.feed:g} mm/min, stated before the first motion",
+        )
 
 
 @check
@@ -243,7 +266,7 @@ def writes_rotary_axes(program: PartProgram, interpreter: Interpreter, keys: Map
         return
     run = list(interpreter(text))
     expect(
-        [position for position, _ in run] == [stop.position for stop in motion.stops],
+        [stop[0] for stop in run] == [stop.position for stop in motion.stops],
         f"{program.identifier}: an axis C in degrees is not led as planned: {run}",
     )
 
@@ -252,7 +275,7 @@ def _written(program: PartProgram, motion: Motion, keys: Mapping[str, Any]) -> s
     return program.write(motion, program.options.model_validate(dict(keys)))
 
 
-def _near(one: tuple[float, float], other: tuple[float, float]) -> bool:
+def _near(one: Sequence[float], other: Sequence[float]) -> bool:
     """Return whether two stops agree: no control takes more digits than these."""
     return all(abs(mine - its) < 5e-7 for mine, its in zip(one, other, strict=True))
 
@@ -262,6 +285,7 @@ PART_PROGRAM_CHECKS = (
     is_named,
     options_are_described,
     leads_to_every_reading_from_its_side,
+    moves_at_the_planned_feed,
     is_plain_text,
     names_the_job,
     writes_the_same_again,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import io
 import json
 import math
@@ -12,12 +13,24 @@ import time
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from html.parser import HTMLParser
+from typing import TypeAlias
 from xml.etree import ElementTree as ET
 
+from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 from zlmreport.plugin.protocols import Renderer
-from zlmreport.testing.certificates import MARKUP, NUMBER, sample_certificate, worded_certificate
+from zlmreport.testing.certificates import (
+    LETTERS,
+    MARKUP,
+    NUMBER,
+    ordered_certificate,
+    sample_certificate,
+    worded_certificate,
+)
 from zlmreport.testing.expectations import check, expect, expect_members, expect_named, run_all
+
+#: From the bytes of a file to its text, as somebody reads it who opens it.
+Reader: TypeAlias = Callable[[bytes], str]
 
 _SUFFIX = re.compile(r"\.[a-z0-9]+(\.[a-z0-9]+)*")
 #: 26 hours apart: in these two zones it is never the same date.
@@ -25,7 +38,7 @@ _ZONES = ("UTC-14", "UTC+12")
 
 
 @check
-def is_named(renderer: Renderer) -> None:
+def is_named(renderer: Renderer, _read: Reader | None = None) -> None:
     """Check that it has an identifier that can be typed, a title in every language, and a file suffix."""
     expect_named(renderer, Renderer)
     expect(
@@ -35,7 +48,7 @@ def is_named(renderer: Renderer) -> None:
 
 
 @check
-def writes_every_block(renderer: Renderer) -> None:
+def writes_every_block(renderer: Renderer, _read: Reader | None = None) -> None:
     """Check that a certificate with one of everything becomes a file, in every language."""
     for language in Language:
         content = renderer.render(sample_certificate(language))
@@ -46,7 +59,7 @@ def writes_every_block(renderer: Renderer) -> None:
 
 
 @check
-def reads_no_clock(renderer: Renderer) -> None:
+def reads_no_clock(renderer: Renderer, _read: Reader | None = None) -> None:
     """Check that the same certificate gives the same bytes, in the next second and on another date."""
     certificate = sample_certificate()
     with _time_zone(_ZONES[0]):
@@ -62,23 +75,21 @@ def reads_no_clock(renderer: Renderer) -> None:
 
 
 @check
-def names_the_certificate(renderer: Renderer) -> None:
-    """Check that the file carries the certificate's number."""
-    content = renderer.render(sample_certificate())
-    read = _READERS.get(renderer.suffix)
-    if read is not None:
-        expect(
-            NUMBER in read(content),
-            f"{renderer.identifier}: the file does not carry the certificate's number, {NUMBER}",
-        )
+def names_the_certificate(renderer: Renderer, read: Reader | None = None) -> None:
+    """Check that the file carries the certificate's number; a table of values has it in its name."""
+    if renderer.suffix in _TABLES:
+        return
+    expect(
+        NUMBER in _text(renderer, sample_certificate(), read),
+        f"{renderer.identifier}: the file does not carry the certificate's number, {NUMBER}",
+    )
 
 
 @check
-def prints_what_the_document_says(renderer: Renderer) -> None:
+def prints_what_the_document_says(renderer: Renderer, read: Reader | None = None) -> None:
     """Check that nothing is dropped: no word of a document, and no value where the format is one of data."""
     certificate, words = worded_certificate()
-    content = renderer.render(certificate)
-    text = _READERS.get(renderer.suffix, _plain_text)(content)
+    text = _text(renderer, certificate, read)
     if renderer.suffix in _DATA:
         (parameter,) = certificate.evaluations[0].parameters
         wanted = [certificate.measurements.axis.deviation_unit.from_si(parameter.value), parameter.value]
@@ -94,15 +105,74 @@ def prints_what_the_document_says(renderer: Renderer) -> None:
 
 
 @check
-def sets_markup_as_text(renderer: Renderer) -> None:
+def sets_markup_as_text(renderer: Renderer, read: Reader | None = None) -> None:
     """Check that tags, entities and template expressions in a user's words come out as they were typed."""
-    content = renderer.render(sample_certificate(text=MARKUP))
-    read = _READERS.get(renderer.suffix)
-    if read is not None:
+    if _has_users_words(renderer, read):
         expect(
-            _unspaced(MARKUP) in _unspaced(read(content)),
+            _unspaced(MARKUP) in _unspaced(_text(renderer, sample_certificate(text=MARKUP), read)),
             f"{renderer.identifier}: a user's text {MARKUP!r} does not come out as it was typed",
         )
+
+
+@check
+def keeps_letters_and_signs(renderer: Renderer, read: Reader | None = None) -> None:
+    """Check that letters and signs of all Europe come out as they were typed: a file is UTF-8."""
+    if _has_users_words(renderer, read):
+        text = _unspaced(_text(renderer, sample_certificate(text=LETTERS), read))
+        lost = sorted(letter for letter in set(_unspaced(LETTERS)) if letter not in text)
+        expect(not lost, f"{renderer.identifier}: {''.join(lost)} do not come out as they were typed")
+
+
+@check
+def keeps_the_order(renderer: Renderer, read: Reader | None = None) -> None:
+    """Check that sections, blocks and parameters come in the order of the certificate, each in its unit."""
+    certificate, words, values = ordered_certificate()
+    text = _text(renderer, certificate, read)
+    if renderer.suffix in _DATA:
+        numbers = [float(number) for number in _NUMBER.findall(text)]
+        places = [
+            next((at for at, number in enumerate(numbers) if _is_one_of(number, each)), -1) for each in values
+        ]
+        lost = [f"{value:.6g}" for (_, value), place in zip(values, places, strict=True) if place < 0]
+        expect(
+            not lost,
+            f"{renderer.identifier}: the file does not carry {', '.join(lost)}; a parameter is in SI, or in "
+            "its own unit (quantity.unit_or)",
+        )
+    else:
+        places = [text.find(word) for word in words]
+        missing = [word for word in words if word not in text]
+        expect(not missing, f"{renderer.identifier}: the file does not print {', '.join(missing)}")
+    expect(
+        places == sorted(places),
+        f"{renderer.identifier}: sections, blocks or parameters are not in the order of the certificate",
+    )
+
+
+def _is_one_of(number: float, values: tuple[float, float]) -> bool:
+    return any(math.isclose(number, value, rel_tol=1e-3) for value in values)
+
+
+def _has_users_words(renderer: Renderer, read: Reader | None) -> bool:
+    """Return whether a user's own words stand in the file: of a document they do, some data have none."""
+    return renderer.suffix not in _DATA or _WORD in _text(renderer, sample_certificate(text=_WORD), read)
+
+
+def _text(renderer: Renderer, certificate: Certificate, read: Reader | None) -> str:
+    """Return the text of a file, as its author reads it, or as the kit knows the format."""
+    content = renderer.render(certificate)
+    reader = read or _READERS.get(renderer.suffix)
+    expect(
+        reader,
+        f"{renderer.identifier}: say how a file {renderer.suffix!r} is read: check_renderer(…, read=…), "
+        f"from its bytes to its text; the kit knows {', '.join(sorted(_READERS))}",
+    )
+    assert reader is not None  # noqa: S101  # said above; for type checkers
+    try:
+        return reader(content)
+    except UnicodeDecodeError as error:
+        message = f"{renderer.identifier}: the file is not UTF-8: {error}"
+        raise AssertionError(message) from error
 
 
 @contextlib.contextmanager
@@ -179,24 +249,40 @@ def _workbook_text(content: bytes) -> str:
     return " ".join(" ".join(ET.fromstring(part).itertext()) for part in parts)  # noqa: S314 - as above
 
 
+def _csv_text(content: bytes) -> str:
+    """Return the cells of a table, one a line; fails on a row that has more or fewer than the first."""
+    rows = list(csv.reader(io.StringIO(content.decode(), newline=""), strict=True))
+    for number, row in enumerate(rows, start=1):
+        expect(
+            len(row) == len(rows[0]),
+            f"row {number} has {len(row)} cells, and the first has {len(rows[0])}; a comma or a quotation "
+            "mark in a user's text is set as text by csv.writer",
+        )
+    return "\n".join(cell for row in rows for cell in row)
+
+
 def _plain_text(content: bytes) -> str:
-    """Return what somebody reads of a file of a kind that the kit does not know."""
-    return content.decode("utf-8", "replace")
+    return content.decode()
 
 
 #: How to read the text of a file again, where the kit knows.
-_READERS: Mapping[str, Callable[[bytes], str]] = {
+_READERS: Mapping[str, Reader] = {
+    ".csv": _csv_text,
     ".html": _html_text,
     ".json": _json_text,
     ".pdf": _pdf_text,
     ".xml": _xml_text,
+    ".txt": _plain_text,
     ".xlsx": _workbook_text,
 }
+#: Stands for a user's words.
+_WORD = "Kitword"
 #: Formats that carry results and no document.
 _DATA = frozenset({".json", ".xml", ".xlsx", ".csv"})
+_TABLES = frozenset({".csv"})
 _NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?")
 
-#: Every check of a renderer, each called with the renderer.
+#: Every check of a renderer, each called with it and with how its author reads its files.
 RENDERER_CHECKS = (
     is_named,
     writes_every_block,
@@ -204,11 +290,21 @@ RENDERER_CHECKS = (
     names_the_certificate,
     prints_what_the_document_says,
     sets_markup_as_text,
+    keeps_letters_and_signs,
+    keeps_the_order,
 )
 
 
-def check_renderer(renderer: Renderer) -> None:
+def check_renderer(renderer: Renderer, read: Reader | None = None) -> None:
     """Run every check on a renderer.
+
+    Parameters
+    ----------
+    renderer
+        The object that the plugin's hook returns.
+    read
+        From the bytes of a file to its text, as somebody sees it who opens it; of formats that the kit does
+        not know it does not pass without.
 
     Raises
     ------
@@ -216,4 +312,4 @@ def check_renderer(renderer: Renderer) -> None:
         With a line for every check that fails.
     """
     expect_members(renderer, Renderer)
-    run_all(RENDERER_CHECKS, renderer)
+    run_all(RENDERER_CHECKS, renderer, read)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
+import re
 import tempfile
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -13,7 +14,7 @@ import numpy as np
 
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import DataSource, SourceContext
 from zlmreport.testing.expectations import (
@@ -235,6 +236,126 @@ def damaged_files_are_refused(source: DataSource, keys: Mapping[str, Any], axis:
                     expect(damage == _CUT, f"{where}, and it reads measurements from that")
 
 
+#: So many places of a file are damaged one by one, evenly spread where it has more.
+_DAMAGES = 40
+_NUMBER_IN_TEXT = re.compile(rb"(?<![\w.,+-])[-+]?\d+(?:[.,]\d+)?(?![\w.,])")
+#: What makes of a number none, without making two words or two cells of it.
+_GARBLE = b"x"
+
+
+@check
+def no_number_is_guessed(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
+    """Check that a number that is none (``1x25``) is refused with its place, or was no reading at all."""
+    before = _read(source, keys, axis)
+    for key, path in _files(source, keys):
+        content = path.read_bytes()
+        for found in _spread(list(_NUMBER_IN_TEXT.finditer(content))):
+            middle = (found.start() + found.end() + 1) // 2
+            damaged = content[:middle] + _GARBLE + content[middle:]
+            word = damaged[found.start() : found.end() + 1].decode("ascii")
+            line = content.count(b"\n", 0, middle) + 1
+            read = _read_damaged(source, {**keys, key: path}, key, damaged, axis)
+            expect(
+                read is None or _same_readings(read, before),
+                f"{source.identifier}: line {line} of '{key}' holds {word!r}, and "
+                f"that makes {_instead(read, before)}; a number that is none is an InputError with its place",
+            )
+
+
+@check
+def no_short_line_is_dropped(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
+    """Check that a line whose last word is lost is refused, or counts as one missing reading and no more."""
+    before = _read(source, keys, axis)
+    known = _found(before) + len(before.missing())
+    for key, path in _files(source, keys):
+        lines = path.read_bytes().splitlines(keepends=True)
+        for number in _spread(range(len(lines))):
+            shorter = re.sub(rb"[^\s,;]+(\s*)\Z", rb"\1", lines[number])
+            if shorter == lines[number] or not re.search(rb"\d", lines[number]):
+                continue
+            damaged = b"".join([*lines[:number], shorter, *lines[number + 1 :]])
+            read = _read_damaged(source, {**keys, key: path}, key, damaged, axis)
+            if read is None or _same_readings(read, before):
+                continue
+            is_told = _found(read) >= _found(before) - 1 and _found(read) + len(read.missing()) >= known
+            expect(
+                is_told,
+                f"{source.identifier}: line {number + 1} of '{key}' lost its last word, and that makes "
+                f"{_instead(read, before)}; a line that is too short is an InputError with its place",
+            )
+
+
+@check
+def follows_the_kind_of_axis(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
+    """Check that of an axis of the other kind the same numbers are degrees (millimetres), or are refused.
+
+    Of a source that needs more of the job than its axis, that part of the job says which axes go with it.
+    """
+    context = _context(axis)
+    if context.axis.quantity is not None or context.set_ups:
+        return
+    was_linear = context.axis.kind is AxisKind.LINEAR
+    other = Axis("C", AxisKind.ROTARY) if was_linear else Axis("X")
+    before = _read(source, keys, axis)
+    try:
+        read = _read(source, keys, replace(context, axis=other))
+    except ZlmreportError:
+        return
+    where = f"{source.identifier}: read as of {'a rotary' if was_linear else 'a linear'} axis"
+    targets, wanted = (each.axis.position_unit.from_si(each.target_positions) for each in (read, before))
+    expect(
+        targets.shape == wanted.shape and np.allclose(targets, wanted, rtol=1e-9, atol=1e-9),
+        f"{where} the targets are {targets[:3]} {other.position_unit.symbol}, the file says {wanted[:3]}; "
+        "ask the axis for its units (axis.position_unit), or refuse it",
+    )
+    one, two = (each.axis.deviation_unit.from_si(each.deviation) for each in (read, before))
+    # A file with deviations gives them in both units; one with positions makes 1000 µm of 1 mm, 3600″ of 1°.
+    ratios = (1.0, 3.6) if was_linear else (1.0, 1 / 3.6)
+    expect(
+        any(np.allclose(one, two * ratio, rtol=1e-6, atol=1e-6, equal_nan=True) for ratio in ratios),
+        f"{where} deviations are {one[:3]} {other.deviation_unit.symbol} instead of {two[:3]}; ask the axis "
+        "for its units (axis.deviation_unit), or refuse it",
+    )
+
+
+def _spread(places: Sequence[Any]) -> Sequence[Any]:
+    """Return some of many places, the first and the last among them."""
+    if len(places) <= _DAMAGES:
+        return places
+    return [places[index] for index in np.linspace(0, len(places) - 1, _DAMAGES).astype(int)]
+
+
+def _read_damaged(
+    source: DataSource, keys: Mapping[str, Any], key: str, content: bytes, axis: OfAxis
+) -> MeasurementSet | None:
+    """Return what is read of a copy with another content; None where it is refused."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder, keys[key].name)
+        copy.write_bytes(content)
+        try:
+            return _read(source, {**keys, key: copy}, axis)
+        except ZlmreportError:
+            return None
+
+
+def _found(read: MeasurementSet) -> int:
+    return int(np.isfinite(read.deviation).sum())
+
+
+def _same_readings(one: MeasurementSet, other: MeasurementSet) -> bool:
+    return all(
+        np.array_equal(getattr(one, name), getattr(other, name), equal_nan=name == "deviation")
+        for name in ("target_positions", "target", "approach", "run", "deviation")
+    )
+
+
+def _instead(read: MeasurementSet | None, before: MeasurementSet) -> str:
+    if read is None:
+        return "nothing"
+    lost = _found(before) - _found(read)
+    return f"{lost} readings fewer without a word" if lost else "other readings without a word"
+
+
 _CUT = "a file cut off in the middle"
 
 
@@ -279,6 +400,9 @@ SOURCE_CHECKS = (
     names_its_files,
     remarks_are_worded,
     damaged_files_are_refused,
+    no_number_is_guessed,
+    no_short_line_is_dropped,
+    follows_the_kind_of_axis,
 )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,6 +19,7 @@ from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.measurement.units import ANGLES, LENGTHS, TIMES, Unit
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
+from zlmreport.testing.examples import EXAMPLE_CHECKS, WorkedExample
 from zlmreport.testing.expectations import (
     check,
     expect,
@@ -44,13 +45,13 @@ _RELATIVE = 1e-9
 
 
 @check
-def has_all_members(standard: Standard, _: Options) -> None:
+def has_all_members(standard: Standard, *_more: Any) -> None:
     """Check that the protocol is complete."""
     expect_members(standard, Standard)
 
 
 @check
-def is_named(standard: Standard, _: Options) -> None:
+def is_named(standard: Standard, *_more: Any) -> None:
     """Check that it has an identifier that can be typed, a designation, and a title in every language."""
     expect_identifier(standard.identifier, repr(standard))
     expect(standard.designation.strip(), f"{standard.identifier}: designation must be what is printed")
@@ -65,13 +66,13 @@ def is_named(standard: Standard, _: Options) -> None:
 
 
 @check
-def options_are_described(standard: Standard, _: Options) -> None:
+def options_are_described(standard: Standard, *_more: Any) -> None:
     """Check that its job keys are described, and none is a key of the core."""
     expect_options(standard, _CORE_KEYS)
 
 
 @check
-def symbols_are_unique(standard: Standard, _: Options) -> None:
+def symbols_are_unique(standard: Standard, *_more: Any) -> None:
     """Check that symbols are ASCII, unique, and none is that of a column which every table has."""
     expect(standard.quantities, f"{standard.identifier} reports no parameter: quantities is empty")
     for owner, symbols in (
@@ -90,7 +91,7 @@ def symbols_are_unique(standard: Standard, _: Options) -> None:
 
 
 @check
-def quantities_are_worded(standard: Standard, _: Options) -> None:
+def quantities_are_worded(standard: Standard, *_more: Any) -> None:
     """Check that each quantity has its notation, and says in every language what it is and what it means."""
     described: Iterable[Quantity | PositionQuantity] = (*standard.quantities, *standard.position_quantities)
     for quantity in described:
@@ -105,7 +106,7 @@ def quantities_are_worded(standard: Standard, _: Options) -> None:
 
 
 @check
-def requirements_never_refuse(standard: Standard, options: Options) -> None:
+def requirements_never_refuse(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that requirements answer with findings, however poor the test is, and answer the same again."""
     for kind, measurements in {**good_tests(standard), **poor_tests(standard)}.items():
         where = f"{standard.identifier}: requirements on {kind}"
@@ -132,7 +133,7 @@ def _expect_finding(finding: object, where: str) -> None:
 
 
 @check
-def figures_of_any_test(standard: Standard, options: Options) -> None:
+def figures_of_any_test(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a complete test gives graphs, and a poor test graphs of what there is, or none."""
     good, poor = good_tests(standard), poor_tests(standard)
     for kind, measurements in {**good, **poor}.items():
@@ -151,7 +152,7 @@ def figures_of_any_test(standard: Standard, options: Options) -> None:
 
 
 @check
-def figures_are_worded(standard: Standard, options: Options) -> None:
+def figures_are_worded(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a graph has its caption, its axes, and a description with its values, in every language."""
     for where, figure, _ in _figures(standard, options):
         expect_identifier(figure.key, f"{where}: key")
@@ -180,7 +181,7 @@ def figures_are_worded(standard: Standard, options: Options) -> None:
 
 
 @check
-def marks_stand_at_targets(standard: Standard, options: Options) -> None:
+def marks_stand_at_targets(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that curves, bands, arrows and brackets stand at target positions of the test."""
     for where, figure, evaluation in _figures(standard, options):
         lines = [line.target_positions for line in evaluation.measurements.lines]
@@ -205,7 +206,7 @@ def marks_stand_at_targets(standard: Standard, options: Options) -> None:
 
 
 @check
-def curves_have_a_value_at_each_position(standard: Standard, options: Options) -> None:
+def curves_have_a_value_at_each_position(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that curves and bands have a value at each position, and a band its limits in order."""
     for where, figure, _ in _figures(standard, options):
         for panel in figure.panels:
@@ -224,7 +225,7 @@ def curves_have_a_value_at_each_position(standard: Standard, options: Options) -
 
 
 @check
-def marks_have_finite_ends(standard: Standard, options: Options) -> None:
+def marks_have_finite_ends(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that arrows, brackets and levels have finite ends, the lower one first."""
     for where, figure, _ in _figures(standard, options):
         for panel in figure.panels:
@@ -240,7 +241,7 @@ def marks_have_finite_ends(standard: Standard, options: Options) -> None:
 
 
 @check
-def brackets_span_what_is_drawn(standard: Standard, options: Options) -> None:
+def brackets_span_what_is_drawn(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a bracket's ends are values that the panel shows at their targets, or its zero line."""
     for where, figure, _ in _figures(standard, options):
         for panel in figure.panels:
@@ -258,7 +259,7 @@ def brackets_span_what_is_drawn(standard: Standard, options: Options) -> None:
 
 
 @check
-def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options) -> None:
+def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options, *_more: Any) -> None:
     """Check that a bracket that carries a parameter's notation spans exactly the parameter's value."""
     for where, figure, evaluation in _figures(standard, options):
         for panel in figure.panels:
@@ -326,7 +327,7 @@ def _values_of(bracket: Bracket, evaluation: Evaluation, unit: Unit) -> Iterator
             yield unit.from_si(parameter.value)
 
 
-#: Every check of a standard, each called with the standard and its validated options.
+#: Every check of a standard, each called with it, its options, its author's examples and other keys.
 STANDARD_CHECKS = (
     has_all_members,
     is_named,
@@ -342,10 +343,17 @@ STANDARD_CHECKS = (
     marks_have_finite_ends,
     brackets_span_what_is_drawn,
     brackets_are_as_long_as_their_parameter,
+    *EXAMPLE_CHECKS,
 )
 
 
-def check_standard(standard: Standard, keys: Mapping[str, Any] | None = None) -> None:
+def check_standard(
+    standard: Standard,
+    keys: Mapping[str, Any] | None = None,
+    *,
+    examples: Sequence[WorkedExample] = (),
+    other_keys: Mapping[str, Any] | None = None,
+) -> None:
     """Run every check on a standard.
 
     Parameters
@@ -354,6 +362,11 @@ def check_standard(standard: Standard, keys: Mapping[str, Any] | None = None) ->
         The object that the plugin's hook returns.
     keys
         Its job keys, as a job file would give them; none where all have defaults.
+    examples
+        Tests with the values that the standard gives them, from its text or computed by hand; without one the
+        kit cannot tell a wrong factor from a right one, and does not pass.
+    other_keys
+        Another value of job keys, each of which changes a result, where the kit finds none by its type.
 
     Raises
     ------
@@ -361,4 +374,5 @@ def check_standard(standard: Standard, keys: Mapping[str, Any] | None = None) ->
         With a line for every check that fails.
     """
     expect_members(standard, Standard)
-    run_all(STANDARD_CHECKS, standard, standard.options.model_validate(keys or {}))
+    options = standard.options.model_validate(keys or {})
+    run_all(STANDARD_CHECKS, standard, options, examples, other_keys or {})

@@ -10,7 +10,7 @@ from typing import Any
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry
+from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry, without
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.document import Certificate
@@ -118,8 +118,10 @@ def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) ->
     ]
     (tmp_path / "x.csv").write_text("\n".join(["target,direction,run,deviation", *rows]), encoding="utf-8")
     source = {"plugin": "laser-csv", "file": "x.csv"}
-    keys = having("evaluate", ["nmtba"], having("measurement.source", source, REPORT))
-    section = certificate(tmp_path, keys).sections[0]
+    keys = having(
+        "evaluate", ["nmtba"], having("measurement.source", source, without("customer", keys=REPORT))
+    )
+    section = certificate(tmp_path, having("location", "Hall 3", keys)).sections[0]
     tables = [block for block in section.blocks if isinstance(block, Table)]
     assert len(tables) == 2
 
@@ -189,7 +191,7 @@ def stating(words: Mapping[str, str]) -> Mapping[str, Any]:
 
 def taken(of: Certificate) -> list[float]:
     """Return how high each page is estimated to be, in parts of what it has."""
-    head = columns.head_height(of.letterhead, of.title, of.subtitle, of.number)
+    head = columns.head_height(of.letterhead, of.title, of.subtitle, of.number) + columns.BELOW_TITLE
     heights = [columns.heading_height(each.title) + columns.height(each.blocks) for each in of.sections]
     heights[0] += head
     return [height / (columns.PAGES[of.paper] + columns.END_MARK) for height in heights]
@@ -319,7 +321,7 @@ def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, 
     found = certificate(tmp_path, SHEET)
     section = found.sections[0]
     estimate = columns.head_height(found.letterhead, found.title, found.subtitle, found.number)
-    estimate += columns.heading_height(section.title)
+    estimate += columns.BELOW_TITLE + columns.heading_height(section.title)
     estimate += columns.height(section.blocks)
     taken = _lowest(found, renderer)
     assert taken < estimate + 12

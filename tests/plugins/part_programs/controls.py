@@ -23,6 +23,7 @@ class Machine:
 
     feed: float | None = None
     stops: list[tuple[float, float]] = field(default_factory=list)
+    feeds: list[float] = field(default_factory=list)
     waits: list[float] = field(default_factory=list)
     blocks: list[int] = field(default_factory=list)
 
@@ -30,6 +31,7 @@ class Machine:
         if not self.feed:
             raise AlarmError("no feed is programmed")
         self.stops.append((position, 0.0))
+        self.feeds.append(self.feed)
 
     def wait(self) -> None:
         if not self.stops:

@@ -10,7 +10,6 @@ from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluation import Group, Quantity
 from zlmreport.language import Language
 from zlmreport.language.formatting import plain
-from zlmreport.testing import check_standard
 
 ISO_1988 = "A A_fwd A_bwd R R_fwd R_bwd B B_mean"
 ISO_SINCE_1997 = "A A_fwd A_bwd E E_fwd E_bwd M R R_fwd R_bwd B B_mean"
@@ -71,11 +70,6 @@ def test_columns_by_position(identifier: str) -> None:
     found = [each.symbol for each in STANDARDS[identifier].position_quantities]
 
     assert found == BY_POSITION[identifier].split()
-
-
-@pytest.mark.parametrize("identifier", STANDARDS)
-def test_conforms_to_the_kit_for_standards(identifier: str) -> None:
-    check_standard(STANDARDS[identifier])
 
 
 @pytest.mark.parametrize("identifier", STANDARDS)

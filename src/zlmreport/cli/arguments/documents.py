@@ -144,8 +144,8 @@ def new(command: str) -> CommandParser:
     parser.add_argument(
         "kind",
         metavar="KIND",
-        help="standard, source, renderer, effect, instrument, program (a part program), controller "
-        "or notifier",
+        help="standard, source, renderer, effect, instrument, program (a part program), controller, "
+        "notifier or quantity (a measurand with its standard and its source)",
     )
     parser.add_argument(
         "name", metavar="NAME", help="of the plugin and its folder, as jobs will name it: shop-rule"

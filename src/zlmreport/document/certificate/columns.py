@@ -353,6 +353,9 @@ _SECTION_HEADING = 14.0 + 2.5 + 5.0
 _LOGO = 31.0
 #: Em of a page of the type of the line below the title, and of a laboratory's name without and with a logo.
 _SUBJECT_EM, _LABORATORY_EM = 50.0, (46.0, 30.0)
+_SUBJECT_LINE = 12.9
+#: What a section has above its heading that begins below the title, and no page.
+BELOW_TITLE = 5.5
 #: Em of the names and values of facts in one of two columns.
 _NAME_EM, _VALUE_EM = 10.4, 16.3
 _FACTS_MARGIN = 4.0
@@ -370,7 +373,7 @@ def head_height(letterhead: Letterhead | None, title: str, subject: str, number:
     The number stands behind the subject, or below it where it would be parted.
     """
     below_title = _lines_of_words(f"{subject} {number.replace('-', '_')}", _SUBJECT_EM)
-    room = _lines_of(title, 26.0) * 17.5 + _LINE * 1.1 * below_title + 7.0
+    room = _lines_of(title, 26.0) * 17.5 + _SUBJECT_LINE * below_title + 7.0
     if letterhead:
         beside = ", ".join((*letterhead.laboratory.lines, letterhead.accreditation))
         name = _lines_of_words(letterhead.laboratory.name, _LABORATORY_EM[bool(letterhead.logo)])

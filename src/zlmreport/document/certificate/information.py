@@ -57,9 +57,10 @@ _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
             de="Temperaturen und ihre Messstellen angegeben",
         ),
         Information.REFERENCE_TEMPERATURE: Words(
-            en="Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U",
-            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder, bis 1 K davon, die Ausdehnung in U "
-            "enthalten",
+            en="Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion "
+            "in U",
+            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder, bis 1 K davon, die Ausdehnung "
+            "in U enthalten",
         ),
         Information.INSTRUMENT: Words(
             en="Measuring instrument, its calibration and its compensation reported",

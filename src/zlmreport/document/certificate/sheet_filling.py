@@ -176,7 +176,7 @@ def _who(said: Said, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
     ways = [(short[:count], _others(said.who, short[:count])) for count in (_FEWEST_IN_COLUMNS, 0)]
     for beside in (_sentences(said.law), ()):
         for in_columns, in_a_line in ways:
-            blocks = (*_in_two_columns(in_columns), *_facts_in_a_line(in_a_line))
+            blocks: list[Block] = [*_in_two_columns(in_columns), *_facts_in_a_line(in_a_line)]
             if page.holds((*blocks, *beside)):
                 page.take(blocks)
                 return in_columns, in_a_line

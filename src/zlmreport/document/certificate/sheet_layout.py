@@ -56,7 +56,9 @@ _GRAPH_OF_A_LINE = 46.0
 _GAINED = columns.END_MARK - 9.0
 #: For a line on what is to be noted, one on what stands elsewhere, and customer and machine in small type, in
 #: points.
-_LEAST_ROOM = 90.0
+_LEAST_ROOM = 84.0
+#: What a graph leaves that grows beyond its usual height, points: how high all else is, is an estimate.
+_SPARE = 6.0
 #: Of its caption and of the space around it, mm.
 _BESIDE_GRAPH = 8.0
 #: Groups of facts that need no heading, for their names say of what they are.
@@ -99,7 +101,7 @@ def lay_out(of: Material) -> LaidOut:
         _Page(last, whole + _GAINED, 0.0) if goes_on else _Page(last, whole, _GAINED),
     ]
     if not of.is_part:  # or else the summary stands before them
-        pages[0] = replace(pages[0], free=pages[0].free - head_height(of))
+        pages[0] = replace(pages[0], free=pages[0].free - head_height(of) - columns.BELOW_TITLE)
     sheets = [_sheet(of, page) for page in pages]
     before = {
         each.evaluation.standard: _sheet(of, _Page((each,), whole + _GAINED, 0.0, is_as_found=True))
@@ -190,7 +192,8 @@ def _room_beside(figure: Figure | None, free: float) -> float:
 
 
 def _as_high_as(figure: Figure, free: float) -> Figure:
-    height = free / columns.MILLIMETRE - _BESIDE_GRAPH
+    usual = min(free / columns.MILLIMETRE - _BESIDE_GRAPH, _GRAPH)
+    height = max(usual, (free - _SPARE) / columns.MILLIMETRE - _BESIDE_GRAPH)
     return replace(figure, height=round(min(max(height, _LEAST_GRAPH), _LARGEST_GRAPH), 1))
 
 

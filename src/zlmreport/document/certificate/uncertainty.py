@@ -41,7 +41,8 @@ _COVERAGE = Words(
 )
 _INTERVAL = Words(
     en="{coverage} The interval of the axis holds, with the same probability, what another test of this "
-    "axis by the same plan would find with the same set-up left in place; errors of the set-up are not in it.",
+    "axis by the same plan would find with the same set-up left in place; errors of the set-up are not in "
+    "it.",
     de="{coverage} Das Intervall der Achse enthält mit derselben Wahrscheinlichkeit, was eine weitere "
     "Messung nach demselben Plan mit derselben, unveränderten Messeinrichtung fände; Fehler der "
     "Messeinrichtung enthält es nicht.",

@@ -83,12 +83,14 @@ def axis_intervals(
     if simulated is None:
         return tuple({} for _ in evaluations)
     first, second = simulated
+    lines = zip(measurements.lines, budget.lines, strict=False) if budget else ()
+    rounded = any(hiding_resolution(of_line, line.deviations()) for line, of_line in lines)
     found = []
     for evaluation, arithmetic in evaluations:
         one, other = arithmetic(first).parameters, arithmetic(second).parameters
         found.append(
             {
-                symbol: _interval(each.value, one[symbol], other[symbol])
+                symbol: _interval(each.value, one[symbol], other[symbol], rounded=rounded)
                 for each in evaluation.parameters
                 for symbol in (each.quantity.symbol,)
             }
@@ -124,14 +126,21 @@ def _simulated_pairs(
     return first, second
 
 
-def _interval(value: float, one: FloatArray, other: FloatArray) -> tuple[float, float]:
-    """Return the value with the quantiles of the differences within pairs on either side."""
+def _interval(
+    value: float, one: FloatArray, other: FloatArray, *, rounded: bool = False
+) -> tuple[float, float]:
+    """Return the value with the quantiles of the differences within pairs on either side.
+
+    `rounded`: Whether a parameter has few values: the ends are then some that occurred, and are inside.
+    """
     tail = (1.0 - PROBABILITY) / 2
     differences = np.concatenate((other - one, one - other))
-    # Of rounded readings a parameter has few values: the ends are values that occurred, and are inside.
-    low = np.quantile(differences, tail, method="lower")
-    high = np.quantile(differences, 1.0 - tail, method="higher")
-    low, high = (each + side * _INSIDE * (high - low) for each, side in ((low, -1), (high, 1)))
+    if rounded:
+        low = np.quantile(differences, tail, method="lower")
+        high = np.quantile(differences, 1.0 - tail, method="higher")
+        low, high = (each + side * _INSIDE * (high - low) for each, side in ((low, -1), (high, 1)))
+    else:
+        low, high = np.quantile(differences, (tail, 1.0 - tail))
     never_negative = value >= 0 and float(min(one.min(), other.min())) >= 0
     lowest = value + float(low)
     return shortened(max(lowest, 0.0) if never_negative else lowest), shortened(value + float(high))

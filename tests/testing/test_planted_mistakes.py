@@ -1,0 +1,90 @@
+"""The kits find the mistakes of authors: each is planted into a skeleton, whose own test names it."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from collections.abc import Callable, Iterator
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+from testing.planted import PLANTED, Changes, Planted
+from zlmreport.cli.new import skeleton_of
+
+#: Where the kit of a kind has its checks.
+_KITS = {
+    "standard": ("standards", "STANDARD_CHECKS"),
+    "effect": ("effects", "EFFECT_CHECKS"),
+    "source": ("sources", "SOURCE_CHECKS"),
+    "notifier": ("notifiers", "NOTIFIER_CHECKS"),
+    "controller": ("controllers", "CONTROLLER_CHECKS"),
+    "renderer": ("renderers", "RENDERER_CHECKS"),
+    "instrument": ("instruments", "INSTRUMENT_CHECKS"),
+    "program": ("part_programs", "PART_PROGRAM_CHECKS"),
+}
+
+
+@cache
+def _skeleton(kind: str) -> dict[str, str]:
+    return {path: content.decode() for path, content in skeleton_of(kind, "my-plugin").items()}
+
+
+def _changed(text: str, changes: Changes) -> str:
+    for old, new in changes:
+        assert old in text, f"the skeleton has no {old!r}"
+        text = text.replace(old, new)
+    return text
+
+
+@pytest.fixture
+def test_of(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[Callable[[Planted], Callable[..., None]]]:
+    """Return a function that gives the test of a skeleton with a mistake; the named check runs alone."""
+
+    def build(planted: Planted) -> Callable[..., None]:
+        files = _skeleton(planted.kind)
+        for name, changes in (
+            ("my_plugin.py", planted.module),
+            ("test_my_plugin.py", planted.test),
+            ("my_plugin.yaml", planted.data),
+        ):
+            if name in files:
+                (tmp_path / name).write_text(_changed(files[name], changes), encoding="utf-8")
+        kit, checks = _KITS[planted.kind]
+        module = import_module(f"zlmreport.testing.{kit}")
+        named = [check for check in getattr(module, checks) if check.__name__ == planted.check]
+        assert named, f"the kit of a {planted.kind} has no check {planted.check}"
+        monkeypatch.setattr(module, checks, tuple(named))
+        _imported("my_plugin", tmp_path)
+        found: Callable[..., None] = _imported("test_my_plugin", tmp_path).test_conforms
+        return found
+
+    yield build
+    for name in ("my_plugin", "test_my_plugin"):
+        sys.modules.pop(name, None)
+
+
+def _imported(name: str, folder: Path) -> ModuleType:
+    spec = importlib.util.spec_from_file_location(name, folder / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.mark.parametrize("planted", PLANTED, ids=str)
+def test_a_planted_mistake_is_named(
+    planted: Planted, test_of: Callable[[Planted], Callable[..., None]], tmp_path: Path
+) -> None:
+    test_conforms = test_of(planted)
+    takes_folder = planted.kind in {"source", "notifier"}
+    with pytest.raises(AssertionError) as failure:
+        test_conforms(*([tmp_path] if takes_folder else []))
+    assert planted.sentence in str(failure.value)
