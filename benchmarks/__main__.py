@@ -31,7 +31,9 @@ OTHERS = {
     "several": ("hidden_effects.several", "main"),
     "priors": ("hidden_effects.command", "main_of_priors"),
     "coverage": ("coverage_of_u", "main"),
+    "worlds": ("coverage_of_worlds", "main"),
     "circles": ("circle_coverage", "main"),
+    "machines": ("machines_hidden", "main"),
     "closed-loops": ("closed_loops", "main"),
     "step-gauge": ("step_gauge_coverage", "main"),
     "kills": ("kills", "main"),
@@ -65,8 +67,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, circles, step-gauge, "
-        "kills have options of their own: see their --help.",
+        epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, circles, machines, "
+        "step-gauge, kills have options of their own: see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

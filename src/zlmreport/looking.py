@@ -6,7 +6,7 @@ import json
 import os
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +14,8 @@ from pydantic import ValidationError
 
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurand import CIRCLE
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurand import CIRCLE, measurands_of
+from zlmreport.measurement.measurement_set import MeasurementSet, joined
 from zlmreport.plugin.protocols import DataSource, SourceContext, SourceProposal
 from zlmreport.plugin.registry import Registry
 
@@ -37,10 +37,15 @@ class Looked:
     source: DataSource  #: By which data source.
     proposal: SourceProposal  #: With which keys, and what is to be asked.
     read: MeasurementSet  #: What it holds.
+    standard: str  #: By which a job that is begun evaluates it.
 
     def block(self, file: str, indent: str = "") -> Iterator[str]:
-        """Yield the lines of the ``source:`` block of a job that names the file so."""
+        """Yield the lines of the ``source:`` block of a job that names the file so; of tests that of each."""
         keys = {"plugin": self.source.identifier, "file": file, **self.proposal.keys}
+        if self.proposal.tests:
+            yield f"{indent}tests:"
+            yield from (f"{indent}  {name}: {_in_yaml({'source': keys})}" for name in self.proposal.tests)
+            return
         yield f"{indent}source:"
         yield from (f"{indent}  {name}: {_in_yaml(value)}" for name, value in keys.items())
 
@@ -64,14 +69,18 @@ def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
                 raise  # no other source could open it
             except ZlmreportError as error:
                 errors.append(error)
-    ways.sort(key=lambda way: way[1].circle is None)  # a table of senses would pass as one of directions
+    # A table of senses, or of channels, would pass as one of directions.
+    ways.sort(key=lambda way: way[1].circle is None and way[1].quantity is None)
     for source, proposal in ways:
         for axis in _axes(proposal):
             try:
-                return Looked(source, proposal, _read(source, proposal, path, axis))
+                read = _read(source, proposal, path, axis)
+                return Looked(source, proposal, read, _standard_for(proposal, registry))
             except AccessError:
                 raise
             except ZlmreportError as error:
+                if proposal.circle or proposal.quantity:  # its columns say what it is, and it is not sound
+                    raise
                 errors.append(error)
     raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
 
@@ -90,6 +99,9 @@ def _axes(proposal: SourceProposal) -> Iterator[Axis]:
     """Yield the axes that a file may be of: of the kind first that its letter tells; a circle has its own."""
     if proposal.circle:
         return iter([Axis(proposal.circle.plane, quantity=CIRCLE, circle=proposal.circle)])
+    if proposal.quantity:
+        name = " ".join(proposal.tests) or proposal.axis or _UNNAMED[AxisKind.LINEAR]
+        return iter([Axis(name, quantity=proposal.quantity)])
     kinds = sorted(AxisKind, key=lambda kind: (kind is AxisKind.ROTARY) is not (proposal.axis in _TURNING))
     return iter([Axis(proposal.axis or _UNNAMED[kind], kind) for kind in kinds])
 
@@ -99,7 +111,29 @@ def _read(source: DataSource, proposal: SourceProposal, path: Path, axis: Axis) 
         options = source.options.model_validate({"file": path, **proposal.keys})
     except ValidationError as error:
         raise InputError.at(Place(str(path)), f"{source.identifier} needs more keys: {error}") from error
+    if proposal.tests:
+        lines = {
+            name: source.read(options, SourceContext(replace(axis, name=name), Place(str(path))))
+            for name in proposal.tests
+        }
+        return joined(axis, lines)
     return source.read(options, SourceContext(axis, Place(str(path))))
+
+
+def _standard_for(proposal: SourceProposal, registry: Registry) -> str:
+    """Return a standard that evaluates what a file holds: the usual one, or one that is for it."""
+    if proposal.circle:
+        return _OF_CIRCLES
+    if proposal.quantity is None:
+        return _OF_AXES
+    wanted = proposal.quantity.identifier
+    fitting = (
+        standard.identifier
+        for standard in registry.standards
+        for each in measurands_of(standard)
+        if wanted == (each.of_lines if proposal.tests and each.of_lines else each).identifier
+    )
+    return next(fitting, _OF_AXES)
 
 
 def job_of(looked: Looked, file: Path, directory: Path) -> str:
@@ -115,7 +149,7 @@ def job_of(looked: Looked, file: Path, directory: Path) -> str:
             *(f"  # {question}" for question in looked.proposal.asks),
             *looked.block(name, indent="  "),
             "evaluate:",
-            f'  - "{_OF_CIRCLES if looked.proposal.circle else _OF_AXES}"',
+            f'  - "{looked.standard}"',
             "output: {formats: [pdf, json]}",
             "",
         ]
@@ -128,6 +162,8 @@ def _measured(looked: Looked) -> Iterator[str]:
     if axis.circle:
         radius, feed = axis.circle.radius * 1e3, axis.circle.feed * 60e3
         yield f"circle: {{plane: {axis.circle.plane}, radius: {radius:.9g}, feed: {feed:.9g}}}"
+        return
+    if looked.proposal.tests:
         return
     if not looked.proposal.axis:
         yield "# Which axis is it? The file does not name it."

@@ -130,7 +130,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
         return _compose_parts(job, registry, made_by, showing, trials)
     missing = [
         *missing_items(job),
-        *(one for each in job.lines.values() for one in traceability.refusals(each)),
+        *(one for each in (*job.lines.values(), job.as_found) if each for one in traceability.refusals(each)),
     ]
     try:
         measurements = read(job, registry)

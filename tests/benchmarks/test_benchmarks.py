@@ -79,3 +79,17 @@ def test_the_coverage_of_stated_uncertainties_is_counted_for_each_budget() -> No
         assert heading == f"| nmtba, {question} | P | Pa | Ps_max | Ps_mean | O |"
         shares = {float(cell) for row in rows for cell in row.split("|")[2:-1]}
         assert shares <= {0.0, 50.0, 100.0}
+
+
+def test_the_coverage_of_whole_jobs_is_counted_for_each_world() -> None:
+    done = run(
+        "worlds", "--tests", "2", "--simulated", "50", "steps of 1 µm, s = 0.05", "20 to 24 °C, corrected"
+    )
+    assert done.returncode == 0, done.stderr
+    for question, table in zip(("this test", "this axis"), done.stdout.strip().split("\n\n"), strict=True):
+        heading, _, *rows = table.splitlines()
+        assert heading.startswith(f"| {question} | A | A_fwd | A_bwd | E |")
+        assert [row.split("|")[1].strip() for row in rows] == [
+            "steps of 1 µm, s = 0.05 µm",
+            "20 to 24 °C, corrected",
+        ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
@@ -93,8 +94,8 @@ def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     expect(page.get_by_role("link", name="EXAMPLE-2026-0007-compensation.csv")).to_be_visible()
     expect(page.get_by_label("Control", exact=True)).to_have_value("csv")
     page.get_by_role("button", name="Make the certificate").click()
-    expect(page.locator(".preview img")).to_have_js_property("complete", value=True)
-    assert page.locator(".preview img").evaluate("picture => picture.naturalWidth") > 500
+    expect(page.locator("#part-preview img")).to_have_js_property("complete", value=True)
+    assert page.locator("#part-preview img").evaluate("picture => picture.naturalWidth") > 500
     expect(page.get_by_text("Sheet: page 1 of 1")).to_be_visible()
     picture(page, "table")
     page.get_by_role("button", name="The next page").click()
@@ -313,7 +314,9 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
         has_touch=True,
     )
     diagnosed(page, "missing")
-    expect(page.get_by_text("Fehlender Einfluss: screw-pitch; er erklärt den Rest.")).to_be_visible()
+    expect(
+        page.get_by_text("Fehlender Einfluss: Periodischer Steigungsfehler der Spindel; er erklärt den Rest.")
+    ).to_be_visible()
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     controls = page.locator("button:visible, select:visible").all()
     heights = [box["height"] for each in controls if (box := each.bounding_box())]
@@ -354,3 +357,69 @@ def test_nothing_is_cut_on_any_screen(address: str, window: Window, locale: str)
                 .filter(e => e.scrollWidth > e.clientWidth + 1).map(e => e.outerHTML)"""
         )
         assert cut == [], width
+
+
+def test_the_pages_of_a_certificate_come_into_view_and_nothing_lies_over_them(
+    address: str, window: Window
+) -> None:
+    page = window(address)
+    page.get_by_label("pdf-typst").check()
+    page.get_by_role("button", name="Make the certificate").click()
+    picture_of_page = page.locator("#part-preview img")
+    expect(picture_of_page).to_have_js_property("complete", value=True)
+    expect(page.get_by_role("link", name="EXAMPLE-2026-0007-pdf-typst.pdf")).to_be_visible()
+    box = picture_of_page.bounding_box()
+    assert box
+    assert 0 <= box["y"] < box["y"] + box["height"] <= 900
+    places = [
+        (box["x"] + x * box["width"], box["y"] + y * box["height"]) for x in (0.1, 0.9) for y in (0.1, 0.9)
+    ]
+    on_top = [
+        page.evaluate("([x, y]) => document.elementFromPoint(x, y).className", place) for place in places
+    ]
+    assert on_top == ["page"] * 4
+
+
+def test_nothing_moves_when_one_points_and_every_control_is_large_enough(
+    address: str, window: Window
+) -> None:
+    page = window(address)
+    diagnosed(page, "missing")
+    expect(page.locator(".standard tbody tr").first).to_be_visible()
+    expect(page.locator(".candidates .wave .curve").first).to_be_visible()
+
+    def places() -> list[Any]:
+        found = (
+            page.locator(each).first.bounding_box()
+            for each in ("#part-effects", "#part-compensation", ".table")
+        )
+        return [each and each["y"] for each in found]
+
+    still, seen = places(), []
+    box = page.locator(".plot").first.bounding_box()
+    assert box
+    for step in range(10):
+        page.mouse.move(box["x"] + 60 + 60 * step, box["y"] + 60 + 10 * step)
+        seen.append(places())
+    page.get_by_role("button", name="+ backlash").hover()
+    expect(page.locator(".curve.ghost").first).to_be_visible()
+    assert [*seen, places()] == [still] * 11
+    small = page.locator(
+        "button:visible, select:visible, summary:visible, a:visible, label:has(input):visible"
+    )
+    sizes = [(box["width"], box["height"]) for each in small.all() if (box := each.bounding_box())]
+    assert min(map(min, sizes)) >= 24
+    standards = page.locator(".standard").first.bounding_box()
+    assert standards
+    assert standards["y"] + standards["height"] < 450
+
+
+def test_a_model_is_built_step_by_step_and_a_step_taken_back(address: str, job: Path, window: Window) -> None:
+    page = window(address)
+    page.get_by_role("button", name="Build the model").click()
+    page.get_by_role("button", name="Take this step: + screw-pitch").click()
+    diagnosed(page, "adequate")
+    assert "    - screw-pitch\n" in job.read_text(encoding="utf-8")
+    page.get_by_role("button", name="One step back").click()
+    diagnosed(page, "missing")
+    assert "    - screw-pitch\n" not in job.read_text(encoding="utf-8")

@@ -13,7 +13,7 @@ from openpyxl import Workbook
 from cli.commands import Shop
 from environments import ROOT
 from zlmreport.cli import main
-from zlmreport.errors import ZlmreportError
+from zlmreport.errors import InputError, ZlmreportError
 from zlmreport.looking import looked_at
 from zlmreport.plugin.registry import find_plugins
 
@@ -141,3 +141,36 @@ def test_file_that_is_not_there_is_told(shop: Shop) -> None:
     run = shop.run("look", "none.csv")
     assert (run.code, run.output) == (3, "")
     assert run.messages.startswith("none.csv: ")
+
+
+SENSORS = "time (h),X1,X2,Z,air_temperature\n" + "".join(
+    f"{hour},{hour % 5},{hour % 3},{hour},20.{hour % 10}\n" for hour in range(25)
+)
+
+
+def test_a_file_of_sensors_over_time_becomes_a_test_of_each(table: Any) -> None:
+    looked = looked_at(table(SENSORS.encode()), REGISTRY)
+    assert looked.source.identifier == "channels-csv"
+    assert looked.proposal.tests == tuple(looked.read.tests) == ("X1", "X2", "Z")
+    assert looked.standard == "iso230-3"
+
+
+def test_a_job_on_sensors_that_is_written_runs(table: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    path = table(SENSORS.encode())
+    assert main(["init", "--from", str(path), "job"]) == 0
+    assert main(["check", "job/job.yaml"]) == 0, capsys.readouterr().err
+
+
+def test_what_sensors_read_over_time_is_told(table: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    table(SENSORS.encode())
+    assert main(["look", "from shop/x-axis.csv"]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "Z: 25 readings over 24 h; 0 to 24 µm; with air_temperature" in printed
+    assert "How far are X1 and X2 apart (mm)?" in printed
+    assert "tests: X1: {source: {plugin: channels-csv, file: x-axis.csv}}" in printed
+
+
+def test_sensors_whose_times_fall_are_told_by_their_reader(table: Any) -> None:
+    fallen = SENSORS.replace("\n9,", "\n7.5,")
+    with pytest.raises(InputError, match="the time is before that of the reading of channel 'X1'"):
+        looked_at(table(fallen.encode()), REGISTRY)

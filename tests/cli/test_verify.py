@@ -11,7 +11,10 @@ import pytest
 
 from verification.issued import LABORATORY, READINGS, issue, lay_out, with_attachment, with_results
 from zlmreport.cli import main
+from zlmreport.cli.terminal import said
+from zlmreport.cli.verify import _own_words
 from zlmreport.document.certificate.build import GENERATOR
+from zlmreport.verification.findings import OwnText
 
 Run = Callable[..., tuple[int, str, str]]
 DIGEST = re.compile(r"[0-9A-HJKMNP-TV-Z]{4}(-[0-9A-HJKMNP-TV-Z]{4}){3}")
@@ -131,3 +134,29 @@ def test_what_a_foreign_file_says_of_itself_does_not_steer_the_terminal(report: 
     assert "\x1b" not in output
     assert "\u202e" not in output
     assert r"\x1b[2J\u202eReport" in output
+
+
+def own_lines(texts: list[tuple[str, str]]) -> list[str]:
+    """Return what is told of words that somebody wrote, without the heading."""
+    return list(_own_words([OwnText(*each) for each in texts], said))[1:]
+
+
+def test_a_text_that_every_measurement_repeats_is_told_once_with_its_places() -> None:
+    lines = ("", "EXX.", "EYY.", "EZZ.", "EYX.", "diagonals.", "diagonals.PPP.")
+    texts = [(f"{name}customer.name", "A Customer") for name in lines]
+
+    assert own_lines(texts) == ["  customer.name (also in EXX, EYY, EZZ and 3 more): 'A Customer'"]
+
+
+def test_keys_that_differ_are_told_beside_each_other() -> None:
+    told = own_lines(
+        [("EXX.axis.name", "X"), ("EYX.axis.name", "X"), ("machine.model", "X"), ("axis.name", "Y")]
+    )
+
+    assert told == ["  axis.name (in EXX, EYX), machine.model: 'X'", "  axis.name: 'Y'"]
+
+
+def test_no_measurement_stands_alone_behind_and_one_more() -> None:
+    texts = [(f"{name}.axis.name", "X") for name in ("EXX", "EYX", "EZX", "EBX")]
+
+    assert own_lines(texts) == ["  axis.name (in EXX, EYX, EZX, EBX): 'X'"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+import subprocess
 import sys
 from pathlib import Path
 
@@ -111,3 +112,25 @@ def test_what_is_noted_is_read_by_another() -> None:
     assert Presence(memory).called == "source 'a': read"
     presence.end(outer)
     assert (Presence(memory).called, Presence(memory).last) == ("", "source 'a': read")
+
+
+_TELLS_OF_NUMPY = """
+import importlib.abc, os, sys
+class Seen(importlib.abc.MetaPathFinder):
+    def find_spec(self, name, path=None, target=None):
+        if name == "numpy":
+            print("threads:", os.environ.get("OPENBLAS_NUM_THREADS"), flush=True)
+sys.meta_path.insert(0, Seen())
+sys.argv = ["zlmreport", "plugins"]
+from zlmreport.cli import watched_main
+watched_main()
+"""
+
+
+def test_the_process_at_work_has_one_thread_for_small_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Numpy asks the environment once, while it is loaded."""
+    monkeypatch.delenv("OPENBLAS_NUM_THREADS", raising=False)
+    found = subprocess.run(
+        [sys.executable, "-c", _TELLS_OF_NUMPY], capture_output=True, text=True, check=True
+    )
+    assert found.stdout.splitlines()[0] == "threads: 1"

@@ -12,7 +12,7 @@ from environments import ROOT
 from zlmreport.errors import Place
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE, STRAIGHTNESS
+from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, STRAIGHTNESS
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import SOURCE_CHECKS, FileContents
@@ -89,6 +89,22 @@ SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]]
         {"file": CONFIGS / "machine" / "circle-xy.csv"},
         ON_A_CIRCLE,
         FileContents(720, ((0.5, "+", 1, 16.24), (0.5, "-", 1, 15.52), (90.5, "-", 1, -0.61))),
+    ),
+    (
+        "channels-csv",
+        {"file": CONFIGS / "drift" / "drift.csv"},
+        Axis("Y2", quantity=DISPLACEMENT),
+        FileContents(289, ((0.0, "+", 1, 20.16), (0.5, "+", 1, 20.04), (24.0, "+", 1, 22.07))),
+    ),
+    (
+        "channels-csv",
+        {
+            "file": CONFIGS / "drift" / "drift-schicht.csv",
+            "columns": {"time": "Zeit", "channel": "Kanal", "value": "Wert"},
+            "channels": {"X": "Taster X1", "air_temperature": "Halle"},
+        },
+        Axis("X", quantity=DISPLACEMENT),
+        FileContents(49, ((0.0, "+", 1, 12.42), (4.0, "+", 1, 14.37))),
     ),
     ("dcc", {"file": DATA / "y-axis.xml"}, Axis("Y"), _Y_AXIS),
     ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y"), _Y_AXIS),

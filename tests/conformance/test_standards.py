@@ -13,6 +13,7 @@ from zlmreport.testing import STANDARD_CHECKS
 STANDARDS = find_plugins().standards
 #: Keys with which a standard defines all that it declares.
 KEYS = {
+    "iso230-3": {"distance": {"X": 200, "Y": 200, "Z": 200}},
     "iso230-4:2005": {"circle": {"radius": 150, "feed": 1000, "calibrated_length": True}},
     "iso230-6:2002": {"axes": {"X": [0, 500], "Y": [0, 400], "Z": [0, 300]}},
 }
@@ -30,6 +31,7 @@ def test_the_standards_that_users_are_promised_are_there() -> None:
         "iso230-2:1997",
         "iso230-2:2006",
         "iso230-2:2014",
+        "iso230-3",
         "iso230-4:2005",
         "iso230-6:2002",
         "vdi-dgq-3441",

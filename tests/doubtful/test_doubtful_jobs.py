@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import json
+import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from document.certificate.documents import text_of, without
+from doubtful import doubtful_jobs
 from doubtful.doubtful_jobs import (
     REPORT,
     SOUND,
@@ -19,7 +23,9 @@ from doubtful.doubtful_jobs import (
     parameter,
     readings,
     refusals,
+    write,
 )
+from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
 _SHOWN = "What readings and calibrations show"
@@ -47,7 +53,20 @@ def test_a_range_of_zero_states_nothing(name: str, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "reason", ["-", "none", "n/a", "negligible", "...", "0", "vernachlässigbar", "klein"]
+    "reason",
+    [
+        "-",
+        "none",
+        "n/a",
+        "negligible",
+        "...",
+        "0",
+        "0 µm",
+        "no influence",
+        "see above",
+        "kein Einfluss",
+        "klein",
+    ],
 )
 def test_a_dash_is_no_reason(reason: str, tmp_path: Path) -> None:
     keys = changed(("uncertainty.negligible.device_temperature", reason))
@@ -150,6 +169,51 @@ def test_a_temperature_that_moves_is_taken_reading_by_reading(tmp_path: Path) ->
     assert refusals(tmp_path, SOUND, warm, temperatures=warming)
 
 
+@pytest.mark.parametrize("is_corrected", [True, False])
+def test_a_wrong_coefficient_of_a_machine_that_warms_up_is_in_r_too(
+    is_corrected: bool,  # noqa: FBT001 - a case
+    tmp_path: Path,
+) -> None:
+    """α is 11.95 µm/(m·K), and 11.5 ± 0.5 is stated: from 20 to 24 °C that opens R by some 1.5 µm."""
+    warming = np.linspace(20, 24, len(order()))
+    right = readings()
+    warm = right.copy()
+    for number, (target, direction, run) in enumerate(order()):
+        warm[target, direction, run] += 11.95 * (warming[number] - 20) * (TARGETS[target] - TARGETS[0]) / 1e3
+    correct = {"material": {"temperature": "axis_temperature"}} if is_corrected else {}
+    keys = changed(
+        REPORT,
+        ("corrections", correct),
+        ("uncertainty.resolution", 0.01),
+        ("uncertainty.negligible.environmental_variation", "none in this world"),
+    )
+    keys["uncertainty"].pop("environmental_variation")
+
+    document = composed(tmp_path, keys, warm, temperatures=warming)
+    truth = composed(tmp_path, changed(REPORT), right)
+
+    for symbol in ("R", "R_fwd", "R_bwd", "B"):
+        found = parameter(document, symbol)
+        assert abs(found.value - parameter(truth, symbol).value) < (found.expanded_uncertainty or 0.0), symbol
+    assert "reading by reading" in text_of(document)
+
+
+# 3. Another test.
+
+
+@pytest.mark.parametrize("layout", ["sheet", "standard", "full"])
+@pytest.mark.parametrize(
+    ("language", "said"),
+    [("en", "with the same set-up left in place"), ("de", "mit derselben, unveränderten Messeinrichtung")],
+)
+def test_the_interval_of_the_axis_says_for_which_set_up_it_holds(
+    language: str, said: str, layout: str, tmp_path: Path
+) -> None:
+    keys = changed(("certificate.language", language), ("certificate.layout", layout))
+
+    assert said in text_of(composed(tmp_path, keys))
+
+
 # 4. Risks agree.
 
 
@@ -199,6 +263,40 @@ def test_a_laser_that_compensates_nothing_has_the_air_in_its_budget(tmp_path: Pa
 
 def test_its_sensors_are_demanded(tmp_path: Path) -> None:
     assert "uncertainty.air_pressure" in refusals(tmp_path, _blind())
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "not compensated",
+        "No compensation",
+        "keine Kompensation",
+        "uncompensated",
+        "off (sensor broken)",
+        "none; air pressure 900 hPa",
+        "fixed wavelength 632.8 nm",
+        "material only",
+        "nur Werkstoff",
+        "nicht kompensiert",
+    ],
+)
+def test_a_denial_in_other_words_is_one(said: str, tmp_path: Path) -> None:
+    assert "uncertainty.air_pressure" in refusals(tmp_path, _blind(("instrument.compensation", said)))
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "air",
+        "Umweltkompensation",
+        "refractive index of the air; no material temperature",
+        "Edlén, by the weather station",
+        "automatic",
+        "Brechzahl der Luft, kein Werkstoff",
+    ],
+)
+def test_an_instrument_that_looks_at_the_air_is_believed(said: str, tmp_path: Path) -> None:
+    assert not refusals(tmp_path, _blind(("instrument.compensation", said)))
 
 
 def test_a_triangulating_sensor_needs_no_air(tmp_path: Path) -> None:
@@ -259,15 +357,29 @@ def _copied(deviations: np.ndarray) -> np.ndarray:
     return np.repeat(deviations[..., :1], 5, axis=-1)
 
 
+def _one_direction_copied(deviations: np.ndarray) -> np.ndarray:
+    return np.repeat(deviations[:, :1], 2, axis=1)
+
+
 def _millimetres(deviations: np.ndarray) -> np.ndarray:
     return deviations / 1e3
+
+
+def _nanometres(deviations: np.ndarray) -> np.ndarray:
+    return deviations * 1e3
 
 
 @pytest.mark.parametrize(
     ("spoil", "said"),
     [
         (_fall, "Run means fall from "),
+        (
+            _fall,
+            "1 µm is stated of drift at rest: what exceeds it is counted as the axis's own, and not in U",
+        ),
         (_drift, "Run means rise from −11"),
+        (_one_direction_copied, "Both directions are identical in every digit, in runs 1, 2, 3, 4, 5"),
+        (_nanometres, "if the file has another unit"),
         (_outlier, "The reading of run 3 at 398.3 mm ↓ lies"),
         (_copied, "Runs 1, 2, 3, 4, 5 are identical in every digit"),
         (_millimetres, "state measurement.source.units: {deviation: mm}"),
@@ -284,6 +396,30 @@ def test_drift_is_said_where_nothing_is_stated_of_it(tmp_path: Path) -> None:
     keys = without("uncertainty.environmental_variation", keys=changed(REPORT))
 
     assert "nothing is stated of drift at rest" in cover(composed(tmp_path, keys, _drift(readings())))
+
+
+def test_nothing_says_that_drift_is_out_of_sight_where_run_means_show_it(tmp_path: Path) -> None:
+    text = text_of(composed(tmp_path, SOUND, _fall(readings())))
+
+    assert "drift and warm-up can only be judged by the order of the readings" in text
+
+
+@pytest.mark.parametrize(
+    ("alpha", "said"),
+    [
+        (0, "0 µm/(m·K) is unusual"),
+        (-11.5, "−11.5 µm/(m·K) is unusual"),
+    ],
+)
+def test_an_axis_that_does_not_expand_or_shrinks_in_the_warm_is_marked(
+    alpha: float, said: str, tmp_path: Path
+) -> None:
+    assert said in cover(composed(tmp_path, changed(("environment.expansion_coefficient", alpha))))
+
+
+@pytest.mark.parametrize("alpha", [1.2, -0.5, 23.8])
+def test_invar_carbon_fibre_and_aluminium_are_not(alpha: float, tmp_path: Path) -> None:
+    assert not composed(tmp_path, changed(("environment.expansion_coefficient", alpha))).doubts
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -332,6 +468,9 @@ def test_one_of_2009_is_marked(tmp_path: Path) -> None:
         ("instrument.due", "2026-10-01"),
         ("instrument.certificate", "none"),
         ("instrument.certificate", "-"),
+        ("instrument.certificate", "not calibrated yet"),
+        ("instrument.certificate", "keiner vorhanden"),
+        ("environment.thermometers", [{"name": "T 1", "certificate": "T-1", "due": "2026-10-01"}]),
     ],
 )
 def test_a_broken_chain_is_refused_and_marked_in_a_report(key: str, value: str, tmp_path: Path) -> None:
@@ -341,10 +480,54 @@ def test_a_broken_chain_is_refused_and_marked_in_a_report(key: str, value: str, 
     assert _SHOWN in cover(composed(tmp_path, changed(REPORT, of=keys)))
 
 
+def test_a_refusal_says_which_device_and_which_dates(tmp_path: Path) -> None:
+    said = refusals(tmp_path, changed(("instrument.calibrated", "2026-11-19")))
+
+    assert "Measuring instrument: calibrated on 2026-11-19, after the measurement of 2026-11-18" in said
+
+
+@pytest.mark.parametrize("layout", ["full", "standard", "sheet"])
+@pytest.mark.parametrize(
+    ("key", "value"), [("instrument.calibrated", "2026-11-19"), ("instrument.due", "2026-10-01")]
+)
+def test_a_report_does_not_call_results_traceable_by_a_chain_that_it_says_is_broken(
+    key: str, value: str, layout: str, tmp_path: Path
+) -> None:
+    keys = changed(REPORT, (key, value), ("certificate.layout", layout))
+
+    assert "metrologically traceable" not in text_of(composed(tmp_path, keys))
+
+
+def test_the_results_file_has_what_the_first_page_marks(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(("instrument.calibrated", "2009-05-04")), _fall(readings()))
+    said = json.loads(JsonResultsRenderer().render(document))["doubtful"]
+
+    assert [each.partition(" ")[0] for each in said] == ["Run", "Measuring"]
+    assert "doubtful" not in json.loads(JsonResultsRenderer().render(composed(tmp_path, SOUND)))
+
+
+def test_the_measurement_before_an_adjustment_is_looked_at_too(tmp_path: Path) -> None:
+    write(tmp_path, _fall(readings()))
+    (tmp_path / "x.csv").rename(tmp_path / "before.csv")
+    before = {
+        "adjustment": "table of pitch errors loaded",
+        "measurement": {"date": "2026-11-17", "source": {"plugin": "laser-csv", "file": "before.csv"}},
+    }
+    document = composed(tmp_path, changed(("as_found", before)))
+
+    assert "as found, before the adjustment: Run means fall from" in cover(document)
+
+
 def test_a_document_without_a_certificate_of_the_instrument_claims_no_traceability(tmp_path: Path) -> None:
     document = composed(tmp_path, changed(REPORT, ("instrument.certificate", "none")))
 
     assert "metrologically traceable" not in text_of(document)
+
+
+def test_the_thermometer_is_asked_for_where_a_length_is_not_at_20_degrees(tmp_path: Path) -> None:
+    warm = changed(("environment.axis_temperature", 20.6), of=without("environment.thermometers", keys=SOUND))
+
+    assert "no thermometer is named" in cover(composed(tmp_path, warm))
 
 
 def test_the_thermometer_of_a_correction_is_asked_for(tmp_path: Path) -> None:
@@ -369,8 +552,104 @@ def test_results_outside_the_accredited_scope_are_marked(scope, said: str, tmp_p
     assert f"Outside the accredited scope: {said}" in cover(composed(tmp_path, keys))
 
 
+def test_a_certificate_that_names_no_document_is_open_where_the_standard_wants_it(tmp_path: Path) -> None:
+    document = composed(tmp_path, changed(REPORT, ("instrument.certificate", "pending")))
+
+    assert (
+        "Measuring instrument, its calibration and its compensation reported\N{NO-BREAK SPACE}* | not stated"
+        in text_of(document)
+    )
+
+
 def test_the_source_of_limits_is_printed_or_said_to_be_missing(tmp_path: Path) -> None:
     named = [{"standard": "iso230-2:2014", "tolerances": {"A": 10}, "specification": "Protocol 4711"}]
 
     assert "Protocol 4711" in cover(composed(tmp_path, changed(("evaluate", named))))
     assert "Limits as ordered; their source is not stated." in cover(composed(tmp_path, SOUND))
+
+
+# 9. Sentences.
+
+_LAYOUTS = ("full", "standard", "sheet")
+
+
+@pytest.fixture
+def long_axis(monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    """Return a job on an axis of 2.5 m; its readings are written so, too."""
+    monkeypatch.setattr(doubtful_jobs, "TARGETS", 2.5 * TARGETS)
+    return changed(REPORT, ("axis.travel", [0, 2500]))
+
+
+def _runs(monkeypatch: pytest.MonkeyPatch, number: int) -> np.ndarray:
+    monkeypatch.setattr(doubtful_jobs, "RUNS", number)
+    return readings()
+
+
+@pytest.mark.parametrize("rule", ["simple", "guard-band", "iso14253-1", "non-binary"])
+def test_what_goes_beyond_the_standard_conforms_to_no_limit(
+    rule: str, long_axis: dict[str, Any], tmp_path: Path
+) -> None:
+    limits = [{"standard": "iso230-2:2014", "tolerances": {"A": 10, "R_fwd": 5, "E": 20}}]
+    document = composed(tmp_path, changed(("decision_rule", rule), ("evaluate", limits), of=long_axis))
+
+    assert {each: parameter(document, each).conforms for each in ("A", "R_fwd", "E")} == {
+        "A": None,
+        "R_fwd": None,
+        "E": True,
+    }
+    assert "nothing is decided on their limits" in text_of(document)
+
+
+def test_a_standard_that_knows_no_such_limit_decides_on_a_long_axis(
+    long_axis: dict[str, Any], tmp_path: Path
+) -> None:
+    limits = [{"standard": "vdi-dgq-3441", "tolerances": {"P": 20}}]
+
+    assert parameter(composed(tmp_path, changed(("evaluate", limits), of=long_axis)), "P").conforms
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_one_run_is_one_and_has_no_interval_of_the_axis(
+    layout: str, language: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    keys = changed(REPORT, ("certificate.layout", layout), ("certificate.language", language))
+    text = text_of(composed(tmp_path, keys, _runs(monkeypatch, 1)))
+
+    assert not re.search(r"(?<![\d.,])1 (?:runs|Durchläufe|readings|Messwerte)\b", text)
+    assert "interval of the axis" not in text
+    assert "Intervall der Achse" not in text
+    assert "which the parameters state" not in text
+
+
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_a_measuring_report_calibrates_nothing(layout: str, tmp_path: Path) -> None:
+    keys = changed(
+        REPORT,
+        ("certificate.layout", layout),
+        ("certificate.language", "de"),
+        ("next_due", {"date": "2027-11-18", "agreed": True}),
+        ("opinions", [{"statement": "Die Achse ist gut.", "basis": "A"}]),
+    )
+    text = text_of(composed(tmp_path, keys))
+
+    said = [line for line in text.splitlines() if re.search("alibrier", line)]
+    of_instrument = re.compile(
+        "Kalibrierschein: C-1|Kalibriert am|Kalibrierschein C-1|T-1, kalibriert|seine Kalibrierung"
+    )
+    assert [line for line in said if not of_instrument.search(line)] == []
+    assert "Messgegenstand" in text
+
+
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_german_has_the_words_of_the_field(layout: str, tmp_path: Path) -> None:
+    keys = changed(("certificate.layout", layout), ("certificate.language", "de"))
+    text = text_of(composed(tmp_path, keys))
+
+    assert "Kalibriergegenstand" in text
+    assert "Formelzeichen" in text
+    assert not re.search(r"\bZeichen\b|kalibrierten Gegenstand", text)
+
+
+def test_no_sentence_calls_a_mean_with_a_sign_a_full_width(tmp_path: Path) -> None:
+    assert "All parameters are full widths" not in text_of(composed(tmp_path, SOUND))

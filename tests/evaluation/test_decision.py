@@ -228,3 +228,27 @@ def test_a_guard_band_up_to_the_limit_is_no_finding(expanded: float) -> None:
     evaluation = replace(evaluation, parameters=(Parameter(A, 0.0, LIMIT, expanded, 2.0),))
 
     assert decided(evaluation, decision_rule("guard-band")).findings == evaluation.findings
+
+
+@pytest.mark.parametrize("rule", ["simple", "guard-band", "non-binary"])
+@pytest.mark.parametrize(("value", "known_error"), [(4e-6, 60e-6), (30e-6, -26e-6)])
+def test_a_known_error_that_would_turn_a_statement_leaves_it_open(
+    rule: str, value: float, known_error: float
+) -> None:
+    """4 µm of which 60 µm are known to be missing exceed 20 µm, and 30 µm with 26 µm too many do not."""
+    uncertain = Parameter(A, value, LIMIT, EXPANDED + abs(known_error), 2.0, known_error=known_error)
+    found = decision_rule(rule).decide(uncertain)
+
+    assert found is not None
+    # Of 4 µm guarded acceptance says no, as it would of 64 µm.
+    agrees = rule == "guard-band" and known_error > 0
+    assert found.conformity is (FAILED if agrees else OPEN)
+
+
+def test_a_known_error_that_turns_nothing_leaves_the_statement() -> None:
+    small = Parameter(A, 10e-6, LIMIT, EXPANDED + 2e-6, 2.0, known_error=2e-6)
+
+    for rule in ("simple", "guard-band", "non-binary", "iso14253-1"):
+        found = decision_rule(rule).decide(small)
+        assert found is not None
+        assert found.conformity is MET

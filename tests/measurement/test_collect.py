@@ -106,7 +106,7 @@ def test_without_times_it_is_said_what_cannot_be_judged() -> None:
     measurements = collected([reading(2)])
     assert measurements.time is None
     assert [remark.en for remark in measurements.provenance.remarks] == [
-        "No times were logged: drift and warm-up cannot be judged from the readings."
+        "No times were logged: drift and warm-up can only be judged by the order of the readings."
     ]
 
 
@@ -330,7 +330,7 @@ def test_positions_of_a_rotary_axis_count_modulo_a_turn() -> None:
     measurements = collected(readings, Axis("C", AxisKind.ROTARY))
     assert measurements.deviation == pytest.approx([-shown, 2 * shown, shown], abs=1e-15)
     remarks = [each.in_language(Language.ENGLISH) for each in measurements.provenance.remarks]
-    assert "Whole turns were taken off 2 readings: positions were displayed modulo 360°." in remarks
+    assert "Whole turns were taken off readings (number: 2): positions were displayed modulo 360°." in remarks
 
 
 def test_a_full_turn_that_ends_at_its_beginning_is_told_where_it_ends() -> None:

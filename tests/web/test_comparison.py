@@ -102,7 +102,7 @@ def test_each_parameter_has_its_amount_in_each_test(found: dict[str, Any]) -> No
 
 
 def test_models_stand_side_by_side(found: dict[str, Any]) -> None:
-    (backlash,) = (row for row in found["models"] if row["effect"] == "backlash")
+    (backlash,) = (row for row in found["models"] if row["called"] == "backlash")
     before, after = (float(cell["value"].replace("−", "-")) for cell in backlash["cells"])
     assert before - after == pytest.approx(sum(map(abs, _MORE.values())), abs=0.02)
 

@@ -109,7 +109,9 @@ def test_the_page_is_plain_values(page: dict[str, Any]) -> None:
 def test_the_page_is_told_of_in_german(workbench: Workbench) -> None:
     german = view(workbench.bench, workbench.bench.loaded(), Language.GERMAN)
     assert german["subject"] == "Achse X, Example Machine Works Example axis, EXAMPLE-X-7"
-    assert german["error"][1] == {"name": "Grundrauschen", "value": "0,480 µm"}
+    floor = german["error"][1]
+    assert (floor["name"], floor["value"]) == ("Grundrauschen", "0,480 µm")
+    assert floor["meaning"].startswith("Die Streuung wiederholter Messwerte")
 
 
 @pytest.mark.parametrize("language", Language)

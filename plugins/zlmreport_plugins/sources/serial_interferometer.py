@@ -158,10 +158,10 @@ def _failed_displays(history: JournalHistory) -> Iterator[Words]:
     shares = [event.share for event in events if isinstance(event, VisitPresumed)]
     if shares:
         yield Words(
-            en="For {count} readings it was nearly certain which visit they are, by what went before; "
-            "the least certain was so to {share} %.",
-            de="Bei {count} Messwerten war nach dem vorherigen Weg der Achse nahezu sicher, zu welchem "
-            "Messpunkt sie gehören; beim unsichersten zu {share} %.",
+            en="Which visit a reading is was nearly certain by what went before (readings: {count}); of the "
+            "least certain it was so to {share} %.",
+            de="Zu welchem Messpunkt ein Messwert gehört, war nach dem vorherigen Weg der Achse nahezu "
+            "sicher (Messwerte: {count}); beim unsichersten zu {share} %.",
         ).given(count=len(shares), share=math.floor(1000 * min(shares)) / 10)
 
 
@@ -227,11 +227,11 @@ def _repetitions(parts: Sequence[Part]) -> Iterator[Words]:
         if part.attempts > 1:
             yield Words(
                 en="Part {part} of the test (a run, or all of it) was taken {attempts} times, each "
-                "time from a datum of its own; attempt {attempt}, the most complete, counts; {left_out} "
-                "readings of the others stay in the journal.",
+                "time from a datum of its own; attempt {attempt}, the most complete, counts; what was "
+                "read in the others stays in the journal (readings: {left_out}).",
                 de="Teil {part} der Messung (ein Durchlauf oder die ganze) wurde {attempts}-mal aufgenommen, "
-                "jedes Mal mit eigenem Bezug; Versuch {attempt}, der vollständigste, zählt; {left_out} "
-                "Messwerte der anderen bleiben im Protokoll.",
+                "jedes Mal mit eigenem Bezug; Versuch {attempt}, der vollständigste, zählt; was in den "
+                "anderen gelesen wurde, bleibt im Protokoll (Messwerte: {left_out}).",
             ).given(part=part.number, attempts=part.attempts, attempt=part.attempt, left_out=part.left_out)
 
 

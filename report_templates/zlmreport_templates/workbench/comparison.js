@@ -97,7 +97,7 @@ export class Comparison {
     return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": this.texts.models }, h("table", { class: "tests" },
       this.#heading(),
       h("tbody", {}, this.found.models.map((row) => h("tr", {},
-        h("th", { scope: "row", title: row.description }, `${row.effect} `, symbol(row.symbol)), row.cells.map(amount))))));
+        h("th", { scope: "row", title: row.description }, `${row.called} `, symbol(row.symbol)), row.cells.map(amount))))));
   }
 }
 

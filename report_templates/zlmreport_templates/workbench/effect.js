@@ -3,7 +3,7 @@
 import { h, said, symbol } from "./dom.js";
 import { written } from "./number.js";
 import { Plot } from "./plot.js";
-import { get } from "./server.js";
+import { ROOT, get } from "./server.js";
 
 /** Show an effect. */
 export async function showEffect(texts, effect) {
@@ -14,10 +14,10 @@ export async function showEffect(texts, effect) {
     document.body.replaceChildren(h("main", {}, back(texts), h("ul", { class: "notice" }, (error.problems ?? [texts.gone]).map((each) => h("li", {}, each)))));
     return;
   }
-  document.title = `${found.effect} · ${found.title}`;
+  document.title = found.called === found.title ? found.title : `${found.called} · ${found.title}`;
   const plot = found.sketch && drawn(texts, found);
   document.body.replaceChildren(
-    h("header", {}, h("h1", {}, found.effect, h("span", {}, found.title)), back(texts)),
+    h("header", {}, h("h1", {}, found.called, found.called !== found.title && h("span", {}, found.title)), back(texts)),
     h("main", { class: "effect" },
       h("section", { class: "panel" }, h("h2", {}, texts.look), h("p", {}, found.look),
         found.remedy && h("p", {}, h("strong", {}, `${texts.remedy}: `), found.remedy),
@@ -25,19 +25,19 @@ export async function showEffect(texts, effect) {
       h("div", {},
         h("section", { class: "panel" }, h("h2", {}, texts.equation), h("p", { class: "equation" }, symbol(found.equation)), table(texts, found),
           found.parameters.some((each) => each.low !== null || each.high !== null) && h("p", { class: "quiet" }, said(texts.rangesFrom, { source: found.rangesFrom })),
-          found.contains.length > 0 && h("p", {}, said(texts.contains, { effects: found.contains.join(", ") }))),
+          found.containsNames.length > 0 && h("p", {}, said(texts.contains, { effects: found.containsNames.join(", ") }))),
         found.estimates.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.estimated),
           h("ul", { class: "parameters" }, found.estimates.map((each) => h("li", {}, symbol(each.symbol), ` = ${each.value}${each.uncertainty && ` ± ${each.uncertainty}`} ${each.unit}`)))),
         found.keys.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.keys),
           h("dl", { class: "keys" }, found.keys.map((each) => [h("dt", {}, h("code", {}, each.name)), h("dd", {}, each.description)]))),
         found.confusions.length > 0 && h("section", { class: "panel" }, h("h2", {}, texts.confusions),
           h("dl", { class: "keys" }, found.confusions.map((each) => [
-            h("dt", {}, h("a", { href: `/effects/${each.effect}${location.search}` }, each.effect), h("span", { class: "quiet" }, ` ${each.title}`)),
+            h("dt", {}, h("a", { href: `${ROOT}/effects/${each.effect}${location.search}` }, each.called), each.called !== each.title && h("span", { class: "quiet" }, ` ${each.title}`)),
             h("dd", {}, h("strong", {}, `${texts.tell}: `), each.told)]))))));
 }
 
 function back(texts) {
-  return h("a", { href: `/${location.search}`, "data-key": "back" }, texts.back);
+  return h("a", { href: `${ROOT}/${location.search}`, "data-key": "back" }, texts.back);
 }
 
 function table(texts, found) {

@@ -42,8 +42,7 @@ export class Graphs {
     this.reach = h("p", { class: "quiet", hidden: true }, texts.reach);
     this.element = h("section", { class: "graphs", "aria-labelledby": "measured" },
       h("div", { class: "heading" }, h("h2", { id: "measured" }, texts.measured), this.#legend(), this.whole),
-      this.caption,
-      this.above.element,
+      h("div", { class: "captioned" }, this.caption, this.above.element),
       this.reach,
       h("div", { class: "heading" },
         h("h2", {}, texts.residuals),
@@ -79,6 +78,15 @@ export class Graphs {
     this.shown = [];
     this.#draw();
     this.#say();
+  }
+
+  /** Return the room that a reading's values take, kept free: so nothing below moves when one is pointed at. */
+  #room() {
+    return this.graphs?.readings.place.length > 0 && h("div", { class: "room", "aria-hidden": "true" }, this.#values(0));
+  }
+
+  #values(index) {
+    return h("dl", {}, this.#facts(index).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
   }
 
   /** Show what a step of the model does: `before` and `after` it, each a model and residuals; null for neither. */
@@ -165,7 +173,7 @@ export class Graphs {
     const position = this.axes.get("position");
     const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative, hidden: this.hidden, shades: this.#shades() };
     const curves = step ? step.after.model : this.near?.model ?? graphs.model;
-    this.reach.hidden = !curves.some((each) => each.reach);
+    this.reach.hidden = !(this.near?.model ?? graphs.model).some((each) => each.reach);
     this.above.show({
       ...alike, x: position.values, y: readings.deviation, curves, others: this.others, noise: null,
       ghost: step && { curves: step.before.model, y: readings.deviation },
@@ -269,7 +277,7 @@ export class Graphs {
     const chosen = this.pinned === null ? this.boxed : [this.pinned];
     if (index === null && chosen.length === 0) {
       delete this.reading.dataset.form;
-      fill(this.reading, h("p", { class: "hint" }, `${this.texts.point} ${this.texts.zoom}`));
+      fill(this.reading, h("p", { class: "hint" }, `${this.texts.point} ${this.texts.zoom}`), this.#room());
       return;
     }
     const key = chosen.join(" ");
@@ -279,7 +287,7 @@ export class Graphs {
     else delete this.reading.dataset.form;
     fill(this.reading, index === null
       ? h("p", {}, said(this.texts.chosen, { count: chosen.length }))
-      : h("dl", {}, this.#facts(index).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value)))), form);
+      : this.#values(index), form);
   }
 
   #facts(index) {

@@ -1,7 +1,10 @@
 // What stands beside and below the graphs. Each panel is a function from values to elements.
 
 import { h, s, said, symbol } from "./dom.js";
+import { explained } from "./help.js";
 import { fixed } from "./number.js";
+import { ROOT } from "./server.js";
+import { wave } from "./wave.js";
 
 const SIGNS = { adequate: "✓", missing: "?", unexplained: "!" };
 const LIKELY = 0.5;
@@ -10,7 +13,7 @@ const DOUBTS = { doubtful: "doubtful", implausible: "implausible" };
 
 /** The verdict in words, with the error of the model and what is asked for; while a diagnosis is under way, for how long. */
 export function verdict(texts, job, diagnosis, number, actions) {
-  const numbers = h("dl", { class: "numbers" }, job.error.map((each) => h("div", {}, h("dt", {}, each.name), h("dd", {}, each.value))));
+  const numbers = h("dl", { class: "numbers" }, job.error.map((each) => h("div", {}, h("dt", {}, explained(each.name, each.meaning)), h("dd", {}, each.value))));
   if (!diagnosis?.diagnosis) {
     const problems = diagnosis?.problems;
     let state = h("p", { class: "progress" }, h("progress", { "aria-label": texts.diagnosing }), ` ${texts.diagnosing} `,
@@ -24,6 +27,7 @@ export function verdict(texts, job, diagnosis, number, actions) {
     h("h2", {}, texts.verdict),
     h("p", { class: `verdict ${found.verdict}` }, h("span", { class: "sign", "aria-hidden": "true" }, SIGNS[found.verdict]), h("span", {}, found.statement)),
     numbers,
+    found.verdict === "missing" && h("p", { class: "build" }, button(texts.build, texts.build, "build", actions.build)),
     unasked(job, found).map((each) => asked(texts, each, actions)),
   ];
 }
@@ -38,7 +42,7 @@ function unasked(job, found) {
 function asked(texts, each, actions) {
   const field = `ask-${each.key}`;
   return h("form", { class: "ask", submit: (event) => { event.preventDefault(); actions.state({ [`axis.${each.key}`]: event.target.elements.value.valueAsNumber }); } },
-    h("p", {}, said(texts.ask, { effects: each.effects.join(", ") })),
+    h("p", {}, said(texts.ask, { effects: each.names.join(", ") })),
     h("label", { for: field }, each.name),
     h("input", { id: field, name: "value", type: "number", step: "any", min: Number.MIN_VALUE, required: true, "data-key": field, "aria-describedby": `${field}-unit` }),
     h("span", { id: `${field}-unit` }, each.unit),
@@ -78,11 +82,32 @@ export function candidates(texts, found, actions) {
     h("h2", {}, texts.candidates),
     h("ol", { class: "candidates" }, grouped(serious).map((group) => h("li", { class: look(group) },
       group.map((each) => candidate(texts, each, actions)),
-      group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equals.join(", ")}.`),
+      group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equalNames.join(", ")}.`),
       !found.experiment && group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
     rest.length > 0 && h("ul", { class: "others" }, rest.map((each) => h("li", {},
-      about(each.effect), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
-    found.notExcluded.length > 0 && h("p", { class: "quiet" }, `${texts.notExcluded}: ${found.notExcluded.join(", ")}`),
+      about(each.effect, each.name), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
+    found.notExcluded.length > 0 && h("p", { class: "quiet" }, `${texts.notExcluded}: ${found.notExcludedNames.join(", ")}`),
+  ];
+}
+
+/** The staircase of a build: each step takes the error further down, and is taken by a click; those before it with it. */
+export function stairs(texts, job, made, number, actions) {
+  if (!made) return [];
+  const head = h("h2", {}, texts.stairs);
+  if (made.state === "making") return [head, ...progress(texts, made, number, texts.building), button(texts.stop, texts.stop, "stop-build", () => actions.stopMaking("build"))];
+  if (made.state === "failed") return [head, ...progress(texts, made, number, texts.building)];
+  if (!made.stairs) return [];
+  const present = new Set(job.effects.map((each) => each.effect));
+  const open = made.stairs.findIndex((each) => each.removed === present.has(each.effect));
+  const taken = open < 0 ? made.stairs.length : open;
+  if (made.stairs.length === 0) return [head, h("p", { class: "quiet" }, texts.noStairs)];
+  return [
+    head, h("p", { class: "quiet" }, texts.stairsAre),
+    h("ol", { class: "stairs" }, made.stairs.map((each, index) => h("li", { class: index < taken ? "taken" : false, "aria-current": index === taken - 1 ? "step" : false },
+      h("div", { class: "heading" }, h("span", {}, index < taken && h("span", { "aria-hidden": "true" }, "✓ "), each.name), h("span", { class: "number" }, `${each.before} → `, h("strong", {}, each.after)),
+        index >= taken && button(index === taken ? texts.takeStep : texts.upToHere, `${index === taken ? texts.takeStep : texts.upToHere}: ${each.name}`, `stair-${index}`, () => actions.climb(made.stairs.slice(taken, index + 1)), index === taken ? "add" : false),
+        index === taken - 1 && job.undo && button(texts.stepBack, texts.stepBack, "step-back", actions.undo)),
+      bar(each.share, "fallen", each.floor ?? undefined)))),
   ];
 }
 
@@ -103,14 +128,15 @@ function look(group) {
 }
 
 function candidate(texts, each, actions) {
-  const preview = () => actions.preview(each.argument, each.effect);
+  const preview = () => actions.preview(each.argument, each.name);
   return h("article", { class: "candidate", pointerenter: preview, focusin: preview, pointerleave: () => actions.preview(null), focusout: () => actions.preview(null) },
-    h("div", { class: "heading" }, h("h3", {}, about(each.effect)), h("span", { class: "quiet" }, each.title), add(texts, each, actions)),
+    h("div", { class: "heading" }, h("h3", {}, about(each.effect, each.name)), title(each), add(texts, each, actions)),
     h("div", { class: "gauge" }, h("span", {}, texts.probability), bar(each.share, "probability"), h("strong", {}, each.probability)),
-    h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), h("span", { class: "quiet" }, ` · ${each.p}`)),
+    h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), " ", explained(h("span", { class: "quiet" }, each.p), texts.pIs)),
     h("p", {}, sentence(each.explains), "."),
     each.remedy && h("p", { class: "tell" }, h("strong", {}, `${texts.remedy}: `), each.remedy),
-    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, doubt(texts, own)))),
+    wave(texts, each.name, actions.number, actions.wave(each.argument)),
+    h("ul", { class: "parameters" }, each.parameters.map((own) => h("li", {}, symbol(own.symbol), ` = ${amount(own)} `, h("span", { class: "quiet" }, own.description), " ", doubt(texts, own)))),
   );
 }
 
@@ -120,79 +146,90 @@ export function effects(texts, job, actions) {
     h("h2", {}, texts.model),
     job.effects.length === 0 && h("p", { class: "quiet" }, texts.noEffects),
     h("ul", { class: "effects" }, job.effects.map((each) => h("li", {},
-      h("div", { class: "heading" }, h("h3", {}, about(each.effect)), h("span", { class: "quiet" }, each.title),
-        button(texts.remove, said(texts.removeEffect, { effect: each.effect }), `remove-${each.effect}`, () => actions.remove(each.effect))),
+      h("div", { class: "heading" }, h("h3", {}, about(each.effect, each.name)), title(each),
+        button(texts.remove, said(texts.removeEffect, { effect: each.name }), `remove-${each.effect}`, () => actions.remove(each.effect))),
       h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
-        h("th", { scope: "row", title: own.description }, symbol(own.symbol), h("span", { class: "unseen" }, ` ${own.description}`)),
-        h("td", { class: "number" }, own.fixed && actions.fix ? value(texts, each.effect, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
+        h("th", { scope: "row" }, symbol(own.symbol), " ", h("span", { class: "quiet" }, own.description)),
+        h("td", { class: "number" }, own.fixed && actions.fix ? value(each, own, actions) : own.value), h("td", { class: "number" }, own.uncertainty ? `± ${own.uncertainty}` : ""), h("td", {}, own.unit),
         h("td", {}, own.given || own.at_bound ? h("span", { class: "given" }, own.given ? texts.given : texts.atBound) : doubt(texts, own)),
-        h("td", {}, actions.fix && fixing(texts, each.effect, own, actions)))))),
+        h("td", {}, actions.fix && fixing(texts, each, own, actions)))))),
+      wave(texts, each.name, actions.number, actions.wave(each.effect)),
     ))),
     h("form", { class: "other", submit: (event) => { event.preventDefault(); actions.add(event.target.elements.effect.value); } },
       h("label", { for: "other" }, texts.otherEffect),
-      h("select", { id: "other", name: "effect", "data-key": "other" }, job.others.map((each) => h("option", { value: each.effect }, `${each.effect}: ${each.title}`))),
+      h("select", { id: "other", name: "effect", "data-key": "other" }, job.others.map((each) => h("option", { value: each.effect }, each.name === each.title ? each.title : `${each.name}: ${each.title}`))),
       h("button", { type: "submit", "data-key": "add-other" }, texts.add)),
   ];
 }
 
-function value(texts, effect, own, actions) {
-  return h("input", { type: "number", step: "any", required: true, value: own.number, "aria-label": `${effect}.${own.name} (${own.unit})`, "data-key": `value-${effect}.${own.name}`,
+function value({ effect, name }, own, actions) {
+  return h("input", { type: "number", step: "any", required: true, value: own.number, "aria-label": `${called(effect, name, own)} (${own.unit})`, "data-key": `value-${effect}.${own.name}`,
     change: (event) => event.target.reportValidity() && actions.fix(effect, own.name, event.target.valueAsNumber) });
 }
 
-function fixing(texts, effect, own, actions) {
-  const parameter = `${effect}.${own.name}`;
+/** Return what a parameter is called: as in a job where effects are called so, else by what it is. */
+function called(effect, name, own) {
+  return name === effect ? `${effect}.${own.name}` : `${name}: ${own.description}`;
+}
+
+function fixing(texts, { effect, name }, own, actions) {
+  const key = `${effect}.${own.name}`;
+  const parameter = called(effect, name, own);
   if (own.given && !own.fixed) return null;
   return own.fixed
-    ? button(texts.free, said(texts.freeParameter, { parameter }), `free-${parameter}`, () => actions.free(effect, own.name))
-    : button(texts.fix, said(texts.fixParameter, { parameter }), `fix-${parameter}`, () => actions.fix(effect, own.name, own.number));
+    ? button(texts.free, said(texts.freeParameter, { parameter }), `free-${key}`, () => actions.free(effect, own.name))
+    : button(texts.fix, said(texts.fixParameter, { parameter }), `fix-${key}`, () => actions.fix(effect, own.name, own.number));
 }
 
 /** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
 export function fall(texts, results, actions) {
   const { rows, floor, unit } = results.fall;
   const seen = (step, name) => (step > 0 ? { pointerenter: () => actions.preview(String(step), name), pointerleave: () => actions.preview(null) } : {});
-  const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, name) },
+  const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, results.fall.rows[step].name) },
     h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), h("td", { class: "number" }, leftOut));
   return [
     h("h2", {}, texts.fall),
     h("table", { class: "fall" },
-      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, `${texts.error} (${unit})`), h("th", { scope: "col", class: "number" }, `${texts.leftOut} (${unit})`))),
-      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each.effect, step, actions) : texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
-        floor && row(texts.noiseFloor, floor.share, floor.rms, "", "floor"))),
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, explained(`${texts.error} (${unit})`, texts.errorIs)), h("th", { scope: "col", class: "number" }, explained(`${texts.leftOut} (${unit})`, texts.leftOutIs)))),
+      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
+        floor && row(explained(texts.noiseFloor, texts.noiseFloorIs), floor.share, floor.rms, "", "floor"))),
   ];
 }
 
-function stepButton(effect, step, actions) {
-  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), effect), blur: () => actions.preview(null) }, `+ ${effect}`);
+function stepButton({ effect, name }, step, actions) {
+  return h("button", { type: "button", class: "plain", "data-key": `step-${effect}`, focus: () => actions.preview(String(step), name), blur: () => actions.preview(null) }, `+ ${name}`);
 }
 
-/** The parameters of the standards: now, and as forecast after compensation. */
+/** The parameters of the standards: now, and as forecast after compensation; the first standard open. */
 export function standards(texts, results) {
-  return [
-    h("h2", {}, texts.standards),
-    results.standards.map((each) => {
-      const limited = each.rows.some((row) => row.verdict);
-      return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": each.designation }, h("table", { class: "standard" },
-        h("caption", {}, `${each.designation} · ${each.unit}`),
-        h("thead", {}, h("tr", {}, [texts.parameter, texts.now, ...(limited ? [texts.limit] : []), texts.byTable, texts.byModel].map((name, index) =>
-          h("th", { scope: "col", class: index ? "number" : false }, name)))),
-        h("tbody", {}, each.rows.map((row) => h("tr", {},
-          h("th", { scope: "row", title: row.name }, symbol(row.symbol), h("span", { class: "unseen" }, ` ${row.name}`)),
-          h("td", { class: "number now" }, row.value, row.uncertainty && h("span", { class: "quiet" }, ` ± ${row.uncertainty}`)),
-          limited && h("td", { class: `number limit ${row.mark}` }, row.limit, row.verdict && h("span", {}, ` ${row.verdict}`)),
-          h("td", { class: "number" }, row.by_table), h("td", { class: "number" }, row.by_model)))),
-      ), each.unmet.length > 0 && h("ul", { class: "problems" }, each.unmet.map((one) => h("li", {}, one))));
-    }),
-    h("p", { class: "quiet" }, texts.forecast, results.moving && ` ${results.moving}`),
-  ];
+  const forecast = [texts.forecast, results.moving].filter(Boolean).join(" ");
+  return results.standards.map((each, index) => h("details", { open: index === 0 },
+    h("summary", {}, index === 0 && [h("h2", {}, texts.standards), " · "], `${each.designation} · ${each.unit}`),
+    standard(texts, each, forecast),
+    each.unmet.length > 0 && h("ul", { class: "problems" }, each.unmet.map((one) => h("li", {}, one)))));
+}
+
+/** A parameter stands below the other on a small screen, and beside it on a wide one: so the roles are said. */
+function standard(texts, each, forecast) {
+  const limited = each.rows.some((row) => row.verdict);
+  const stated = each.rows.some((row) => row.uncertainty);
+  const heads = [texts.parameter, texts.now, ...(stated ? [explained("± U", texts.uIs)] : []), ...(limited ? [texts.limit] : []), explained(texts.byTable, forecast), explained(texts.byModel, forecast)];
+  const cell = (look, ...content) => h("td", { role: "cell", class: look }, content);
+  return h("div", { class: "wide", tabindex: "0", role: "region", "aria-label": each.designation }, h("table", { class: "standard", role: "table" },
+    h("thead", { role: "rowgroup" }, h("tr", { role: "row" }, heads.map((name, index) => h("th", { scope: "col", role: "columnheader", class: index ? "number" : false }, name)))),
+    h("tbody", { role: "rowgroup" }, each.rows.map((row) => h("tr", { role: "row" },
+      h("th", { scope: "row", role: "rowheader" }, explained(symbol(row.symbol), row.name)),
+      cell("number now", row.value),
+      stated && cell("number quiet", row.uncertainty && `± ${row.uncertainty}`),
+      limited && cell(`number limit ${row.mark}`, row.limit, row.verdict && h("span", {}, ` ${row.verdict}`)),
+      cell("number", row.by_table), cell("number", row.by_model))))));
 }
 
 /** What this test cannot see, and what was taken for granted. */
 export function hidden(texts, found) {
   if (found.hidden.length + found.remarks.length === 0) return [];
   return [h("details", {}, h("summary", {}, h("h2", {}, texts.hidden)),
-    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(effect)]), `: ${each.reason}`))),
+    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(effect, each.names[index])]), `: ${each.reason}`))),
     found.remarks.length > 0 && [h("h3", {}, texts.remarks), h("ul", { class: "hidden" }, found.remarks.map((each) => h("li", {}, each)))])];
 }
 
@@ -242,7 +279,7 @@ export function certificate(texts, job, made, wanted, number, actions) {
         h("input", { type: "checkbox", name: "format", value: each.format, checked: chosen(each) }), ` ${each.format}`))),
       h("button", { type: "submit", "data-key": "certificate", disabled: made?.state === "making" }, texts.makeCertificate)),
     ...progress(texts, made, number, texts.making),
-    made?.state === "made" && Object.keys(made.pages).length > 0 && preview(texts, made),
+    made?.state === "made" && Object.keys(made.pages).length > 0 && button(texts.lookAtPages, texts.lookAtPages, "look-at-pages", actions.lookAtPages),
   ];
 }
 
@@ -252,14 +289,14 @@ function progress(texts, made, number, words) {
     return [h("p", { class: "progress" }, h("progress", { "aria-label": words }), ` ${words} `, h("span", { "aria-hidden": "true" }, said(texts.seconds, { seconds: number(made.seconds) })))];
   }
   return [
-    made?.state === "made" && h("ul", { class: "files" }, made.files.map((name) => h("li", {}, h("a", { href: `/documents/${name}`, download: name }, name)))),
+    made?.state === "made" && h("ul", { class: "files" }, made.files.map((name) => h("li", {}, h("a", { href: `${ROOT}/documents/${name}`, download: name }, name)))),
     made?.state === "made" && !made.current && h("p", { class: "quiet" }, texts.outOfDate),
     made?.state === "failed" && h("ul", { class: "problems" }, made.problems.map((each) => h("li", {}, each))),
   ];
 }
 
 /** The pages as pictures, one at a time: those of the sheet first, then those of the certificate. */
-function preview(texts, made) {
+export function preview(texts, made, close) {
   const all = Object.entries(made.pages).flatMap(([name, pages]) => Array.from({ length: pages }, (_, index) => ({ name, page: index + 1, pages })));
   const picture = h("img", { class: "page", alt: "" });
   const place = h("span", { role: "status" });
@@ -267,14 +304,16 @@ function preview(texts, made) {
   const turn = (to) => {
     shown = Math.max(0, Math.min(all.length - 1, to));
     const { name, page, pages } = all[shown];
-    picture.src = `/documents/${name}/${page}.png?of=${made.stamp}`;
+    picture.src = `${ROOT}/documents/${name}/${page}.png?of=${made.stamp}`;
     picture.alt = said(name === "sheet" ? texts.sheetPage : texts.page, { page, pages });
     place.textContent = picture.alt;
   };
   turn(0);
-  return h("div", { class: "preview" },
-    h("p", {}, button("←", texts.pageBefore, "page-before", () => turn(shown - 1)), " ", place, " ", button("→", texts.pageAfter, "page-after", () => turn(shown + 1))),
-    picture);
+  return [
+    h("div", { class: "heading" }, h("h2", {}, texts.certificate),
+      button("←", texts.pageBefore, "page-before", () => turn(shown - 1)), place, button("→", texts.pageAfter, "page-after", () => turn(shown + 1)),
+      button(texts.close, texts.close, "close-pages", close)),
+    picture];
 }
 
 /** The table for a control: written, its forecast, and a second test held against it. */
@@ -342,12 +381,17 @@ function grouped(all) {
   return groups;
 }
 
-function about(effect) {
-  return h("a", { href: `/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, effect);
+function about(effect, name) {
+  return h("a", { href: `${ROOT}/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, name);
+}
+
+/** Return what an effect is called beside its name, where that says more. */
+function title(each) {
+  return each.title !== each.name && h("span", { class: "quiet" }, each.title);
 }
 
 function add(texts, each, actions) {
-  return button(texts.add, said(texts.addEffect, { effect: each.effect }), `add-${each.effect}`, () => actions.add(each.argument), "add");
+  return button(texts.add, said(texts.addEffect, { effect: each.name }), `add-${each.effect}`, () => actions.add(each.argument), "add");
 }
 
 function button(label, name, key, click, look) {

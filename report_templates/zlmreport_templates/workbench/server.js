@@ -1,5 +1,8 @@
 // Asks the server. Every answer is values; a refusal is an error with sentences for people.
 
+/** What stands before the addresses of a job: nothing, or its place in a folder of jobs. */
+export const ROOT = location.pathname.match(/^\/jobs\/[^/]+/)?.[0] ?? "";
+
 const language = new URLSearchParams(location.search).get("lang");
 
 /** Sentences of the server on what it did not do, and its status. */
@@ -29,7 +32,7 @@ async function answered(path, options, values = {}) {
   const query = new URLSearchParams(language ? { ...values, lang: language } : values).toString();
   let response;
   try {
-    response = await fetch(query ? `${path}?${query}` : path, options);
+    response = await fetch(`${ROOT}${path}${query && `?${query}`}`, options);
   } catch {
     throw new Silence();
   }

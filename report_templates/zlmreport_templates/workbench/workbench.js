@@ -3,14 +3,15 @@
 import { Comparison } from "./comparison.js";
 import { fill, h, said } from "./dom.js";
 import { showEffect } from "./effect.js";
+import { showFolder } from "./folder.js";
 import { Graphs } from "./graphs.js";
 import { written } from "./number.js";
 import * as panels from "./panels.js";
-import { Refusal, Silence, get, post } from "./server.js";
+import { ROOT, Refusal, Silence, get, post } from "./server.js";
 
 const LOOK = 1500;
 const ASK = 250;
-const PLACES = { certificate: "certificate", table: "compensation", confirmation: "compensation", experiment: "experiment" };
+const PLACES = { certificate: "certificate", table: "compensation", confirmation: "compensation", experiment: "experiment", build: "stairs" };
 const NESTED = new Set(["lacking", "certificate"]);
 
 class Page {
@@ -29,19 +30,26 @@ class Page {
       stop: () => post("/api/diagnosis/stop", {}).catch((error) => this.#tell(error)),
       diagnose: () => { this.diagnosis = null; this.#showDiagnosis(); this.#diagnose(this.stamp); },
       preview: (step, name) => this.#preview(step, name),
+      number: this.number,
+      wave: (of) => this.#wave(of),
+      build: () => this.#make("build", {}),
+      climb: (steps) => this.#climb(steps),
+      undo: () => this.#change({ action: "undo" }),
+      stopMaking: (name) => post(`/api/made/${name}/stop`, {}).catch((error) => this.#tell(error)),
+      lookAtPages: () => this.#lookAtPages(),
       make: (name, wanted) => { this.wanted[name] = wanted; this.#make(name, wanted); },
       noTable: () => this.#change({ action: "state", stated: { "axis.compensation_table": "none" } }),
     };
     this.graphs = new Graphs(texts, this.number, (readings, reason) => this.#change({ action: "exclude", readings, reason }), (range) => this.#closer(range));
     this.comparison = new Comparison(texts, this.number, (curves) => this.graphs.overlay(curves));
     this.notice = h("div", { class: "notice", role: "alert", hidden: true });
-    this.header = h("header", {}, h("p", { role: "status" }, texts.working));
-    this.parts = Object.fromEntries(["verdict", "fall", "faults", "failures", "candidates", "experiment", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps"]
+    this.header = h("header", {}, this.#all(), h("p", { role: "status" }, texts.working));
+    this.parts = Object.fromEntries(["verdict", "fall", "stairs", "faults", "failures", "candidates", "experiment", "hidden", "compensation", "lacking", "certificate", "effects", "standards", "excluded", "steps", "preview"]
       .map((name) => [name, h("section", { class: NESTED.has(name) ? false : "panel", id: `part-${name}` })]));
-    const { verdict, fall, faults, failures, candidates, experiment, hidden, compensation, lacking, certificate, effects, standards, excluded, steps } = this.parts;
+    const { verdict, fall, stairs, faults, failures, candidates, experiment, hidden, compensation, lacking, certificate, effects, standards, excluded, steps, preview } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
-      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), h("div", { class: "seen" }, this.graphs.element, this.comparison.element, effects, standards),
-      h("div", { class: "findings" }, faults, failures, candidates, experiment, hidden, compensation, h("div", { class: "panel", id: "part-document" }, certificate, lacking), excluded, steps))));
+      h("div", { class: "bench" }, h("div", { class: "always" }, verdict, fall), standards, h("div", { class: "seen" }, preview, this.graphs.element, this.comparison.element, effects),
+      h("div", { class: "findings" }, stairs, faults, failures, candidates, experiment, hidden, compensation, h("div", { class: "panel", id: "part-document" }, certificate, lacking), excluded, steps))));
   }
 
   /** Show the job as it is, and go on looking whether it still is. */
@@ -56,6 +64,7 @@ class Page {
       this.#show(await get("/api/job"));
       return true;
     } catch (error) {
+      if (!this.job) fill(this.header, this.#all());
       this.#tell(error, this.texts.broken);
       return false;
     }
@@ -66,6 +75,7 @@ class Page {
     this.stamp = job.stamp;
     this.diagnosis = null;
     this.previews = new Map();
+    this.waves = new Map();
     this.previewed = null;
     this.graphs.show(job.graphs);
     this.graphs.compare(null);
@@ -117,10 +127,16 @@ class Page {
     }
   }
 
+  /** Return the way back to the folder, where the job was opened from one. */
+  #all() {
+    return ROOT && h("a", { href: `/${location.search}`, "data-key": "all-jobs" }, this.texts.allJobs);
+  }
+
   #heading(job) {
     const { texts } = this;
     return [
       h("h1", {}, job.number, h("span", {}, job.subject)),
+      this.#all(),
       h("code", {}, job.file),
       h("span", { class: "busy", "aria-hidden": "true" }, texts.working),
       [["undo", texts.undo, texts.undoOf], ["redo", texts.redo, texts.redoOf]].map(([action, name, of]) =>
@@ -152,9 +168,22 @@ class Page {
   #showMade() {
     const { texts, parts, job, actions } = this;
     this.#showExperiment();
+    fill(parts.stairs, panels.stairs(texts, job, this.made.get("build"), this.number, actions));
     const made = Object.fromEntries([...this.made].map(([name, each]) => [name, { ...each, current: each.stamp === this.stamp }]));
     fill(parts.certificate, panels.certificate(texts, job, made.certificate, this.wanted, this.number, actions));
     fill(parts.compensation, panels.compensation(texts, job, made, this.wanted, this.number, actions));
+  }
+
+  /** Return what draws an effect on one of its periods; null where it has none, or is not to be had. */
+  async #wave(of) {
+    const { waves } = this;
+    if (!waves.has(of)) waves.set(of, get("/api/folded", { of }).then(({ wave }) => wave));
+    try {
+      return await waves.get(of);
+    } catch (error) {
+      if (error instanceof Refusal || error instanceof Silence) return null;
+      throw error;
+    }
   }
 
   /** Have something made, and show how far it is. */
@@ -178,6 +207,19 @@ class Page {
     const waits = this.parts[PLACES[name]].querySelector(".progress span");
     if (before === "making" && found.state === "making" && waits) waits.textContent = said(this.texts.seconds, { seconds: this.number(found.seconds) });
     else this.#showMade();
+    if (name === "certificate" && before === "making" && found.state === "made") this.#lookAtPages();
+  }
+
+  /** Show the pages of the certificate where they are wide enough to be read, and bring them into view. */
+  #lookAtPages() {
+    const { parts, texts } = this;
+    const made = this.made.get("certificate");
+    fill(parts.preview, Object.keys(made.pages).length > 0 && panels.preview(texts, made, () => {
+      fill(parts.preview);
+      parts.certificate.querySelector("[data-key=look-at-pages]")?.focus();
+    }));
+    parts.preview.scrollIntoView({ block: "start" });
+    parts.preview.querySelector("[data-key=page-after]")?.focus({ preventScroll: true });
   }
 
   async #diagnose(stamp) {
@@ -244,9 +286,17 @@ class Page {
     if (this.job?.[action]) this.#change({ action });
   }
 
+  /** Take steps of a staircase, each a change of its own, as far as they are not refused. */
+  async #climb(steps) {
+    for (const { removed, effect, argument } of steps) {
+      if (!(await this.#change(removed ? { action: "remove", effect } : { action: "add", effect: argument }))) return;
+    }
+  }
+
   /** Do one thing after the other: a click while another is under way is not lost. */
   #change(wanted) {
     this.queue = (this.queue ?? Promise.resolve()).then(() => this.#changeNow(wanted));
+    return this.queue;
   }
 
   async #changeNow(wanted) {
@@ -256,9 +306,11 @@ class Page {
       const job = await post("/api/change", { based_on: this.job.digest, ...wanted });
       this.#hush();
       this.#show(job);
+      return true;
     } catch (error) {
       if (error instanceof Refusal && error.status === 409) await this.#load();
       this.#tell(error);
+      return false;
     } finally {
       this.working = false;
       document.body.removeAttribute("aria-busy");
@@ -289,6 +341,7 @@ class Page {
 }
 
 const texts = await get("/api/texts");
-const effect = location.pathname.match(/^\/effects\/(.+)$/)?.[1];
-if (effect) await showEffect(texts, effect);
+const effect = location.pathname.slice(ROOT.length).match(/^\/effects\/(.+)$/)?.[1];
+if (texts.folder) await showFolder(texts);
+else if (effect) await showEffect(texts, effect);
 else await new Page(texts).begin();

@@ -38,6 +38,7 @@ def watched_main() -> int:
     """Do what the command line says, watched by another process; return the exit code."""
 
     def use(memory: memoryview) -> None:
+        _settle_environment()
         from zlmreport.plugin.presence import PRESENCE  # slow to load, and not in the one that waits
 
         PRESENCE.use(memory)
@@ -49,11 +50,7 @@ def watched_main() -> int:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Do what the command line says and return the exit code; messages go to the standard error output."""
-    # Before numpy is loaded: on the small matrices of a test, threads only wait for each other, and a
-    # diagnosis takes ten times as long.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    # Pydantic looks for plugins of its own among all distributions before it makes its first model.
-    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    _settle_environment()
     # What is loaded and made at the beginning stays, and goes with the process: the collector would walk it
     # again and again for nothing, and at the end most of all.
     gc.set_threshold(100_000)
@@ -87,6 +84,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"{where}: cannot be read or written: {reason(error)}", file=sys.stderr)
         return AccessError.exit_code
     return code
+
+
+def _settle_environment() -> None:
+    """Say what libraries ask the environment for while they are loaded: to be called before that."""
+    # On the small matrices of a test, threads only wait for each other, and a diagnosis takes ten times as
+    # long beside other processes.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    # Pydantic looks for plugins of its own among all distributions before it makes its first model.
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 
 def _write_what_cannot_be_encoded_as_escapes(stream: TextIO) -> None:

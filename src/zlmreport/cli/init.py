@@ -13,6 +13,7 @@ from zlmreport.cli.terminal import said, shown_path, wrapped
 from zlmreport.files import Document, write_new
 from zlmreport.language.formatting import DecimalSign, general_number
 from zlmreport.looking import Looked, job_of, looked_at
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import find_plugins
 
@@ -47,9 +48,11 @@ def look(options: Namespace) -> int:
 
 def _lines(looked: Looked, path: Path) -> Iterator[str]:
     yield f"{path}: {said(looked.source.title)}"
-    yield from wrapped(_summary(looked.read))
-    for remark in looked.read.provenance.remarks:
-        yield from wrapped(said(remark))
+    for name, read in (looked.read.tests or {"": looked.read}).items():
+        yield from wrapped(f"{name}: {_summary(read)}" if name else _summary(read))
+    remarks = dict.fromkeys(said(each) for read in looked.read.lines for each in read.provenance.remarks)
+    for remark in remarks:
+        yield from wrapped(remark)
     if looked.proposal.asks:
         yield ""
         yield "to be answered by who measured"
@@ -64,6 +67,8 @@ def _summary(read: MeasurementSet) -> str:
     place, size = read.axis.position_unit, read.axis.deviation_unit
     at, deviation = place.from_si(read.target_positions), size.from_si(read.deviation)
     count, missing = int(np.isfinite(deviation).sum()), len(read.missing())
+    if read.axis.measurand.coordinate is Coordinate.TIME:
+        return _over_time(read, count)
     travel = f"from {_number(at[0])} to {_number(at[-1])} {place.symbol}"
     directions = "both directions" if read.is_bidirectional else "one direction"
     parts = [
@@ -74,6 +79,19 @@ def _summary(read: MeasurementSet) -> str:
         smallest, largest = np.nanmin(deviation), np.nanmax(deviation)
         parts.append(f"deviations {_number(smallest)} to {_number(largest)} {size.symbol}")
     parts.append(f"{missing} missing" if missing else "nothing missing")
+    return "; ".join(parts)
+
+
+def _over_time(read: MeasurementSet, count: int) -> str:
+    """Return in a line what was read over time, and what was logged beside it."""
+    place, size = read.axis.position_unit, read.axis.deviation_unit
+    lasts = _number(place.from_si(float(read.target_positions[-1] - read.target_positions[0])))
+    parts = [f"{_counted(count, 'reading')} over {lasts} {place.symbol}"]
+    if count:
+        smallest, largest = (size.from_si(float(end(read.deviation))) for end in (np.nanmin, np.nanmax))
+        parts.append(f"{_number(smallest)} to {_number(largest)} {size.symbol}")
+    if read.conditions:
+        parts.append(f"with {', '.join(read.conditions)}")
     return "; ".join(parts)
 
 

@@ -54,6 +54,10 @@ _OWN_WORDS = Words(
     en="Words that somebody wrote; no reading gives them:",
     de="Worte, die jemand geschrieben hat; kein Messwert ergibt sie:",
 )
+_IN = Words(en="{key} (in {names})", de="{key} (in {names})")
+_ALSO_IN = Words(en="{key} (also in {names})", de="{key} (auch in {names})")
+#: Last steps by which a key is known again within a measurement; measurements that are named one by one.
+_STEPS_OF_A_KEY, _MOST_PLACES = 2, 3
 _Say: TypeAlias = Callable[[Words | str], str]
 SCHEMA = "zlmreport/verification/1"
 
@@ -179,11 +183,40 @@ def _numbers(values: Sequence[Value], say: _Say) -> Iterator[tuple[str, str]]:
 
 
 def _own_words(texts: Sequence[OwnText], say: _Say) -> Iterator[str]:
-    """Yield the words that somebody else wrote, each with what nobody can tell by looking."""
+    """Yield the words that somebody else wrote, each once, with what nobody can tell by looking."""
     yield f"  {say(_OWN_WORDS)}"
+    by_text: dict[str, list[OwnText]] = {}
     for each in texts:
-        yield visible(f"  {each.key}: '{_shortened(each.text)}'")
-        yield from (f"    {_COLOURS[Verdict.OPEN].of(visible(say(oddity)))}" for oddity in each.oddities)
+        by_text.setdefault(each.text, []).append(each)
+    for text, alike in by_text.items():
+        places = ", ".join(_places([each.key for each in alike], say))
+        yield visible(f"  {places}: '{_shortened(text)}'")
+        yield from (f"    {_COLOURS[Verdict.OPEN].of(visible(say(oddity)))}" for oddity in alike[0].oddities)
+
+
+def _places(keys: Sequence[str], say: _Say) -> Iterator[str]:
+    """Yield the keys under which a text stands: those of several measurements that end alike as one."""
+    by_end: dict[str, list[list[str]]] = {}
+    for key in keys:
+        steps = key.split(".")
+        by_end.setdefault(".".join(steps[-_STEPS_OF_A_KEY:]), []).append(steps)
+    for alike in by_end.values():
+        shared = 0
+        while all(len(each) > shared and each[-1 - shared] == alike[0][-1 - shared] for each in alike):
+            shared += 1
+        key = ".".join(alike[0][-shared:])
+        names = [".".join(each[:-shared]) for each in alike]
+        others = [each for each in names if each]
+        words = _ALSO_IN if len(others) < len(names) else _IN
+        # The only key there is has nothing before what it shares with itself.
+        yield say(words.given(key=key, names=_few(others, say))) if others else key
+
+
+def _few(names: Sequence[str], say: _Say) -> str:
+    if len(names) <= _MOST_PLACES + 1:
+        return ", ".join(names)
+    more = say(Words(en="and {n} more", de="und {n} weiteren").given(n=len(names) - _MOST_PLACES))
+    return f"{', '.join(names[:_MOST_PLACES])} {more}"
 
 
 def _shortened(text: str) -> str:

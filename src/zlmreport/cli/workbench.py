@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import datetime as dt
 import signal
 from argparse import Namespace
 from types import FrameType
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
-from zlmreport.errors import AccessError, Place
+from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.plugin.registry import find_plugins
+
+if TYPE_CHECKING:
+    from zlmreport.web.app import Served
 
 _PLACE = Place("zlmreport workbench")
 
@@ -17,7 +21,7 @@ _PLACE = Place("zlmreport workbench")
 def run(options: Namespace) -> int:
     """Serve the page of a job until the user ends it."""
     try:
-        from zlmreport.web.app import Workbench, serve  # noqa: PLC0415 - an extra that need not be there
+        from zlmreport.web.app import serve  # noqa: PLC0415 - an extra that need not be there
     except ModuleNotFoundError as error:
         package = (error.name or "").partition(".")[0]
         if package not in {"starlette", "uvicorn"}:
@@ -25,11 +29,31 @@ def run(options: Namespace) -> int:
         raise AccessError.at(
             _PLACE, f"{package} is not installed; install the workbench: pip install 'zlmreport[workbench]'"
         ) from error
-    workbench = Workbench.of(options.jobs, find_plugins(files=options.plugin), tuple(options.plugin))
+    workbench = _workbench(options)
     signal.signal(signal.SIGTERM, _end)
     with contextlib.suppress(KeyboardInterrupt):
         serve(workbench, options.port, _print_address, open_browser=not options.no_browser)
     return 0
+
+
+def _workbench(options: Namespace) -> Served:
+    """Return the page of a job, or that of a folder.
+
+    Raises `InputError` if a folder stands beside other jobs, or holds none.
+    """
+    from zlmreport.web.app import Workbench  # noqa: PLC0415 - the extra is there
+    from zlmreport.web.folder import JobFolder, jobs_in  # noqa: PLC0415
+    from zlmreport.web.folder_app import FolderWorkbench  # noqa: PLC0415
+
+    registry, plugins = find_plugins(files=options.plugin), tuple(options.plugin)
+    first, *others = options.jobs
+    folder = next((each for each in options.jobs if each.is_dir()), None)
+    if folder is None:
+        return Workbench.of(options.jobs, registry, plugins)
+    if others:
+        raise InputError.at(_PLACE, f"{folder} is a folder: name it alone, or the jobs in it one by one")
+    jobs_in(first)
+    return FolderWorkbench(JobFolder(first, registry, dt.date.today), registry, plugins)
 
 
 def _end(_number: int, _frame: FrameType | None) -> NoReturn:

@@ -31,6 +31,7 @@ _WIDE = Words(
     de="U von {symbol} ist größer als der Grenzwert: die Aussage besagt so gut wie nichts",
 )
 
+_UNDECIDED = Decision(Conformity.UNDECIDED, None, None, None)
 #: What is stated between TL − w and TL, and between TL and TL + w.
 _Between: TypeAlias = tuple[Conformity, Conformity]
 
@@ -64,14 +65,24 @@ class DecisionRule:
             return None
         uncertainty = parameter.standard_uncertainty if uncertainty_is_complete else None
         if uncertainty is None and self.factor:
-            return Decision(Conformity.UNDECIDED, None, None, None)
+            return _UNDECIDED
         width = self.factor * self._unit(parameter) if self.factor else 0.0
         conformity = self._conformity(abs(parameter.value), limit, width)
-        corrected = parameter.value + parameter.known_error
-        if not self.factor and conformity is not self._conformity(abs(corrected), limit, width):
+        if self._turns_when_corrected(parameter, limit, conformity):
             conformity = Conformity.UNDECIDED  # by a value that is known to be wrong nothing is stated
         risk = None if uncertainty is None else _risk(parameter, limit, conformity)
         return Decision(conformity, limit - width, limit + width if self.between else limit - width, risk)
+
+    def _turns_when_corrected(self, parameter: Parameter, limit: float, conformity: Conformity) -> bool:
+        """Return whether a value without its known error would have the contrary stated of it."""
+        if not parameter.known_error or conformity.conforms is None:
+            return False
+        unit = (parameter.standard_uncertainty or 0.0) if self.factor else 0.0
+        if self.guard is Guard.EXPANDED_UNCERTAINTY:
+            unit *= parameter.coverage_factor or 0.0
+        corrected = abs(parameter.value + parameter.known_error)
+        right = self._conformity(corrected, limit, self.factor * unit)
+        return right.conforms is not None and right.conforms is not conformity.conforms
 
     def _unit(self, parameter: Parameter) -> float:
         """Return what the guard band is counted in; a known error is in it whole, however it is counted."""
@@ -112,8 +123,11 @@ def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
 def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
     """Return an evaluation with what the rule says of every parameter that has a limit."""
     complete = evaluation.uncertainty_is_complete
+    undecided = {symbol for each in evaluation.findings for symbol in each.undecided}
     parameters = tuple(
-        replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
+        replace(each, decision=_UNDECIDED)
+        if each.limit is not None and each.quantity.symbol in undecided
+        else replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
         for each in evaluation.parameters
     )
     impossible = tuple(_impossible(each) for each in parameters if _accepts_nothing(each))

@@ -80,12 +80,16 @@ class Finding:
         True, False, or None where the job does not tell.
     basis
         Where the requirement is known from.
+    undecided
+        Symbols of parameters that the standard does not give for such a test: nothing is decided on their
+        limits.
     """
 
     requirement: Words
     found: Words
     met: bool | None
     basis: Basis = Basis.APPLIED
+    undecided: tuple[str, ...] = ()
 
 
 class Group(Enum):
@@ -199,7 +203,8 @@ class Parameter:
     raised_to
         The bound to which U was raised; None where it is the budget's.
     axis_interval
-        Where another test of the same plan would find it, m or rad; None where one run tells nothing.
+        Where another test of the same plan, with the same set-up left in place, would find it, m or rad; None
+        where one run tells nothing. Errors of the set-up are not in it.
     known_error
         What the value would change by if the errors of known size that are in the readings, as an expansion
         that is not corrected, were taken out of them, m or rad. U holds it whole.

@@ -17,23 +17,27 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import Unit, with_unit
+from zlmreport.measurement.units import ANGLES, Unit, with_unit
 
 _DRIFTS = Words(
-    en="Run means {lie} {low} {to} {high}; {stated}: U does not hold this drift",
-    de="Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated}: U enthält diese Drift nicht",
+    en="Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U",
+    de="Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated} der Achse zugerechnet und nicht in U",
 )
 _LIE, _AND = Words(en="lie between", de="liegen zwischen"), Words(en="and", de="und")
 _RISE, _FALL = Words(en="rise from", de="steigen von"), Words(en="fall from", de="fallen von")
 _TO = Words(en="to", de="auf")
 _AT_REST = Words(
-    en="stated at rest are {range}",
-    de="angegeben sind in Ruhe {range}",
+    en="{range} is stated of drift at rest: what exceeds it is",
+    de="für die Drift in Ruhe ist {range} angegeben: was darüber hinausgeht, ist",
 )
 _NEGLECTED = Words(
-    en="drift at rest is declared negligible", de="Drift in Ruhe ist als vernachlässigbar erklärt"
+    en="drift at rest is declared negligible: this is",
+    de="Drift in Ruhe ist als vernachlässigbar erklärt: dies ist",
 )
-_NOTHING_STATED = Words(en="nothing is stated of drift at rest", de="zur Drift in Ruhe ist nichts angegeben")
+_NOTHING_STATED = Words(
+    en="nothing is stated of drift at rest: this is",
+    de="zur Drift in Ruhe ist nichts angegeben: dies ist",
+)
 _OUTLIER = Words(
     en="The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "
     "in the "
@@ -43,19 +47,31 @@ _OUTLIER = Words(
     "Ergebnissen (measurement.excluded legt ihn beiseite)",
 )
 _MORE_OUTLIERS = Words(
-    en="{count} more readings lie as far from the others of their targets",
-    de="{count} weitere Messwerte liegen ebenso weit neben den übrigen ihrer Sollpositionen",
+    en="As far from the others of their targets lie more readings (number: {count})",
+    de="Ebenso weit neben den übrigen ihrer Sollpositionen liegen weitere Messwerte (Anzahl: {count})",
 )
 _IDENTICAL = Words(
     en="Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter",
     de="Die Durchläufe {runs} sind in jeder Stelle gleich: Kopien, oder eine Auflösung, die die Streuung "
     "verbirgt",
 )
+_SAME_DIRECTIONS = Words(
+    en="Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the "
+    "reversal",
+    de="Beide Richtungen sind in jeder Stelle gleich, in {runs}: Kopien, oder eine Auflösung, die die "
+    "Umkehrspanne verbirgt",
+)
 _TOO_SMALL = Words(
     en="All deviations together span {range} over {length}: read as {unit}; if the file has {other}, state "
     "measurement.source.units: {{deviation: {other}}}",
     de="Alle Abweichungen zusammen umfassen {range} auf {length}: als {unit} gelesen; hat die Datei {other}, "
     "gehört measurement.source.units: {{deviation: {other}}} in den Auftrag",
+)
+_TOO_LARGE = Words(
+    en="All deviations together span {range} over {length}: read as {unit}; if the file has another unit, "
+    "state it under measurement.source.units",
+    de="Alle Abweichungen zusammen umfassen {range} auf {length}: als {unit} gelesen; hat die Datei eine "
+    "andere Einheit, gehört sie unter measurement.source.units in den Auftrag",
 )
 _TWO_TEMPERATURES = Words(
     en="{name}: {stated} °C is stated, and {logged} °C was logged beside the readings",
@@ -79,8 +95,10 @@ _OUTLYING = 8.0
 _MOST_NAMED = 3
 #: Positions at which runs must agree for their agreement to say anything.
 _FEWEST_POSITIONS = 3
-#: Spans of all deviations that no machine reaches over so long a way: m over m, rad over rad.
-_SPANS = {AxisKind.LINEAR: (1e-7, 1e-2), AxisKind.ROTARY: (1e-7, 1e-2)}
+#: Spans of all deviations that no machine reaches over so long a way, m or rad: of a position, of any other.
+_LEAST_SPAN, _LEAST_ACROSS, _LONG = 1e-7, 2e-8, 1e-2
+#: Spans of positions that none exceeds, m or rad, and as a part of the way.
+_LARGEST_SPAN, _LARGEST_PART = {AxisKind.LINEAR: 3e-4, AxisKind.ROTARY: 5e-3}, 5e-4
 _TEMPERATURES_AGREE = 0.5
 _MOST_DECIMALS = 3
 _NORMAL_MAD = 1.4826
@@ -95,6 +113,7 @@ def evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
         *_drift(job, measurements, readings),
         *_outliers(measurements, readings),
         *_identical_runs(measurements, readings),
+        *_identical_directions(measurements, readings),
         *_other_unit(measurements),
         *_temperatures(job, measurements),
         *_resolution(job, measurements),
@@ -104,7 +123,7 @@ def evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
 def _drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield whether whole runs lie farther apart than scatter and the stated drift at rest explain."""
     count = readings.shape[-1]
-    if count < _FEWEST_RUNS or measurements.reversal_is_relative:
+    if count < 2 or measurements.reversal_is_relative:
         return
     there = np.isfinite(readings)
     residuals = readings - _mean(readings, axis=-1)[..., np.newaxis]
@@ -120,7 +139,7 @@ def _drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iter
     stated = job.keys.uncertainty.environmental_variation
     allowed = _BY_CHANCE * own / np.sqrt(float(numbers.min())) + (unit.to_si(stated) if stated else 0.0)
     order = np.corrcoef(np.arange(count), of_runs)[0, 1] if full_range else 0.0
-    steady = abs(order) > _STEADY
+    steady = count >= _FEWEST_RUNS and abs(order) > _STEADY  # two of them always rise or fall
     if full_range <= allowed or full_range <= unit.to_si(10.0**-_MOST_DECIMALS) or not (stated or steady):
         return
     low, high = (_size(measurements, each) for each in (float(of_runs.min()), float(of_runs.max())))
@@ -196,9 +215,7 @@ def _identical_runs(measurements: MeasurementSet, readings: FloatArray) -> Itera
     for run in range(readings.shape[-1]):
         for group in groups:
             one, other = readings[..., group[0]], readings[..., run]
-            both = np.isfinite(one) & np.isfinite(other)
-            varies = both.any() and bool(np.ptp(one[both]))
-            if both.sum() >= _FEWEST_POSITIONS and varies and np.array_equal(one[both], other[both]):
+            if _are_identical(one, other):
                 group.append(run)
                 break
         else:
@@ -208,20 +225,44 @@ def _identical_runs(measurements: MeasurementSet, readings: FloatArray) -> Itera
             yield _IDENTICAL.given(runs=", ".join(str(int(runs[each])) for each in group))
 
 
+def _identical_directions(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the runs whose readings of one direction are those of the other, digit by digit."""
+    runs = measurements.runs
+    same = [run for run in range(readings.shape[-1]) if _are_identical(*readings[..., run])]
+    if same and measurements.is_bidirectional:
+        numbers = ", ".join(str(int(runs[each])) for each in same)
+        yield _SAME_DIRECTIONS.given(runs=(_RUN if len(same) == 1 else _RUNS).given(runs=numbers))
+
+
+_RUN, _RUNS = Words(en="run {runs}", de="Durchlauf {runs}"), Words(en="runs {runs}", de="Durchläufen {runs}")
+
+
+def _are_identical(one: FloatArray, other: FloatArray) -> bool:
+    """Return whether two series of readings are copies wherever both have one, and no row of equal values."""
+    both = np.isfinite(one) & np.isfinite(other)
+    varies = both.any() and bool(np.ptp(one[both]))
+    return bool(both.sum() >= _FEWEST_POSITIONS and varies and np.array_equal(one[both], other[both]))
+
+
 def _other_unit(measurements: MeasurementSet) -> Iterator[Words]:
-    """Yield whether all deviations are so small that they seem to be in millimetres, or in degrees."""
+    """Yield whether all deviations are so small, or so large, that they seem to be in another unit."""
     axis = measurements.axis
     known = measurements.deviation[np.isfinite(measurements.deviation)]
     length = float(measurements.target_positions[-1] - measurements.target_positions[0])
-    span, shortest = _SPANS[axis.kind]
     full_range = float(np.ptp(known))
-    if axis.measurand.is_position and 0 < full_range < span and length > shortest:
-        yield _TOO_SMALL.given(
-            range=_size(measurements, full_range),
-            length=_with_unit(axis.position_unit.from_si(length), axis.position_unit.symbol),
-            unit=axis.deviation_unit.symbol,
-            other="mm" if axis.kind is AxisKind.LINEAR else "deg",
-        )
+    is_position = axis.measurand.is_position
+    largest = max(_LARGEST_SPAN[axis.kind], _LARGEST_PART * length)
+    if length > _LONG and 0 < full_range < (_LEAST_SPAN if is_position else _LEAST_ACROSS):
+        words = _TOO_SMALL.given(other="deg" if axis.deviation_unit in ANGLES else "mm")
+    elif is_position and full_range > largest:
+        words = _TOO_LARGE
+    else:
+        return
+    yield words.given(
+        range=_size(measurements, full_range),
+        length=_with_unit(axis.position_unit.from_si(length), axis.position_unit.symbol),
+        unit=axis.deviation_unit.symbol,
+    )
 
 
 def _temperatures(job: Job, measurements: MeasurementSet) -> Iterator[Words]:

@@ -73,6 +73,8 @@ _OF_INSTRUMENT = Words(
 )
 #: Of materials of scales and machines, µm/(m·K): Invar to aluminium and zinc; of glass ceramic it is about 0.
 _EXPANSIONS, _USUAL = (0.3, 35.0), (5.0, 25.0)
+#: Of carbon fibre along its fibres, µm/(m·K).
+_LEAST_EXPANSION = -1.5
 #: Other units by how many µm/(m·K) they are.
 _OTHER_EXPANSIONS = ((1e3, "mm/(m·K)"), (1e6, "1/K"), (1e-3, "nm/(m·K)"))
 #: A limit as small as this, µm or ″, beside a value so many times as large, was meant in mm or °.
@@ -122,7 +124,7 @@ def _expansion(job: Job) -> Iterator[Words]:
         (_OF_COMPENSATION, compensates and compensates.material),
         (_OF_INSTRUMENT, instrument and instrument.expansion_coefficient),
     ):
-        if not isinstance(value, float) or not value or _EXPANSIONS[0] <= abs(value) <= _EXPANSIONS[1]:
+        if not isinstance(value, float) or _is_of_a_material(value, name):
             continue
         factor, unit = next(
             (each for each in _OTHER_EXPANSIONS if _USUAL[0] <= abs(value) * each[0] <= _USUAL[1]), (0.0, "")
@@ -131,6 +133,13 @@ def _expansion(job: Job) -> Iterator[Words]:
         if factor:
             sentence = _MEANT.given(other=unit, meant=float(f"{value * factor:.3g}"))
         yield sentence.given(name=name, value=value, unit="µm/(m·K)")
+
+
+def _is_of_a_material(expansion: float, name: Words) -> bool:
+    """Return whether a material of machines expands so: glass ceramic by 0, along its fibres carbon by −1."""
+    if not expansion:
+        return name is _OF_INSTRUMENT
+    return _EXPANSIONS[0] <= expansion <= _EXPANSIONS[1] or _LEAST_EXPANSION <= expansion <= -_EXPANSIONS[0]
 
 
 def _other_unit(value: float, kind: ConditionKind) -> Scale | None:

@@ -15,17 +15,21 @@ from zlmreport.errors import Problem
 from zlmreport.evaluation.correction.compensated import compensated_by_instrument
 from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.job.contradictions import last_day
-from zlmreport.language import Words, same
+from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
+    from zlmreport.job.keys import JobKeys
     from zlmreport.job.measurement_keys import Instrument, SensorKeys
 
 #: Years after which a calibration is called old: intervals of measuring instruments are one to three.
 _OLD = 3
 _DAYS_OF_A_YEAR = 365.25
+#: Temperatures that lengths have, and the one at which they hold, °C.
+_OF_LENGTHS, _REFERENCE = ("axis_temperature", "material_temperature"), 20.0
 
 _NOT_DATED = Words(
     en="{what}: date of calibration not stated",
@@ -77,35 +81,44 @@ class _Break(NamedTuple):
 
 def doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each place at which the chain does not hold, or is not said to."""
-    found = (*_of_instruments(job), *_of_temperatures(job, measurements))
+    found = (*_of_instruments(job.keys), *_of_temperatures(job, measurements))
     return (*(each.words for each in found), *_scope(job, measurements))
+
+
+def is_shown(job: Job) -> bool:
+    """Return whether a job names a certificate of its instrument, and nothing it says breaks the chain."""
+    lines = [line for part in job.parts for line in part.lines.values()]
+    of_all = [each.keys for each in (job, *lines, *(one.as_found for one in lines if one.as_found))]
+    instrument = job.keys.instrument
+    is_named = instrument is not None and is_reference(instrument.certificate or "")
+    return is_named and not any(each.is_broken for keys in of_all for each in _of_instruments(keys))
 
 
 def refusals(job: Job) -> Iterator[Problem]:
     """Yield what breaks the chain of a calibration certificate by the job's own words."""
     if job.keys.certificate.kind != "certificate":
         return
-    for each in _of_instruments(job):
+    for each in _of_instruments(job.keys):
         if each.is_broken:
             yield Problem(
                 job.place_of(each.key),
-                f"{each.key}: {each.words.en}: a calibration certificate needs a calibration that was "
-                f"valid at "
-                "the measurement (ISO/IEC 17025:2017, 7.8.4.1 c); state the one that was",
+                f"{each.key}: {each.words.in_language(Language.ENGLISH)}: a calibration certificate needs a "
+                "calibration that was valid at the measurement (ISO/IEC 17025:2017, 7.8.4.1 c); state the "
+                "one that was",
             )
 
 
-def _of_instruments(job: Job) -> Iterator[_Break]:
-    instrument, environment = job.keys.instrument, job.keys.environment
+def _of_instruments(keys: JobKeys) -> Iterator[_Break]:
+    instrument, environment = keys.instrument, keys.environment
     if instrument is not None:
-        yield from _calibrated(job, instrument, "instrument", _INSTRUMENT)
+        yield from _calibrated(keys, instrument, "instrument", _INSTRUMENT)
     for number, each in enumerate(environment.thermometers if environment else ()):
-        yield from _calibrated(job, each, f"environment.thermometers.{number}", same(each.name))
+        yield from _calibrated(keys, each, f"environment.thermometers.{number}", same(each.name))
 
 
-def _calibrated(job: Job, device: Instrument | SensorKeys, key: str, what: Words) -> Iterator[_Break]:
+def _calibrated(keys: JobKeys, device: Instrument | SensorKeys, key: str, what: Words) -> Iterator[_Break]:
     """Yield where the calibration of a device does not cover the day of the measurement."""
-    first, last = job.keys.measurement.date, last_day(job.keys.measurement)
+    first, last = keys.measurement.date, last_day(keys.measurement)
     is_instrument = key == "instrument"
     if not is_reference(device.certificate or "") and not is_instrument:
         yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
@@ -129,7 +142,7 @@ def _calibrated(job: Job, device: Instrument | SensorKeys, key: str, what: Words
 
 
 def _written(day: dt.date) -> Words:
-    return Words(en=day.isoformat(), de=f"{day.day:02}.{day.month:02}.{day.year}")
+    return same(day.isoformat())
 
 
 def _of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]:
@@ -138,8 +151,20 @@ def _of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]
     if job.keys.certificate.kind != "certificate" or (environment and environment.thermometers):
         return
     by_program = corrections is not None and (corrections.material or corrections.air)
-    if by_program and not compensated_by_instrument(job, measurements).material:
+    is_counted = by_program or _is_expanded(job, measurements)
+    if is_counted and not compensated_by_instrument(job, measurements).material:
         yield _Break("environment.thermometers", _NO_THERMOMETER, is_broken=False)
+
+
+def _is_expanded(job: Job, measurements: MeasurementSet) -> bool:
+    """Return whether a length was measured at another temperature than 20 °C, so that expansion counts."""
+    if not job.axis.has_length:
+        return False
+    environment = job.keys.environment
+    stated = (getattr(environment, each, None) for each in _OF_LENGTHS)
+    return any(isinstance(each, float) and each != _REFERENCE for each in stated) or any(
+        each in measurements.conditions for each in _OF_LENGTHS
+    )
 
 
 def _scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
@@ -148,6 +173,8 @@ def _scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     if cmc is None:
         return
     axis, targets = job.axis, measurements.target_positions
+    if axis.measurand.coordinate is Coordinate.TIME:  # a scope of axes and their lengths says nothing of it
+        return
     if cmc.kind is not None and cmc.kind is not axis.kind:
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))

@@ -238,9 +238,9 @@ class CertificateKeys(JobPart):
     )
     layout: Literal["sheet", "standard", "full"] = Field(
         "standard",
-        description="How much room the document takes: `sheet` has one page for each standard and no more; "
-        "`standard` has a page or so for each, and says once for all what they share; `full` has a chapter "
-        "for each.",
+        description="How much room the document takes: `sheet` has one page for each standard, and one of "
+        "details for what they do not hold; `standard` has a page or so for each, and says once for all what "
+        "they share; `full` has a chapter for each.",
     )
     paper: Literal["A4", "Letter"] = Field("A4", description="Paper size.")
     readings_on_graphs: bool = Field(

@@ -180,11 +180,50 @@ def quantity_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[tup
     """Yield the keys of a job that do not go with what was measured."""
     if measurand.is_position:
         return
+    if (measurand.of_lines or measurand).coordinate is Coordinate.TIME:
+        yield from _of_lengths(keys)
     for key, reason in _FOR_LENGTHS.items():
         if getattr(keys, key) is not None:
             yield (key,), f"belongs to positioning: {reason}, and this job is on {measurand.identifier}"
     if keys.model is not None and keys.model.sessions:
         yield ("model", "sessions"), f"belongs to positioning, and this job is on {measurand.identifier}"
+
+
+#: Keys of an uncertainty that speak of a length, and what would say why not over time.
+_UNCERTAIN_LENGTHS = (
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+)
+
+
+def _of_lengths(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
+    """Yield the keys of an uncertainty that do not go with readings over time."""
+    stated = keys.uncertainty
+    if stated.environmental_variation is not None:
+        yield (
+            ("uncertainty", "environmental_variation"),
+            "is what this job measures: the machine's environment over time; take it out",
+        )
+    for name in _UNCERTAIN_LENGTHS:
+        if getattr(stated, name) is not None:
+            yield (
+                ("uncertainty", name),
+                (
+                    "belongs to a length along an axis, and here nothing moved but with time; state what the "
+                    "set-up itself did under uncertainty.contributions"
+                ),
+            )
+    for index, each in enumerate(stated.contributions):
+        if each.acts == "along-the-length":
+            yield (
+                ("uncertainty", "contributions", index, "acts"),
+                "along-the-length does not fit: time is no length",
+            )
+    if stated.instrument_acts == "along-the-length":
+        yield ("uncertainty", "instrument_acts"), "along-the-length does not fit: time is no length"
 
 
 def tests_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:

@@ -14,6 +14,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.measurement.units import ANGLES
@@ -38,18 +39,19 @@ MOST_NAMED = 20
 
 #: Relative to the largest target position: positions closer than this are one target, computed twice.
 _NOISE = 1e-9
-#: Metres or radians; no axis goes so far.
-_FARTHEST = 1e4
+#: Metres or radians; no axis goes so far. Seconds: no test takes so long.
+_FARTHEST, _LONGEST = 1e4, 1e8
 _MOST_RUNS = 1_000_000
 
 _NO_TIMES = Words(
-    en="No times were logged: drift and warm-up cannot be judged from the readings.",
-    de="Es wurden keine Zeiten aufgezeichnet: Drift und Warmlauf sind an den Messwerten nicht zu erkennen.",
+    en="No times were logged: drift and warm-up can only be judged by the order of the readings.",
+    de="Es wurden keine Zeiten aufgezeichnet: Drift und Warmlauf sind nur nach der Reihenfolge der Messwerte "
+    "zu beurteilen.",
 )
 _MODULO = Words(
-    en="Whole turns were taken off {count} readings: positions were displayed modulo 360°.",
-    de="Von {count} Messwerten wurden ganze Umdrehungen abgezogen: Die Positionen waren modulo 360° "
-    "angezeigt.",
+    en="Whole turns were taken off readings (number: {count}): positions were displayed modulo 360°.",
+    de="Von Messwerten wurden ganze Umdrehungen abgezogen (Anzahl: {count}): Die Positionen waren modulo "
+    "360° angezeigt.",
 )
 
 
@@ -117,7 +119,7 @@ def collect(
     found = list(problems)
     sound = []
     for reading in readings:
-        wrong = list(_wrong_alone(reading))
+        wrong = list(_wrong_alone(reading, axis))
         found.extend(wrong)
         if not wrong:
             sound.append(reading)
@@ -141,9 +143,12 @@ def no_run(number: float) -> str:
     return f"{number:.9g} is no number of a run; runs are counted 1, 2, 3 and so on"
 
 
-def _wrong_alone(reading: Reading) -> Iterator[Problem]:
+def _wrong_alone(reading: Reading, axis: Axis) -> Iterator[Problem]:
     """Yield what is wrong with a reading whatever the others are."""
-    if not abs(reading.target_position) <= _FARTHEST:
+    if axis.measurand.coordinate is Coordinate.TIME:
+        if not abs(reading.target_position) <= _LONGEST:
+            yield Problem(reading.place, "no test takes so long; is the unit of its time right?")
+    elif not abs(reading.target_position) <= _FARTHEST:
         yield Problem(reading.place, "the target position is not on any axis; is its unit right?")
     if not is_run(reading.run):
         yield Problem(reading.place, no_run(reading.run))
@@ -391,6 +396,8 @@ def _largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
     """Return the largest deviation that can be one, m or rad, and what it is."""
     measurand = measurements.axis.measurand
     if not measurand.is_position:
+        if measurand.coordinate is Coordinate.TIME:
+            return _WIDEST[0], "any displacement over time"
         return (_WIDEST_ANGLE, "any angle of an axis") if measurand.unit in ANGLES else _WIDEST
     regular = _regular_targets(_occupied(measurements))
     targets = measurements.target_positions

@@ -235,6 +235,29 @@ CIRCLE = Measurand(
     is_continuous=True,
 )
 
+#: How far a point of a machine moves while it stands: what one sensor reads over time.
+DISPLACEMENT = Measurand(
+    identifier="displacement",
+    title=Words(en="Displacement over time", de="Verlagerung über der Zeit"),
+    definition=Words(
+        en="the displacement of one point of the machine against another since the sensor was set to zero",
+        de="die Verlagerung einer Stelle der Maschine gegen eine andere seit dem Nullsetzen des Messtasters",
+    ),
+    coordinate=Coordinate.TIME,
+    sign=Words(
+        en="displacement since the sensor was set to zero, with the sign of its display",
+        de="Verlagerung seit dem Nullsetzen des Messtasters, mit dem Vorzeichen seiner Anzeige",
+    ),
+    subject=Words("{name}, sensor {axis}", "{name}, Messtaster {axis}"),
+    bearer=Words(en="Sensor {axis}", de="Messtaster {axis}"),
+    target=Words(en="Time", de="Zeit"),
+    senses=(
+        Words(en="as time goes on", de="im Lauf der Zeit"),
+        Words(en="back in time", de="gegen den Lauf der Zeit"),
+    ),
+    is_continuous=True,
+)
+
 #: What ISO 230-1's symbols name, by identifier.
 OF_SYMBOLS: Mapping[str, Measurand] = MappingProxyType(
     {each.identifier: each for each in (POSITIONING, STRAIGHTNESS, ANGLE, SQUARENESS)}

@@ -74,6 +74,7 @@ from zlmreport.measurement.error_symbol import (
 from zlmreport.measurement.measurand import (
     ANGLE,
     CIRCLE,
+    DISPLACEMENT,
     POSITIONING,
     ROTARY_POSITIONING,
     SQUARENESS,
@@ -143,6 +144,7 @@ __all__ = [
     "CONDITIONS",
     "CONDITION_NAMES",
     "DEGREE",
+    "DISPLACEMENT",
     "DOORS",
     "HECTOPASCAL",
     "HOUR",

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from zlmreport.live.ports.reading import LiveReading
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.circle import NominalCircle
+    from zlmreport.measurement.measurand import Measurand
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.compensation.curve import CompensationTable
     from zlmreport.model.planning.circle_path import CirclePath
@@ -137,12 +138,19 @@ class SourceProposal:
         The letter of the axis, where the file names it; empty where it does not.
     circle
         The nominal circle, where the file holds a circular test; what of it the file does not tell is asked.
+    quantity
+        What the file holds readings of, where that is neither positioning nor a circle.
+    tests
+        The names of the lines that the file holds, where one that was read is one of several that are
+        evaluated together: each becomes a test of the job.
     """
 
     keys: Mapping[str, Any] = field(default_factory=dict)
     asks: tuple[str, ...] = ()
     axis: str = ""
     circle: NominalCircle | None = None
+    quantity: Measurand | None = None
+    tests: tuple[str, ...] = ()
 
 
 @runtime_checkable

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 
@@ -14,10 +14,10 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE, Measurand, measurands_of
+from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, Coordinate, Measurand, measurands_of
 from zlmreport.measurement.measurement_set import MeasurementSet, joined
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.measurement.units import REFERENCE_TEMPERATURE
+from zlmreport.measurement.units import HOUR, REFERENCE_TEMPERATURE
 from zlmreport.model.effects.design import Design
 from zlmreport.model.planning.methods import Method, path, planned_design, visits
 from zlmreport.model.planning.targets import target_positions
@@ -123,12 +123,12 @@ def good_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]
     """Return complete tests of what a standard evaluates, by what they are; of positioning without one.
 
     They are along a length; where that is closed, round a circle; and on several lines where the standard
-    evaluates nothing but lines that have names.
+    evaluates nothing but lines that have names: along lengths, or over time.
     """
     if standard and is_of_circles(standard):
         return {"a complete circle": _circle(), "an arc of a circle": _circle(length=200.0)}
     if standard and (of := _joining(standard)):
-        return {"all lines": _on_lines(of, of.test_names, simulated_test())}
+        return {"all lines": _on_lines(of, of.test_names, _of_lines(of)())}
     return {
         "a complete linear test": simulated_test(),
         "a complete rotary test": simulated_test(13, axis=Axis("C", AxisKind.ROTARY), length=360.0),
@@ -153,6 +153,35 @@ def _joining(standard: Standard) -> Measurand | None:
     """Return what a standard evaluates from named lines, where it evaluates nothing else."""
     found = measurands_of(standard)
     return found[0] if all(each.joins_tests and each.test_names for each in found) else None
+
+
+def _of_lines(of: Measurand) -> Callable[..., MeasurementSet]:
+    """Return what simulates one of the lines that are evaluated together."""
+    is_over_time = of.of_lines is not None and of.of_lines.coordinate is Coordinate.TIME
+    return _over_time if is_over_time else simulated_test
+
+
+def _over_time(
+    targets: int = 49,
+    runs: int = 1,
+    *,
+    length: float = 24.0,
+    approaches: Sequence[Approach] = (Approach.POSITIVE,),
+) -> MeasurementSet:
+    """Return readings of one sensor over time, with temperatures beside them; `length` in hours."""
+    axis = Axis("X", quantity=DISPLACEMENT)
+    measurements = simulated_test(targets, runs, axis=axis, length=length, approaches=approaches)
+    time = measurements.target_positions[measurements.target]
+    warmth = np.sin(2 * np.pi * time / HOUR.to_si(24.0))
+    conditions = {
+        "air_temperature": REFERENCE_TEMPERATURE + 1.2 * warmth,
+        "axis_temperature": REFERENCE_TEMPERATURE + 0.5 + 0.4 * warmth,
+    }
+    return replace(
+        measurements,
+        time=read_only_floats(time),
+        conditions={name: read_only_floats(values) for name, values in conditions.items()},
+    )
 
 
 def _on_lines(of: Measurand, names: Sequence[str], line: MeasurementSet) -> MeasurementSet:
@@ -185,12 +214,19 @@ def poor_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]
     `standard`: What they are tests for, as of `good_tests`.
     """
     if standard and (of := _joining(standard)):
-        first, everywhere = of.test_names[0], poor_tests()
-        one = {f"{first} alone": _on_lines(of, (first,), simulated_test())}
+        first, line = of.test_names[0], _of_lines(of)
+        everywhere = _poor_lines(line, is_along_a_length=line is simulated_test)
+        one = {f"{first} alone": _on_lines(of, (first,), line())}
         return {**one, **{kind: _on_lines(of, of.test_names, test) for kind, test in everywhere.items()}}
     closed = standard is not None and is_of_circles(standard)
-    simulated = _circle if closed else simulated_test
-    full = simulated()
+    return _poor_lines(_circle if closed else simulated_test, is_along_a_length=not closed)
+
+
+def _poor_lines(
+    simulated: Callable[..., MeasurementSet], *, is_along_a_length: bool
+) -> Mapping[str, MeasurementSet]:
+    """Return tests of one line that fall short in one way each; `simulated` makes complete ones."""
+    full = simulated(approaches=tuple(Approach))
     grid = full.deviations()
     half = grid.copy()
     half[Approach.POSITIVE.index, ::2] = np.nan
@@ -217,7 +253,7 @@ def poor_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]
         "no target approached from both sides": _with_deviations(full, half),
         "no reading at all": _with_deviations(full, np.full_like(grid, np.nan)),
         "no deviation anywhere": _with_deviations(full, np.zeros_like(grid)),
-        **({} if closed else of_lengths),
+        **(of_lengths if is_along_a_length else {}),
     }
 
 

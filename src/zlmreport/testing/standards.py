@@ -15,7 +15,8 @@ from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.language.formatting import plain
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.units import ANGLES, LENGTHS, Unit
+from zlmreport.measurement.measurement_set import CONDITIONS
+from zlmreport.measurement.units import ANGLES, LENGTHS, TIMES, Unit
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing.arithmetic import ARITHMETIC_CHECKS
 from zlmreport.testing.expectations import (
@@ -35,7 +36,9 @@ _INDICES = frozenset("ij")
 _CORE_COLUMNS = frozenset({"target", "mean_fwd", "mean_bwd", "mean", "s_fwd", "s_bwd", "reversal"})
 _CORE_KEYS = frozenset({"standard", "tolerances"})
 
-_UNITS = {unit.symbol: unit for unit in (*LENGTHS, *ANGLES)}
+_UNITS = {unit.symbol: unit for unit in (*LENGTHS, *ANGLES, *TIMES.values())}
+#: Of a panel that shows a condition beside deviations.
+_OF_CONDITIONS = frozenset(kind.unit.symbol for kind in CONDITIONS.values())
 #: Of a value on a graph, which went through a change of unit; relative to the largest.
 _RELATIVE = 1e-9
 
@@ -161,6 +164,11 @@ def figures_are_worded(standard: Standard, options: Options) -> None:
             expect_words(words, f"{where}: {name}")
         for unit in (figure.x_unit, figure.y_unit):
             expect(unit in _UNITS, f"{where}: unit {unit!r} is none of {', '.join(_UNITS)}")
+        for panel in figure.panels:
+            quantity, unit = figure.value_axis(panel)
+            expect_words(quantity, f"{where}: y_title of a panel")
+            known = {*_UNITS, *_OF_CONDITIONS}
+            expect(unit in known, f"{where}: unit {unit!r} of a panel is none of {', '.join(sorted(known))}")
     for kind in good_tests(standard):
         for where, figure, _ in _figures(standard, options, kind):
             for language in Language:
@@ -253,8 +261,10 @@ def brackets_span_what_is_drawn(standard: Standard, options: Options) -> None:
 def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options) -> None:
     """Check that a bracket that carries a parameter's notation spans exactly the parameter's value."""
     for where, figure, evaluation in _figures(standard, options):
-        unit = _UNITS[figure.y_unit]
         for panel in figure.panels:
+            unit = _UNITS.get(figure.value_axis(panel)[1])
+            if unit is None:  # of a condition, which no parameter is
+                continue
             for bracket in panel.brackets:
                 for value in _values_of(bracket, evaluation, unit):
                     scale = max(abs(bracket.low), abs(bracket.high), abs(value))

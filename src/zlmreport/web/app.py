@@ -7,7 +7,7 @@ import webbrowser
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import uvicorn
 from pydantic import ValidationError
@@ -28,8 +28,10 @@ from zlmreport.web.commands import Commands, Wanted
 from zlmreport.web.comparison import ComparedTests
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.effect_page import effect_page
+from zlmreport.web.folded import folded
 from zlmreport.web.guard import HOST, Door, DoorKeeper
 from zlmreport.web.making import page_picture
+from zlmreport.web.stairs import with_stairs
 from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, closer, results, view
 
@@ -65,6 +67,17 @@ class Workbench:
         diagnoses = Diagnoses(job, DiagnosesByContent.of_user(registry.effects), plugins)
         return cls(bench, comparison, diagnoses, Commands.of(bench, plugins))
 
+    @classmethod
+    def on(cls, job: Path, registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
+        """Return the answers for a job alone, whether or not it can be read: the page says what is wrong."""
+        bench = Bench(job, registry)
+        diagnoses = Diagnoses(job, DiagnosesByContent.of_user(registry.effects), plugins)
+        return cls(bench, ComparedTests.of(bench, []), diagnoses, Commands.of(bench, plugins))
+
+    def warm_up(self) -> None:
+        """Start what the first diagnosis need not wait for."""
+        self.diagnoses.warm_up()
+
     def end(self) -> None:
         """End what is under way beside, and take its files away."""
         self.diagnoses.end()
@@ -72,10 +85,14 @@ class Workbench:
 
     def app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
+        return DoorKeeper(self.routed(), door)
+
+    def routed(self) -> Starlette:
+        """Return the application, without a guard: behind one of its own, or that of a folder."""
         routes = [
             Route("/", self.page),
             Route("/effects/{effect}", self.page),
-            Route("/files/{name}", self.file),
+            Route("/files/{name}", file),
             Route("/documents/{name}", self.document),
             Route("/documents/{name}/{page:int}.png", self.picture),
             Route("/api/texts", self.texts),
@@ -89,27 +106,16 @@ class Workbench:
             Route("/api/diagnosis/stop", self.stop, methods=["POST"]),
             Route("/api/effects/{effect}", self.effect),
             Route("/api/change", self.change, methods=["POST"]),
+            Route("/api/folded", self.folded),
             Route("/api/made/{name}", self.made),
+            Route("/api/made/{name}/stop", self.stop_making, methods=["POST"]),
             Route("/api/made/{name}", self.make, methods=["POST"]),
         ]
-        return DoorKeeper(Starlette(routes=routes), door)
+        return Starlette(routes=routes)
 
     async def page(self, request: HttpRequest) -> Response:
         """Answer with the page of the job, or of an effect; it fills itself."""
-        language = await run_in_threadpool(self._language, request)
-        context = WorkbenchContext(
-            language=language.value,
-            title=f"{_TITLE.in_language(language)} · {self.bench.path.name}",
-            needs_script=_NO_SCRIPT.in_language(language),
-        )
-        return HTMLResponse(render(context))
-
-    async def file(self, request: HttpRequest) -> Response:
-        """Answer with a style sheet, a module, or a face of the typeface: one of a list, by its name."""
-        found = page_file(request.path_params["name"])
-        if found is None:
-            return Response(status_code=404)
-        return Response(found.content, media_type=found.media_type)
+        return shell(await run_in_threadpool(self._language, request), self.bench.path.name)
 
     async def document(self, request: HttpRequest) -> Response:
         """Answer with a file that was made from the page, by its name."""
@@ -149,6 +155,16 @@ class Workbench:
         def found() -> dict[str, Any]:
             wanted = request.query_params.get("of", "")[:500]
             return before_and_after(self.bench, self.bench.loaded(), wanted, self._language(request))
+
+        return await self._answered(request, found)
+
+    async def folded(self, request: HttpRequest) -> Response:
+        """Answer with an effect that repeats, on one period; with nothing for any other effect."""
+
+        def found() -> dict[str, Any]:
+            wanted = request.query_params.get("of", "")[:500]
+            wave = folded(self.bench, self.bench.loaded(), wanted, self._language(request))
+            return {"wave": wave}
 
         return await self._answered(request, found)
 
@@ -201,7 +217,20 @@ class Workbench:
         making = self.commands.making.get(request.path_params["name"])
         if making is None:
             return Response(status_code=404)
-        return await self._answered(request, making.state)
+
+        def found() -> dict[str, Any]:
+            bench = self.bench
+            return with_stairs(making.state(), bench.loaded().job, bench.registry, self._language(request))
+
+        return await self._answered(request, found)
+
+    async def stop_making(self, request: HttpRequest) -> Response:
+        """End what is being made."""
+        making = self.commands.making.get(request.path_params["name"])
+        if making is None:
+            return Response(status_code=404)
+        await run_in_threadpool(making.end)
+        return JSONResponse({})
 
     async def make(self, request: HttpRequest) -> Response:
         """Begin to make something."""
@@ -242,18 +271,54 @@ class Workbench:
 
     def _language(self, request: HttpRequest) -> Language:
         """Return the language of the page: that of its address, of the browser, or else of the job."""
-        stated = request.query_params.get("lang", "")
-        accepted = [part.strip()[:2] for part in request.headers.get("accept-language", "").split(",")]
-        for each in (stated, *accepted):
-            if each in set(Language):
-                return Language(each)
+        asked = language_of(request)
+        if asked is not None:
+            return asked
         try:
             return self.bench.loaded().job.keys.certificate.language
         except ZlmreportError:
             return Language.ENGLISH
 
 
-def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open_browser: bool) -> None:
+def shell(language: Language, name: str) -> Response:
+    """Return a page of the workbench, which fills itself; `name` is that of the job or the folder."""
+    context = WorkbenchContext(
+        language=language.value,
+        title=f"{_TITLE.in_language(language)} · {name}",
+        needs_script=_NO_SCRIPT.in_language(language),
+    )
+    return HTMLResponse(render(context))
+
+
+async def file(request: HttpRequest) -> Response:
+    """Answer with a style sheet, a module, or a face of the typeface: one of a list, by its name."""
+    found = page_file(request.path_params["name"])
+    if found is None:
+        return Response(status_code=404)
+    return Response(found.content, media_type=found.media_type)
+
+
+def language_of(request: HttpRequest) -> Language | None:
+    """Return the language that an address or a browser asks for; None where neither does."""
+    stated = request.query_params.get("lang", "")
+    accepted = [part.strip()[:2] for part in request.headers.get("accept-language", "").split(",")]
+    return next((Language(each) for each in (stated, *accepted) if each in set(Language)), None)
+
+
+class Served(Protocol):
+    """What can be served: the page of a job, or that of a folder."""
+
+    def app(self, door: Door) -> DoorKeeper:
+        """Return the application behind its guard."""
+
+    def warm_up(self) -> None:
+        """Begin what a page would wait for."""
+
+    def end(self) -> None:
+        """End all that is under way."""
+
+
+def serve(workbench: Served, port: int, ready: Callable[[str], None], *, open_browser: bool) -> None:
     """Listen on the loopback address until the user ends it; the workbench ends then, or if it cannot begin.
 
     `port`: On which; 0 for any free one.
@@ -264,7 +329,7 @@ def serve(workbench: Workbench, port: int, ready: Callable[[str], None], *, open
             server = uvicorn.Server(
                 uvicorn.Config(workbench.app(door), log_level="warning", access_log=False)
             )
-            workbench.diagnoses.warm_up()
+            workbench.warm_up()
             ready(door.address)  # the socket listens already: who comes early waits
             if open_browser:
                 webbrowser.open(door.address)

@@ -38,7 +38,7 @@ _FIELDS: Mapping[str, Field] = MappingProxyType(
         for each in (
             Field("laboratory.name", Words(en="Laboratory", de="Laboratorium")),
             Field("laboratory.address", Words(en="Its address", de="Dessen Anschrift")),
-            Field("location", Words(en="Place of the work", de="Ort der Kalibrierung"), "place"),
+            Field("location", Words(en="Place of the work", de="Ort der Arbeiten"), "place"),
             Field("customer.name", Words(en="Customer", de="Auftraggeber")),
             Field("customer.address", Words(en="The customer's address", de="Anschrift des Auftraggebers")),
             Field("machine.model", Words(en="Model of the machine", de="Typ der Maschine")),

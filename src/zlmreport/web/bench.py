@@ -83,7 +83,7 @@ class Bench:
 
     def stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading the job."""
-        return _stamp([self.path, *self._watched])
+        return stamp_of([self.path, *self._watched])
 
     def loaded(self) -> Loaded:
         """Return the job as it stands in its files now.
@@ -206,7 +206,7 @@ def _basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bool = F
         measured = stated.measurement.model_copy(update={"excluded": []})
         stated = stated.model_copy(update={"measurement": measured})
     files = (*job.files[1:], *measurements.provenance.files)
-    state = _stamp(each.path for each in files if each.path is not None)
+    state = stamp_of(each.path for each in files if each.path is not None)
     return hashlib.sha256(f"{stated!r} {state}".encode()).hexdigest()
 
 
@@ -215,7 +215,7 @@ def _files(*measurements: MeasurementSet) -> tuple[SourceFile, ...]:
     return tuple(file for each in measurements for file in each.provenance.files)
 
 
-def _stamp(paths: Iterable[Path]) -> str:
+def stamp_of(paths: Iterable[Path]) -> str:
     """Return a name of the state of files, from what the file system says of them."""
     states = []
     for path in paths:

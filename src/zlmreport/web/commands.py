@@ -19,6 +19,8 @@ from zlmreport.language import Language
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.making import Making, documents, values
 
+#: What answers by values alone.
+_BY_VALUES = ("table", "confirmation", "experiment", "build")
 _SUFFIXES = {".yaml", ".yml"}
 #: Jobs beside this one that are offered as its second test.
 _MOST = 200
@@ -47,7 +49,8 @@ class Commands:
     """The commands of a page, each in a process of its own."""
 
     bench: Bench  #: The job.
-    #: What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``.
+    #: What is under way or done, by its name: ``certificate``, ``table``, ``confirmation``, ``experiment``,
+    #: ``build``.
     making: Mapping[str, Making]
     _aside: TemporaryDirectory[str] | None = None
     _lock: Lock = field(default_factory=Lock)
@@ -55,7 +58,7 @@ class Commands:
     @classmethod
     def of(cls, bench: Bench, plugins: Sequence[Path]) -> Commands:
         """Return the commands of a job."""
-        readers = {"certificate": documents, "table": values, "confirmation": values, "experiment": values}
+        readers = {"certificate": documents} | dict.fromkeys(_BY_VALUES, values)
         return cls(bench, {name: Making(read, plugins) for name, read in readers.items()})
 
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
@@ -69,6 +72,8 @@ class Commands:
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
             arguments = ["compensate", str(path.resolve()), *self._control(wanted), "--output", folder]
+        elif name == "build":
+            arguments = ["model", "build", str(path.resolve()), "--dry-run"]
         elif name == "experiment":
             decide = ",".join(self._effects(wanted))
             arguments = [

@@ -24,7 +24,9 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.study import Fitted
+from zlmreport.model.effects.effect import Effect
 from zlmreport.web.bench import Bench, Loaded
+from zlmreport.web.naming import Naming
 from zlmreport.web.panels import symbol
 
 _AS_FOUND = Words(en="{name}, as found", de="{name}, wie vorgefunden")
@@ -96,7 +98,7 @@ class ComparedTests:
         shown = {
             "tests": [_test(each, here, language) for each in tests],
             "standards": list(_standards(tests, here, language)),
-            "models": list(_models(tests, language)),
+            "models": list(_models(tests, self.bench.registry.effects, language)),
         }
         return {"stamp": self.stamp(), "problems": problems, **(shown if len(tests) > 1 else {"tests": []})}
 
@@ -208,7 +210,9 @@ def _cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
     }
 
 
-def _models(tests: Sequence[_Test], language: Language) -> Iterator[dict[str, Any]]:
+def _models(
+    tests: Sequence[_Test], effects: Sequence[Effect], language: Language
+) -> Iterator[dict[str, Any]]:
     """Yield the parameters of all models, each with its amount in every test whose model has it."""
     of_tests = [
         {(each.effect, each.name): each for each in parameter_rows(test.model.fit, language)}
@@ -216,11 +220,12 @@ def _models(tests: Sequence[_Test], language: Language) -> Iterator[dict[str, An
         else {}
         for test in tests
     ]
+    names = Naming.of(effects, language)
     for key in dict.fromkeys(chain.from_iterable(of_tests)):
         found = [rows.get(key) for rows in of_tests]
         first = next(each for each in found if each is not None)
         yield {
-            "effect": first.effect,
+            "called": names.text(first.effect),
             "name": first.name,
             "symbol": symbol(first.notation),
             "description": first.description,

@@ -24,12 +24,15 @@ from typing import Any
 from zlmreport import version
 from zlmreport.errors import AccessError, ZlmreportError
 from zlmreport.files import Document, cache_folder, write
+from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.contest import Told, untold
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.deciding import experiment_of_tie, experiment_values
+from zlmreport.model.planning.experiment import Experiment
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.web.bench import Bench
+from zlmreport.web.naming import Naming
 from zlmreport.web.view import diagnosed
 
 #: Diagnoses that are kept: some hundred kilobytes each.
@@ -218,11 +221,18 @@ def answer(bench: Bench, registry: Registry, told: Told = untold) -> dict[str, A
         "diagnosis": {
             language.value: {
                 **diagnosed(diagnosis, study, registry.effects, language),
-                "experiment": experiment and experiment_values(experiment, loaded.job, language),
+                "experiment": experiment and _experiment(experiment, loaded.job, registry.effects, language),
             }
             for language in Language
         },
     }
+
+
+def _experiment(
+    experiment: Experiment, job: Job, effects: Sequence[Effect], language: Language
+) -> dict[str, Any]:
+    values = experiment_values(experiment, job, language)
+    return {**values, "statement": Naming.of(effects, language).text(values["statement"])}
 
 
 if __name__ == "__main__":

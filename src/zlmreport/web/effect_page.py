@@ -20,7 +20,7 @@ from zlmreport.model.fitting.curve import effect_positions
 from zlmreport.plugin.registry import Registry
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.panels import parameter_values, symbol
+from zlmreport.web.panels import naming, parameter_values, symbol
 
 _OVER_TIME = frozenset({Shape.TIME, Shape.RUN})
 _POSITION = Words(en="Position", de="Position")
@@ -50,13 +50,15 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
     effect = next((each for each in known if each.identifier == identifier), None)
     if effect is None:
         return None
+    names = naming(bench.whole(loaded), bench.registry.effects, language)
     present = identifier in fit.model.identifiers
     return {
         "effect": identifier,
+        "called": names.text(identifier),
         "title": effect.title.in_language(language),
         "equation": symbol(effect.equation),
-        "look": effect.look.in_language(language),
-        "remedy": effect.remedy.in_language(language) if effect.remedy else "",
+        "look": names.text(effect.look.in_language(language)),
+        "remedy": names.text(effect.remedy.in_language(language)) if effect.remedy else "",
         "parameters": [
             _described(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
         ],
@@ -71,12 +73,13 @@ def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Languag
         "confusions": [
             {
                 "effect": each.effect,
+                "called": names.text(each.effect),
                 "title": _title(bench.registry, each.effect, language),
-                "told": each.told_apart_by.in_language(language),
+                "told": names.text(each.told_apart_by.in_language(language)),
             }
             for each in effect.confusions
         ],
-        "contains": list(effect.contains),
+        "containsNames": [names.text(each) for each in effect.contains],
         "present": present,
         "sketch": sketch(effect, loaded.study.observed.design, language),
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -13,6 +13,9 @@ from zlmreport.document.blocks import Facts
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.document.subjects.fit import (
+    FLOOR,
+    LEFT_OUT,
+    RMS,
     ParameterRow,
     deviation,
     error_facts,
@@ -26,8 +29,18 @@ from zlmreport.language.formatting import spans
 from zlmreport.model.compensation.basis import FittedModel, compensated
 from zlmreport.model.diagnosis.study import Fitted, corrected
 from zlmreport.model.effects.design import Design
+from zlmreport.model.effects.effect import Effect
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
+from zlmreport.web.naming import Naming
+from zlmreport.web.texts import TEXTS
+
+_CHI2_IS = Words(
+    en="Sum of the squared residuals in units of the noise, for each degree of freedom: about 1 "
+    "where the model leaves only noise, larger where something is missing.",
+    de="Summe der quadrierten Residuen in Einheiten des Rauschens, je Freiheitsgrad: etwa 1, wenn "
+    "das Modell nur Rauschen übrig lässt, größer, wenn etwas fehlt.",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,20 +62,32 @@ class Panels:
         """Writes as the certificate does."""
         return Writer.of(self.loaded.measurements, self.language)
 
+    @property
+    def naming(self) -> Naming:
+        """What effects are called."""
+        return naming(self.whole, self.registry.effects, self.language)
+
     def say(self, words: Words) -> str:
         """Return words in the language of the page."""
         return words.in_language(self.language)
 
     def error(self) -> list[dict[str, str]]:
         """Return how far model and readings are apart, number by number."""
-        return error_values(error_facts(self.whole.error, self.design.axis, self.language))
+        meanings = {
+            self.say(name): self.say(TEXTS[key])
+            for name, key in ((RMS, "errorIs"), (FLOOR, "noiseFloorIs"), (LEFT_OUT, "leftOutIs"))
+        }
+        chi2 = self.say(_CHI2_IS)
+        facts = error_facts(self.whole.error, self.design.axis, self.language)
+        return [each | {"meaning": meanings.get(each["name"], chi2)} for each in error_values(facts)]
 
     def effects(self) -> list[dict[str, Any]]:
         """Return the effects of the model with their parameters."""
-        fit = self.whole.fit
+        fit, names = self.whole.fit, self.naming
         return [
             {
                 "effect": term.effect.identifier,
+                "name": names.text(term.effect.identifier),
                 "title": self.say(term.effect.title),
                 "equation": symbol(term.effect.equation),
                 "parameters": [
@@ -76,9 +101,13 @@ class Panels:
 
     def others(self) -> list[dict[str, str]]:
         """Return the installed effects that do not stand in the model, and can be tried on this test."""
-        present = set(self.whole.fit.model.identifiers)
+        present, names = set(self.whole.fit.model.identifiers), self.naming
         return [
-            {"effect": each.identifier, "title": self.say(each.title)}
+            {
+                "effect": each.identifier,
+                "name": names.text(each.identifier),
+                "title": self.say(each.title),
+            }
             for each in self.registry.effects
             if each.identifier not in present and each.untestable(self.design) is None
         ]
@@ -88,12 +117,13 @@ class Panels:
         unit = self.design.axis.deviation_unit
         largest = max(each.error.rms for each in history) or 1.0
         names = ["", *self.whole.fit.model.identifiers]
-        floor = self.whole.error.noise_rms
+        floor, called = self.whole.error.noise_rms, self.naming
         return {
             "unit": unit.symbol,
             "rows": [
                 {
                     "effect": name,
+                    "name": called.text(name),
                     "rms": self._deviation(each.error.rms),
                     "share": each.error.rms / largest,
                     "left_out": self._deviation(each.error.cross_validated_rms),
@@ -168,6 +198,11 @@ class Panels:
             "by_table": writer.deviation(by_table),
             "by_model": writer.deviation(by_model),
         }
+
+
+def naming(whole: Fitted, installed: Iterable[Effect], language: Language) -> Naming:
+    """Return what effects are called: those that are installed, and those of the model."""
+    return Naming.of((*installed, *(term.effect for term in whole.fit.model.terms)), language)
 
 
 def error_values(facts: Facts) -> list[dict[str, str]]:

@@ -30,7 +30,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "model": EFFECTS,
         "noEffects": Words(
             en="The model has no effect yet. Begin with offset.",
-            de="Das Modell hat noch keinen Einfluss. Beginnen Sie mit offset.",
+            de="Das Modell hat noch keinen Einfluss. Beginnen Sie mit der Nullpunktverschiebung.",
         ),
         "standards": Words(en="What the standards say", de="Was die Normen sagen"),
         "certificate": Words(en="Certificate", de="Kalibrierschein"),
@@ -148,6 +148,61 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "noiseFloor": Words(en="Noise floor", de="Grundrauschen"),
         "withoutModel": Words(en="without model", de="ohne Modell"),
         "leftOut": Words(en="Runs left out", de="Durchläufe ausgelassen"),
+        "leftOutIs": Words(
+            en="Each run in turn is predicted by a model that was fitted to the other runs: root mean square"
+            " of what is wrong with these predictions. If it is much larger than the error, the model "
+            "follows noise.",
+            de="Jeder Durchlauf wird einmal von einem Modell vorhergesagt, das an die übrigen angepasst ist: "
+            "quadratischer Mittelwert der Fehler dieser Vorhersagen. Ist er viel größer als die Abweichung, "
+            "folgt das Modell dem Rauschen.",
+        ),
+        "errorIs": Words(
+            en="Root mean square of the residuals: what the model does not explain.",
+            de="Quadratischer Mittelwert der Residuen: was das Modell nicht erklärt.",
+        ),
+        "noiseFloorIs": Words(
+            en="The scatter of readings repeated at one target in one direction: no model gets below it, and"
+            " a good one nearly down to it.",
+            de="Die Streuung wiederholter Messwerte an einer Sollposition in einer Richtung: Kein Modell "
+            "kommt darunter, ein gutes bis nahe daran.",
+        ),
+        "pIs": Words(
+            en="The chance that noise alone would look so. The smaller, the surer it is no accident.",
+            de="Die Wahrscheinlichkeit, dass Rauschen allein so aussähe. Je kleiner, desto sicherer ist es "
+            "kein Zufall.",
+        ),
+        "uIs": Words(
+            en="Expanded uncertainty of the value, as the certificate states it.",
+            de="Erweiterte Messunsicherheit des Werts, wie der Kalibrierschein sie angibt.",
+        ),
+        "jobs": Words(en="Jobs of this folder", de="Aufträge dieses Ordners"),
+        "earlier": Words(en="Earlier tests of these axes", de="Frühere Prüfungen dieser Achsen"),
+        "allJobs": Words(en="All jobs", de="Alle Aufträge"),
+        "job": Words(en="Job", de="Auftrag"),
+        "axis": Words(en="Axis", de="Achse"),
+        "measuredOn": Words(en="Measured", de="Gemessen"),
+        "dueOn": Words(en="Due", de="Fällig"),
+        "jobState": Words(en="State", de="Stand"),
+        "oneWave": Words(en="One wave", de="Eine Welle"),
+        "build": Words(en="Build the model", de="Modell aufbauen"),
+        "building": Words(
+            en="Diagnosis after diagnosis; nothing is written …",
+            de="Diagnose um Diagnose; geschrieben wird nichts …",
+        ),
+        "stairs": Words(en="Step by step", de="Schritt für Schritt"),
+        "stairsAre": Words(
+            en="A step is written when you take it. Stop at any; each can be taken back.",
+            de="Ein Schritt wird geschrieben, wenn Sie ihn gehen. Halten Sie an, wo Sie wollen; jeder lässt "
+            "sich zurücknehmen.",
+        ),
+        "noStairs": Words(
+            en="There is no step with evidence of its own.",
+            de="Es gibt keinen Schritt, für den etwas spricht.",
+        ),
+        "takeStep": Words(en="Take this step", de="Diesen Schritt gehen"),
+        "upToHere": Words(en="Up to here", de="Bis hierher"),
+        "stepBack": Words(en="One step back", de="Einen Schritt zurück"),
+        "lookAtPages": Words(en="Look at the pages", de="Seiten ansehen"),
         "parameter": Words(en="Parameter", de="Kenngröße"),
         "now": Words(en="Now", de="Jetzt"),
         "limit": Words(en="Limit", de="Grenzwert"),

@@ -21,6 +21,7 @@ from zlmreport.web.asked import field_values, lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import offered
 from zlmreport.web.journal import REDO, UNDO, Journal, JournalStep, redoable, undoable
+from zlmreport.web.naming import Naming
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
 _READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
@@ -44,6 +45,7 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return the page of a job."""
     whole = bench.whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
+    names = panels.naming
     entries = Journal.beside(bench.path).entries()
     steps = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
     return {
@@ -58,20 +60,21 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "others": panels.others(),
         "excluded": panels.excluded(),
         "offered": offered(bench, loaded, language),
-        "steps": [step(each, language) for each in reversed(entries[-_SHOWN:])],
+        "steps": [step(each, language, names) for each in reversed(entries[-_SHOWN:])],
         "asked": [
             {
                 "key": each.key,
                 "name": each.name.in_language(language),
                 "unit": each.unit,
                 "effects": list(each.effects),
+                "names": [names.text(effect) for effect in each.effects],
             }
             for each in lengths_asked(
                 loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
             )
         ],
         **{
-            name: None if entry is None else _done(entry).in_language(language)
+            name: None if entry is None else names.text(_done(entry).in_language(language))
             for name, entry in zip((UNDO, REDO), steps, strict=True)
         },
     }
@@ -123,12 +126,12 @@ def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str,
     return {"stamp": loaded.stamp, "model": model_curves(ModelDiagram(whole.fit, whole.error, (low, high)))}
 
 
-def step(entry: JournalStep, language: Language) -> dict[str, str]:
+def step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
     words = _done(entry)
     if entry.action in {UNDO, REDO}:
         words = _STEPS[entry.action].given(subject=words)
-    return {"at": entry.at[11:19], "text": words.in_language(language)}
+    return {"at": entry.at[11:19], "text": names.text(words.in_language(language))}
 
 
 def _done(entry: JournalStep) -> Words:
@@ -156,19 +159,25 @@ def diagnosed(
 ) -> dict[str, Any]:
     """Return a diagnosis in one language."""
     rows = DiagnosisRows.of(diagnosis, language, {each.identifier: each.title for each in effects})
+    names = Naming.of((*effects, *(term.effect for term in diagnosis.fit.model.terms)), language)
     return {
         "verdict": diagnosis.verdict.value,
-        "statement": rows.statement,
+        "statement": names.text(rows.statement),
         "failures": [failure_values(each, diagnosis, study) for each in rows.failures],
         "faults": [_fault(each, study, language) for each in diagnosis.faults],
-        "candidates": [_candidate(each, rows) for each in rows.candidates],
+        "candidates": [_candidate(each, rows, names) for each in rows.candidates],
         "serious": sum(each.is_serious for each in rows.candidates),
         "hidden": [
-            {"effects": list(each.effects), "reason": each.reason}
+            {
+                "effects": list(each.effects),
+                "names": [names.text(effect) for effect in each.effects],
+                "reason": names.text(each.reason),
+            }
             for each in (*rows.hidden, *rows.not_tested)
         ],
         "notExcluded": list(rows.not_excluded),
-        "remarks": list(rows.remarks),
+        "notExcludedNames": [names.text(each) for each in rows.not_excluded],
+        "remarks": [names.text(each) for each in rows.remarks],
     }
 
 
@@ -183,9 +192,10 @@ def _fault(fault: Fault, study: Study, language: Language) -> dict[str, Any]:
     }
 
 
-def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
+def _candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) -> dict[str, Any]:
     return {
         "effect": row.effect,
+        "name": names.text(row.effect),
         "title": row.title,
         "argument": row.argument,
         "probability": f"{row.probability} %",
@@ -196,8 +206,9 @@ def _candidate(row: CandidateRow, diagnosed: DiagnosisRows) -> dict[str, Any]:
         "rmsAfter": row.error.pairs[0][1],
         "error": error_values(row.error),
         "parameters": [parameter_values(each) for each in row.parameters],
-        "explains": row.explains,
+        "explains": names.text(row.explains),
         "equals": list(row.equals),
-        "tell": row.tell_apart_by,
-        "remedy": row.remedy,
+        "equalNames": [names.text(each) for each in row.equals],
+        "tell": names.text(row.tell_apart_by),
+        "remedy": names.text(row.remedy),
     }

@@ -23,10 +23,10 @@ _TOLD: Mapping[str, Any] = {
     "instrument": {**COMPLETE["instrument"], "compensation": "none"},
     "environment": {"air_temperature": 20.1, "axis_temperature": 20, "sensors": "beside the axis"},
 }
-_REFERENCE = "Results for 20 °C: measured there, corrected to it, or the expansion counted in U"
+_REFERENCE = "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
 REPORTED = (
-    "Feed, rest at each target and warm-up reported",
-    "Measuring line, its offsets and the positions of the other axes reported",
+    "Feed, dwell at each target and warm-up reported",
+    "Measuring line, or where the other axes stood, reported",
     "Compensations of the machine that were active reported",
     "Temperatures reported, and where they were measured",
     _REFERENCE,
@@ -56,7 +56,7 @@ def test_everything_that_is_told_is_met(tmp_path: Path) -> None:
         ("measurement", "warm_up", REPORTED[0], "warm-up"),
         ("measurement", "line", REPORTED[1], "measuring line"),
         ("axis", "compensation_table", REPORTED[2], "state of the compensation"),
-        ("environment", "sensors", REPORTED[3], "places of the sensors"),
+        ("environment", "sensors", REPORTED[3], "sensor locations"),
         ("environment", "air_temperature", REPORTED[3], "temperature of the air"),
         ("instrument", "compensation", REPORTED[5], "its compensation"),
     ],

@@ -17,7 +17,7 @@ def test_an_opinion_is_marked_and_has_its_basis_and_its_author(tmp_path):
     document = certificate(tmp_path, {**COMPLETE, "opinions": OPINIONS})
     lines = [line for block in document.sections[-1].blocks for line in lines_of(block)]
     assert lines[0] == (
-        "! Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the calibration"
+        "! Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement"
     )
     assert lines[-2:] == [
         "  There is play in the nut. | The reversal value is alike everywhere. | A. Person, Head",

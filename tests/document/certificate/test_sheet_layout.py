@@ -9,9 +9,8 @@ from typing import Any
 
 import pypdf
 import pytest
-from hypothesis import HealthCheck, given, settings, strategies as st
 
-from document.certificate.documents import COMPLETE, certificate, having, registry
+from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.document import Certificate
@@ -112,7 +111,7 @@ def test_no_verdict_is_told_where_nothing_is_limited(tmp_path: Path) -> None:
 
 def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) -> None:
     rows = [
-        f"{target},{sign},{run},{target % 7 + run / 5}"
+        f"{target},{sign},{run},{target % 7 + run / 5 + (sign == '-') / 10}"
         for run in (1, 2)
         for sign in "+-"
         for target in (0, 9, 19)
@@ -144,7 +143,7 @@ def test_what_a_page_does_not_hold_stands_on_the_page_of_details(tmp_path: Path,
     assert not any(isinstance(block, Notice) and "deviations" in block.heading for block in sheet.blocks)
     assert any(isinstance(block, Notice) and words.strip() in block.items for block in details.blocks)
     (told,) = [b.text for b in sheet.blocks if isinstance(b, Paragraph) and "“Details”" in b.text]
-    assert "what must not be overlooked" in told
+    assert "what is to be noted, in full" in told
     assert len(pages(found, renderer)) == 2
 
 
@@ -154,51 +153,125 @@ def test_opinions_have_a_page_of_their_own(tmp_path: Path) -> None:
     assert found.sections[-1].new_page
 
 
-_WORDS = st.text(st.sampled_from("abcdefghijklmnoprstuvwzäöüß ABKM"), min_size=1, max_size=60).map(str.strip)
-_LINES = st.lists(_WORDS.filter(bool), min_size=1, max_size=4)
-
-
-@settings(max_examples=12, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(
-    language=st.sampled_from(["en", "de"]),
-    paper=st.sampled_from(["A4", "Letter"]),
-    customer=_LINES,
-    model=_WORDS.filter(bool),
-    person=_WORDS.filter(bool),
-    warm_up=_LINES,
-    line=_WORDS.filter(bool),
-    remarks=_LINES,
+#: What a job states in words, by its keys.
+STATED = (
+    "laboratory.name",
+    "laboratory.address",
+    "laboratory.accreditation",
+    "certificate.authorised_by.name",
+    "certificate.authorised_by.function",
+    "customer.name",
+    "customer.address",
+    "machine.manufacturer",
+    "machine.model",
+    "machine.serial",
+    "machine.condition",
+    "instrument.name",
+    "instrument.manufacturer",
+    "measurement.warm_up",
+    "measurement.compensation",
+    "measurement.line",
+    "measurement.operator",
+    "measurement.deviations_from_method",
+    "measurement.remarks",
+    "environment.sensors",
+    "environment.remarks",
+    "procedure",
 )
-def test_a_standard_has_one_page_whatever_the_length_of_what_is_stated(  # noqa: PLR0913, PLR0917 - drawn
-    tmp_path: Path,
-    language: str,
-    paper: str,
-    customer: list[str],
-    model: str,
-    person: str,
-    warm_up: list[str],
-    line: str,
-    remarks: list[str],
-) -> None:
-    stated = {
-        "certificate.language": language,
-        "certificate.paper": paper,
-        "certificate.authorised_by.name": person,
-        "customer.name": customer[0],
-        "customer.address": ", ".join(customer),
-        "machine.model": model,
-        "measurement.warm_up": " ".join(warm_up),
-        "measurement.line": line,
-        "measurement.deviations_from_method": " ".join(remarks),
-    }
-    keys: Mapping[str, Any] = {**SHEET, "evaluate": ["vdi-dgq-3441", *SEVEN[:1]]}
-    for dotted, value in stated.items():
+
+
+def stating(words: Mapping[str, str]) -> Mapping[str, Any]:
+    keys: Mapping[str, Any] = SHEET
+    for dotted, value in words.items():
         keys = having(dotted, value, keys)
+    return keys
+
+
+def taken(of: Certificate) -> list[float]:
+    """Return how high each page is estimated to be, in parts of what it has."""
+    head = columns.head_height(of.letterhead, of.title, of.subtitle, of.number)
+    heights = [columns.heading_height(each.title) + columns.height(each.blocks) for each in of.sections]
+    heights[0] += head
+    return [height / (columns.PAGES[of.paper] + columns.END_MARK) for height in heights]
+
+
+def longest(letters: int) -> dict[str, str]:
+    return dict.fromkeys(STATED, ("Präzisionswerkzeugmaschinen-Instandhaltung der Halle " * 12)[:letters])
+
+
+@pytest.mark.parametrize("paper", ["A4", "Letter"])
+@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("letters", [25, 110])
+def test_a_sheet_is_one_page_whatever_the_length_of_what_is_stated(
+    tmp_path: Path, paper: str, language: str, letters: int
+) -> None:
+    certified = {"certificate.language": language, "certificate.paper": paper}
+    found = certificate(tmp_path, stating({**certified, **longest(letters)}))
+    assert taken(found)[0] <= 1
+    (figure,) = found.figures
+    assert figure.height is not None
+    assert figure.height >= 90 or paper == "Letter"
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_the_longest_names_leave_a_page_and_one_of_details_that_it_names(
+    tmp_path: Path, renderer: str, language: str
+) -> None:
+    keys = having("certificate.language", language, stating(longest(110)))
     found = certificate(tmp_path, keys)
-    printed = pages(found)
-    assert len(printed) == len(found.sections)
-    for section, text in zip(found.sections, printed, strict=True):
-        assert section.title in text
+    sheet, details = found.sections
+    first, second = pages(found, renderer)
+    assert sheet.title in first
+    assert f"„{details.title}“" in first or f"“{details.title}”" in first
+    assert details.title in second
+
+
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_no_line_parts_the_number(tmp_path: Path, renderer: str) -> None:
+    number = "CAL-" + "2026-" * 12 + "17"
+    (page, *_) = pages(certificate(tmp_path, having("certificate.number", number, SHEET)), renderer)
+    assert page.count(number) == 2
+
+
+def test_what_is_as_long_as_a_job_may_state_it_is_not_refused(tmp_path: Path) -> None:
+    found = certificate(tmp_path, stating(longest(500)))
+    assert [each.key for each in found.sections] == ["iso230-2-2014", "details"]
+
+
+def test_customer_and_machine_stand_on_every_page(tmp_path: Path) -> None:
+    found = certificate(tmp_path, {**stating(longest(110)), "evaluate": ["vdi-dgq-3441", "nmtba"]})
+    for section in found.sections[:2]:
+        said = " ".join(text for block in section.blocks for text in lines_of(block))
+        assert longest(110)["customer.name"] in said
+        assert longest(110)["machine.model"].strip() in said
+
+
+def test_what_was_declared_negligible_is_listed_with_its_reason(tmp_path: Path) -> None:
+    found = certificate(tmp_path, SHEET)
+    said = " ".join(text for block in found.sections[0].blocks for text in lines_of(block))
+    assert "Declared negligible by the laboratory" in said
+    assert "40 mm at 20 °C" in said
+
+
+def test_details_repeat_nothing_that_the_page_says(tmp_path: Path) -> None:
+    sheet, details = certificate(tmp_path, stating(longest(110))).sections
+    shown = {pair for block in sheet.blocks if isinstance(block, Facts) for pair in block.pairs}
+    again = [pair for block in details.blocks if isinstance(block, Facts) for pair in block.pairs]
+    assert shown.isdisjoint(again)
+    assert len(again) == len(set(again))
+
+
+def test_readings_that_were_set_aside_are_all_named(tmp_path: Path) -> None:
+    excluded = [
+        {"target": target, "direction": "+", "run": 1, "reason": "chip"} for target in range(-20, 20, 5)
+    ]
+    found = certificate(tmp_path, having("measurement.excluded", excluded, SHEET))
+    said = " ".join(
+        text for section in found.sections for block in section.blocks for text in lines_of(block)
+    )
+    assert said.count("chip") >= len(excluded)
+    assert "section on the readings" not in said
 
 
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
@@ -206,11 +279,15 @@ def test_of_an_adjusted_axis_the_comparison_has_a_page_and_each_state_another(
     tmp_path: Path, renderer: str
 ) -> None:
     as_found = {"adjustment": "New compensation table", "measurement": COMPLETE["measurement"]}
-    found = pages(certificate(tmp_path, {**REPORT, "as_found": as_found}), renderer)
-    headings = [section.title for section in certificate(tmp_path, {**REPORT, "as_found": as_found}).sections]
-    assert len(found) == len(headings) == 3
-    for text, heading in zip(found, headings, strict=True):
-        assert heading in text
+    document = certificate(tmp_path, {**REPORT, "as_found": as_found})
+    assert [section.key for section in document.sections] == [
+        "iso230-2-2014",
+        "as-found-as-left",
+        "as-found-iso230-2-2014",
+        "details",
+    ]
+    for text, section in zip(pages(document, renderer), document.sections, strict=True):
+        assert section.title in text
 
 
 def test_a_report_with_more_to_say_goes_on(tmp_path: Path) -> None:
@@ -241,7 +318,8 @@ def _lowest(of: Certificate, renderer: str) -> float:
 def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, renderer: str) -> None:
     found = certificate(tmp_path, SHEET)
     section = found.sections[0]
-    estimate = columns.head_height(found.letterhead, found.title) + columns.heading_height(section.title)
+    estimate = columns.head_height(found.letterhead, found.title, found.subtitle, found.number)
+    estimate += columns.heading_height(section.title)
     estimate += columns.height(section.blocks)
     taken = _lowest(found, renderer)
     assert taken < estimate + 12

@@ -8,14 +8,18 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pypdf
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, registry
 from document.certificate.everything import EVERYTHING, write_tables
+from document.figures.samples import figure
 from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.certificate.standard_layout import in_less_room
+from zlmreport.document.certificate.standard_layout import in_less_room, main_graph
+from zlmreport.document.figures.figure import Curve, Panel, Role
+from zlmreport.language import same
 
 SEVEN = (
     {"standard": "iso230-2:2014", "tolerances": {"A": 150, "E": 100}},
@@ -184,3 +188,14 @@ def test_what_is_said_of_a_standard_stands_below_its_own_definitions(seven: Cert
     (of_2014,) = (words for caption, words in said.items() if "ISO 230-2:2014" in caption)
     assert "The limits lie 3 standard deviations" in of_1988
     assert "The limits lie 2 standard deviations" in of_2014
+
+
+def test_quantities_of_their_own_stand_one_below_the_other_on_one_axis() -> None:
+    x = np.arange(3.0)
+    curve = Curve("Z", Role.CHANNEL_1, x, x)
+    panels = (Panel(curves=(curve,)), Panel(curves=(curve,), y_title=same("Temperature"), y_unit="°C"))
+    alike = figure(*panels[:1], panels[0])
+    of_several = figure(*panels)
+    assert [each.is_wide for each in in_less_room([alike])] == [True]
+    assert list(in_less_room([of_several])) == [of_several]
+    assert main_graph([of_several]) is of_several

@@ -21,10 +21,7 @@ def cover(document):
         ),
         (
             "de",
-            (
-                "Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der "
-                "Messung."
-            ),
+            ("Die Ergebnisse gelten nur für den Kalibriergegenstand in seinem Zustand zur Zeit der Messung."),
         ),
     ],
 )

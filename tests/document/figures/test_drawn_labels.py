@@ -149,3 +149,21 @@ def test_everything_drawn_is_finite_and_inside(sample: Figure) -> None:
         assert outline.points.min() >= 0, outline
         assert outline.points[:, 0].max() <= width, outline
         assert outline.points[:, 1].max() <= height, outline
+
+
+def _beside_temperatures() -> Figure:
+    """Return a figure whose second panel shows a temperature."""
+    first, second = each_direction()
+    return figure(first, replace(second, y_title=same("Temperature"), y_unit="°C"))
+
+
+def test_a_panel_of_another_quantity_has_its_own_title() -> None:
+    titles = drawn(_beside_temperatures()).texts_of("title")
+    assert [each.text for each in titles] == ["Target position in mm", "Deviation in µm", "Temperature in °C"]
+
+
+@pytest.mark.parametrize("is_wide", [False, True])
+def test_titles_of_several_quantities_do_not_meet(*, is_wide: bool) -> None:
+    of = replace(_beside_temperatures(), is_wide=is_wide, height=120.0)
+    first, second = (each.runs[0] for each in drawn(of).texts_of("title")[1:])
+    assert abs(first.x - second.x) > 50 or abs(first.y - second.y) > 50

@@ -79,7 +79,7 @@ def test_the_annex_is_marked_as_an_opinion_before_anything_else() -> None:
     head = text(modelled()).splitlines()[:2]
     assert "opinion and interpretation" in head[0]
     assert (
-        head[1] == "! Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the calibration"
+        head[1] == "! Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement"
     )
 
 

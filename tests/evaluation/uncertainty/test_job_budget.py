@@ -23,6 +23,7 @@ MICROMETRE = 1e-6
 REPORT = {**COMPLETE["certificate"], "kind": "report"}
 #: Of the readings: from −20 mm to 20 mm.
 LENGTH = 0.04
+READINGS = 90
 
 
 def keys(**groups: Any) -> dict[str, Any]:
@@ -130,7 +131,8 @@ def test_temperatures_and_coefficients_take_what_the_job_states_beside_them(tmp_
 
 
 def test_a_logged_temperature_counts_by_its_largest_distance_from_20_degrees(tmp_path: Path) -> None:
-    logged = {"axis_temperature": np.array([293.15, np.nan, 290.15, 294.15])}
+    logged = {"axis_temperature": np.full(READINGS, 294.15)}
+    logged["axis_temperature"][[1, 2]] = np.nan, 290.15
 
     stated = {**keys(uncertainty={"expansion_coefficient": 2}), "environment": {"air_temperature": 20}}
     found = contributions(tmp_path, stated, logged)

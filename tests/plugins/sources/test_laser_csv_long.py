@@ -18,7 +18,7 @@ HEADER = "target,direction,run,deviation\n"
 #: 2 targets, both directions.
 ROWS = "0,+,1,1.5\n100,+,1,-2\n100,-,1,3\n0,-,1,0.25\n"
 ROTARY = Axis("C", AxisKind.ROTARY)
-NO_TIMES = "No times were logged: drift and warm-up cannot be judged from the readings."
+NO_TIMES = "No times were logged: drift and warm-up can only be judged by the order of the readings."
 
 
 @pytest.fixture

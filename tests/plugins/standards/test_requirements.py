@@ -224,10 +224,10 @@ def test_a_long_axis_is_asked_for_a_mean_interval_and_for_no_five_runs() -> None
 def test_more_runs_on_a_long_axis_go_beyond_the_standard() -> None:
     found = finding("iso230-2:2014", simulated_test(13, 5, length=3000), LONG_AXIS)
 
-    assert said(found)[1:] == (
-        "5 runs on 3000 mm; the R and A that follow from them go beyond the standard",
-        False,
-    )
+    words, met = said(found)[1:]
+    assert met is False
+    assert words.startswith("5 runs on 3000 mm; the R and A that follow from them go beyond the standard")
+    assert words.endswith("and nothing is decided on their limits")
 
 
 def test_a_rotary_axis_is_long_above_a_turn() -> None:

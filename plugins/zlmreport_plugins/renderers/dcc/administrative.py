@@ -244,7 +244,7 @@ _STATES = {
     "after": Words(en="as left", de="wie hinterlassen"),
 }
 _BY_CUSTOMER = Words(en="Provided by the customer", de="Angabe des Auftraggebers")
-_SENSORS = Words(en="Places of the sensors", de="Messstellen")
+_SENSORS = Words(en="Sensor locations", de="Messstellen")
 _REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
 _CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
 

@@ -30,6 +30,7 @@ _UNITS = {
     "deg": r"\degree",
     "arcsec": r"\arcsecond",
     "um/m": r"\micro\metre\metre\tothe{-1}",
+    "h": r"\hour",
 }
 
 

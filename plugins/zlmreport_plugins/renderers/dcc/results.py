@@ -93,8 +93,10 @@ _FINDINGS = {
 }
 _RISK = Words(en="Risk that the statement is wrong", de="Risiko, dass die Aussage falsch ist")
 _INTERVAL = Words(
-    en="Interval that holds, with 95 %, what another test of this axis by the same plan would find",
-    de="Intervall, das mit 95 % enthält, was eine weitere Messung dieser Achse nach demselben Plan fände",
+    en="Interval that holds, with 95 %, what another test of this axis by the same plan would find with the "
+    "same set-up left in place; errors of the set-up are not in it",
+    de="Intervall, das mit 95 % enthält, was eine weitere Messung dieser Achse nach demselben Plan mit "
+    "derselben, unveränderten Messeinrichtung fände; Fehler der Messeinrichtung enthält es nicht",
 )
 _LOWEST = Words(en="Lower end", de="Unteres Ende")
 _HIGHEST = Words(en="Upper end", de="Oberes Ende")
@@ -191,6 +193,7 @@ def _readings_alone(
     return dcc(
         "measurementResult",
         writer.named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
+        _used_methods(certificate.evaluations, writer),  # what evaluates it together with others
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(test.job, writer)),
         group("influenceConditions", *influences(test.job, writer)),
@@ -212,7 +215,7 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
     """
     evaluation, job = test.evaluations[index], test.job
     measurements = evaluation.measurements
-    by, kind = (_RESULTS_BY_METHOD, "reference") if evaluation.is_method else (_RESULTS, "norm")
+    by = _RESULTS_BY_METHOD if evaluation.is_method else _RESULTS
     name = by.given(subject=measurements.axis.subject, designation=evaluation.designation)
     if test.name:
         name = _OF_LINE.given(name=test.name, said=name)
@@ -230,15 +233,27 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
     return dcc(
         "measurementResult",
         writer.named("name", name),
-        dcc(
-            "usedMethods",
-            dcc("usedMethod", writer.named("name", evaluation.title), dcc(kind, evaluation.designation)),
-        ),
+        _used_methods([evaluation], writer),
         dcc("usedSoftware", software(certificate, writer)),
         group("measuringEquipments", equipment(job, writer)),
         group("influenceConditions", test.state, *influences(job, writer)),
         dcc("results", *results),
         group("measurementMetaData", *_budget(test, writer), *_findings(evaluation, writer)),
+    )
+
+
+def _used_methods(evaluations: Iterable[Evaluation], writer: Writer) -> ET.Element:
+    """Return the standards and methods by which something was measured."""
+    return dcc(
+        "usedMethods",
+        *(
+            dcc(
+                "usedMethod",
+                writer.named("name", each.title),
+                dcc("reference" if each.is_method else "norm", each.designation),
+            )
+            for each in evaluations
+        ),
     )
 
 

@@ -72,6 +72,7 @@ def results(certificate: Certificate) -> Json:
         ],
         **_as_found(certificate),
         **_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
+        **_doubtful(certificate),
         "model": _model(certificate),
         "measurements": _measurements(measurements, certificate.job),
         **_tests(certificate),
@@ -91,6 +92,7 @@ def _results_of_parts(certificate: Certificate) -> Json:
             for evaluation in part["evaluations"]
         ],
         **_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
+        **_doubtful(certificate),
         "model": _model(certificate),
         "parts": {
             name: {key: value for key, value in part.items() if key in _OF_A_PART}
@@ -153,6 +155,12 @@ def _tests(certificate: Certificate) -> Json:
         for each in certificate.tests
     }
     return {"tests": found} if found else {}
+
+
+def _doubtful(certificate: Certificate) -> Json:
+    """Return what the first page marks as doubtful; nothing where it marks nothing."""
+    said = [each.in_language(certificate.language) for each in (*certificate.doubts, *certificate.evidence)]
+    return {"doubtful": said} if said else {}
 
 
 def _uncertainty(budget: Budget | NoBudget | None, axis: Axis, language: Language) -> Json:

@@ -58,7 +58,7 @@ _TITLE = 21.0
 _SUBTITLE = 40.0
 _SECTION = 34.0
 _LETTERHEAD = 34.0
-_RUNNING_NUMBER = 47.0
+_RUNNING_NUMBER = 54.0
 _RUNNING_HEAD = 34.0
 #: Of the names and the values of facts, by the number of columns.
 _FACTS = {1: (15.0, 36.0), 2: (10.4, 13.5)}

@@ -59,6 +59,8 @@ _LONG = {AxisKind.LINEAR: 2.0, AxisKind.ROTARY: 2 * math.pi}
 _POSITIONS_BY_ANGLE = {math.pi / 2: 3, math.pi: 5}
 _POSITIONS_ABOVE = 8
 _MEAN_INTERVAL_OF_LONG_AXIS = 0.25
+#: What follows from standard deviations.
+_OF_SCATTER = ("R", "R_fwd", "R_bwd", "A", "A_fwd", "A_bwd")
 
 _ONE_DIRECTION_ONLY = Words(
     "only the parameters of this direction exist", "nur die Kenngrößen dieser Richtung sind bestimmt"
@@ -143,19 +145,21 @@ def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
         yield Finding(requirement, found.given(length=length), met=True, basis=basis)
     else:
         found = Words(
-            "{runs} on {length}; the R and A that follow from them go beyond the standard",
-            "{runs} auf {length}; die daraus folgenden R und A gehen über die Norm hinaus",
+            "{runs} on {length}; the R and A that follow from them go beyond the standard, and nothing is "
+            "decided on their limits",
+            "{runs} auf {length}; die daraus folgenden R und A gehen über die Norm hinaus, und über ihre "
+            "Grenzwerte wird nicht entschieden",
         ).given(runs=runs_in_words(number), length=length)
-        yield Finding(requirement, found, met=False, basis=basis)
+        yield Finding(requirement, found, met=False, basis=basis, undecided=_OF_SCATTER)
     if axis.kind is AxisKind.LINEAR:
         yield mean_interval(measurements, _MEAN_INTERVAL_OF_LONG_AXIS, Basis.APPLIED)
 
 
 _FULL_WIDTHS = Words(
-    "All parameters are full widths, not ± values. The limits lie {k} standard deviations (n − 1) to either "
-    "side of the mean of one direction.",
-    "Alle Kenngrößen sind volle Spannweiten, keine ±-Werte. Die Grenzen liegen {k} Standardabweichungen "
-    "(n − 1) beiderseits des Mittelwerts einer Richtung.",
+    "No parameter is a ± value: spreads and ranges are full widths. The limits lie {k} standard deviations "
+    "(n − 1) to either side of the mean of one direction.",
+    "Keine Kenngröße ist ein ±-Wert: Streuungen und Spannen sind volle Breiten. Die Grenzen liegen {k} "
+    "Standardabweichungen (n − 1) beiderseits des Mittelwerts einer Richtung.",
 )
 _REPEATABILITY = Words(
     "R is the largest bidirectional repeatability of a position; it contains the reversal there and can "

@@ -63,12 +63,12 @@ from zlmreport.plugin.standard import (
 from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, quantities
 
 _WIDTHS = Words(
-    "All parameters are full widths, not ± values. The position spread is {k} times the sum of the standard "
-    "deviations (n − 1) of both directions; the limits lie half the sum of reversal span and position spread "
-    "to either side of the mean.",
-    "Alle Kenngrößen sind volle Breiten, keine ±-Werte. Die Positionsstreubreite ist das {k}-Fache der Summe "
-    "der Standardabweichungen (n − 1) beider Richtungen; die Grenzen liegen um die halbe Summe aus "
-    "Umkehrspanne und Positionsstreubreite beiderseits des Mittelwerts.",
+    "No parameter is a ± value: spreads and ranges are full widths. The position spread is {k} times the sum "
+    "of the standard deviations (n − 1) of both directions; the limits lie half the sum of reversal span and "
+    "position spread to either side of the mean.",
+    "Keine Kenngröße ist ein ±-Wert: Streuungen und Spannen sind volle Breiten. Die Positionsstreubreite ist "
+    "das {k}-Fache der Summe der Standardabweichungen (n − 1) beider Richtungen; die Grenzen liegen um die "
+    "halbe Summe aus Umkehrspanne und Positionsstreubreite beiderseits des Mittelwerts.",
 )
 _NOT_ACCURACY = Words(
     "P averages the scatter of both directions and therefore differs from the A of ISO 230-2, even at the "

@@ -139,12 +139,11 @@ def uncertainty_beside_as_found(
     keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
 ) -> Iterator[Section]:
     """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
-    axis = after[0].evaluation.measurements.axis
-    as_left = uncertainty.section(after[0].budget, axis, writer)
+    as_left = uncertainty.section(after[0].budget, [each.evaluation for each in after], writer)
     if before[0].budget == after[0].budget:
         yield as_left
         return
-    as_found = uncertainty.section(before[0].budget, axis, writer)
+    as_found = uncertainty.section(before[0].budget, [each.evaluation for each in before], writer)
     state_before, state_after = NAMES[keys.work]
     yield _labelled(as_left, state_after, writer)
     yield _labelled(replace(as_found, key="as-found-uncertainty"), state_before, writer)
@@ -235,7 +234,7 @@ def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
     known = any(one.expanded_uncertainty is not None for each in every for one in _both(each))
     uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
         Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
         Column(writer.say(_BEFORE), unit, Align.RIGHT),
         *uncertainty,
@@ -282,7 +281,7 @@ def _value_of(change: Change, writer: Writer) -> tuple[str, str]:
 def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of the limits before and after, where the job states any."""
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
         Column(
             writer.say(Words(en="Limit", de="Grenzwert")) + writer.marks.after("evaluate.tolerances"),
             writer.deviation_unit.symbol,

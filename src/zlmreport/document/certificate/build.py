@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -28,11 +28,12 @@ if TYPE_CHECKING:
     from zlmreport.document.figures.figure import Figure
     from zlmreport.job.document_keys import Laboratory
     from zlmreport.job.job import Job
+    from zlmreport.measurement.measurement_set import MeasurementSet
 
 GENERATOR = f"zlmreport {__version__}"
 
 _DESCRIPTION = Words(
-    en="{subject}, evaluated by {standards}",
+    en="{subject}, evaluated in accordance with {standards}",
     de="{subject}, ausgewertet nach {standards}",
 )
 
@@ -72,11 +73,9 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     files = [file for each in read for file in each.provenance.files]
     made_from = sources(job, files, logo.file if logo else None)
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
-    shown = tuple(
-        said_of_each(
-            (name, (*evidence(line, of_line), *traceability.doubts(line, of_line)))
-            for name, line, of_line in lines
-        )
+    shown = (
+        *said_of_each((name, _shown(line, of_line)) for name, line, of_line in lines),
+        *_shown_as_found(job, as_found, [one for _, line, of_line in lines for one in _shown(line, of_line)]),
     )
     letterhead, title = letterhead_of(job.keys.laboratory, logo), writer.say(document_title(certificate))
     results = tuple(each.evaluation for each in evaluated)
@@ -145,6 +144,23 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         evidence=shown,
         tests=tests,
     )
+
+
+def _shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+    """Return what readings and calibrations of a measurement show that its job does not say."""
+    return (*evidence(job, measurements), *traceability.doubts(job, measurements))
+
+
+def _shown_as_found(job: Job, as_found: Sequence[Evaluated], said: Sequence[Words]) -> Iterator[Words]:
+    """Yield the same of the measurement before an adjustment, but for what is said of the one after it."""
+    before = job.as_found
+    if before is None or job.keys.as_found is None:
+        return
+    from zlmreport.document.certificate.as_found import NAMES  # noqa: PLC0415 - of the few that need it
+
+    found = _shown(before, as_found[0].evaluation.measurements)
+    name = NAMES[job.keys.as_found.work][0]
+    yield from said_of_each([(name, [each for each in found if each not in said])])
 
 
 def _laid_out(material: Material) -> LaidOut:

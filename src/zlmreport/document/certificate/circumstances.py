@@ -12,6 +12,7 @@ from zlmreport.evaluation.checks import runs_in_words
 from zlmreport.language import Words
 from zlmreport.measurement import units
 from zlmreport.measurement.error_symbol import ROTARY_AXES, error_named
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 
 if TYPE_CHECKING:
@@ -64,6 +65,8 @@ def measurement_facts(
         from zlmreport.document.certificate.circle_facts import path_facts  # noqa: PLC0415 - of the few that need it
 
         yield from path_facts(measurements, writer, within)
+    elif measurements.axis.measurand.coordinate is Coordinate.TIME and not measurements.tests:
+        yield fact("Record", "Aufzeichnung", writer.say(_record(measurements)), "source")
     elif not measurements.tests:
         yield fact("Target positions", "Sollpositionen", writer.say(_targets(measurements, writer)), "source")
         yield fact(
@@ -77,7 +80,7 @@ def measurement_facts(
     feed = None if measurements.axis.circle else measurement.feed  # that of a circle stands with the circle
     yield fact("Feed", "Vorschub", with_unit(feed, f"{unit}/min", writer), "feed")
     yield fact(
-        "Rest at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", writer), "dwell"
+        "Dwell at each target", "Verweilzeit je Position", with_unit(measurement.dwell, "s", writer), "dwell"
     )
     yield fact("Warm-up", "Warmlauf", measurement.warm_up, "warm_up")
     yield fact("Compensation", "Kompensation", measurement.compensation, "compensation")
@@ -140,7 +143,7 @@ def environment_facts(
         elif logged:
             yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
     if environment is not None:
-        sensors = Words(en="Places of the sensors", de="Messstellen")
+        sensors = Words(en="Sensor locations", de="Messstellen")
         yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
         calibrated = "; ".join(_sensor(each, writer) for each in environment.thermometers)
         name = Words(en="Thermometers and sensors", de="Thermometer und Sensoren")
@@ -193,6 +196,23 @@ def _targets(measurements: MeasurementSet, writer: Writer) -> Words:
         first=writer.position(float(first)),
         last=units.with_unit(writer.position(float(last)), writer.position_unit.symbol),
     )
+
+
+def _record(measurements: MeasurementSet) -> Words:
+    """Say over which time something was read, and how often."""
+    targets, axis = measurements.target_positions, measurements.axis
+    hours = float(f"{axis.position_unit.from_si(float(targets[-1] - targets[0])):.4g}")
+    record = _AVERAGES if measurements.provenance.averaging else _MOMENTS
+    return record.given(count=len(targets), duration=hours, unit=axis.position_unit.symbol)
+
+
+_MOMENTS = Words(
+    en="{duration} {unit}, read at {count} moments", de="{duration} {unit}, gelesen zu {count} Zeitpunkten"
+)
+_AVERAGES = Words(
+    en="{duration} {unit}, as averages over {count} intervals",
+    de="{duration} {unit}, als Mittelwerte über {count} Zeitabschnitte",
+)
 
 
 def _runs(measurements: MeasurementSet) -> Words:

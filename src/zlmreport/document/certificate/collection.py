@@ -16,6 +16,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.measured_lines import said_of_each
 from zlmreport.document.certificate.own_look import read_look
 from zlmreport.document.certificate.own_words import arranged, filled
+from zlmreport.document.certificate.readings import missing_readings
 from zlmreport.document.certificate.standard_layout import on_a_page
 from zlmreport.document.certificate.statements import document_title, in_a_line, running_title
 from zlmreport.document.certificate.values import Values
@@ -27,18 +28,19 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
-    from zlmreport.measurement.measurand import Measurand
 
 _SUBJECT = Words(en="{count} measurements of {machine}", de="{count} Messungen an {machine}")
+_SUBJECT_OF_ONE = Words(en="One measurement of {machine}", de="Eine Messung an {machine}")
 _THE_MACHINE = Words(en="a machine", de="einer Maschine")
-_DESCRIPTION = Words(en="{subject}, evaluated by {standards}", de="{subject}, ausgewertet nach {standards}")
+_DESCRIPTION = Words(
+    en="{subject}, evaluated in accordance with {standards}", de="{subject}, ausgewertet nach {standards}"
+)
 _SUMMARY = Words(
     en="Summary: what has a limit, or else the first parameter of each measurement by each standard",
     de="Überblick: was einen Grenzwert hat, sonst die erste Kenngröße jeder Messung nach jeder Norm",
 )
 _GROUP = Words(en="{subject}, {designation}", de="{subject}, {designation}")
 _TITLE = Words("{name}: {title}", "{name}: {title}")
-_CALIBRATION = Words(en="Calibration", de="Kalibrierung")
 _DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
 _NAMED = Words("{names}: {heading}", "{names}: {heading}")
 
@@ -58,9 +60,12 @@ def collected(
     made_from = sources(job, [each.file for each in files if each.role is Role.READINGS], logo)
     budget = joined_budget({name: part.budget for name, part in parts.items() if part.budget})
     machine = keys.machine.type or writer.say(_THE_MACHINE)
-    subject = writer.say(_SUBJECT.given(count=len(parts), machine=machine))
+    subject = writer.say(
+        (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
+    )
     sections = [each for name, part in parts.items() for each in _sections_of(name, part, writer)]
-    sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
+    if certificate.layout != "sheet":  # no sheet has it
+        sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
     style = certificate.style
     return replace(
@@ -107,18 +112,14 @@ def _cover(
     evaluations = [each for part in parts.values() for each in part.evaluations]
     yield from statements.amendment_notice(keys.certificate, writer)
     facts = stated_facts(_identity(job, evaluations, digest, writer), writer)
-    yield Facts(facts, writer.say(_CALIBRATION))
+    yield Facts(facts, writer.say(statements.WORK[keys.certificate.kind]))
     yield summary(parts, writer)
     if budget.is_complete:
-        yield from uncertainty.statement(budget, map(_measurand, evaluations), writer)
+        yield from uncertainty.statement(budget, evaluations, writer)
     yield from conformity.rule_paragraph(keys.decision_rule, evaluations, writer)
     yield from _said_by_parts(parts, writer)
     yield from cover.shortfalls_of_parts({name: part.evaluations for name, part in parts.items()}, writer)
-    yield from statements.paragraphs(keys, writer)
-
-
-def _measurand(evaluation: Evaluation) -> Measurand:
-    return evaluation.measurements.axis.measurand
+    yield from statements.paragraphs(job, writer)
 
 
 def summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
@@ -160,10 +161,10 @@ def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: 
         yield Fact(Words(en="Customer", de="Auftraggeber"), said, ("customer.name", "customer.address"))
     kind = writer.say(MACHINE_KINDS[machine.kind])
     item = f"{machine.type} ({kind})" if machine.type else kind
-    yield Fact(Words(en="Item calibrated", de="Gegenstand"), item, ("machine.manufacturer", "machine.model"))
+    yield Fact(statements.ITEM[keys.certificate.kind], item, ("machine.manufacturer", "machine.model"))
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
     names = ", ".join(dict.fromkeys(each.designation for each in evaluations))
-    yield Fact(Words(en="Evaluated by", de="Ausgewertet nach"), names)
+    yield Fact(Words(en="Evaluated in accordance with", de="Ausgewertet nach"), names)
     place = cover.place_of_work(keys)
     if place:
         yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
@@ -171,8 +172,7 @@ def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: 
     yield Fact(Words(en="Dates of measurement", de="Daten der Messungen"), _days(job, writer))
     yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
     if keys.next_due:
-        due = Words(en="Next calibration due, as agreed", de="Nächste Kalibrierung, wie vereinbart")
-        yield Fact(due, writer.date(keys.next_due.date))
+        yield Fact(statements.NEXT_DUE[keys.certificate.kind], writer.date(keys.next_due.date))
     if person:
         yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
     yield Fact(DIGEST, digest)
@@ -197,14 +197,23 @@ def _said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator
     """Yield what nobody may overlook of any part, once, with the names of the parts that say it."""
     found: dict[Notice, list[str]] = {}
     for name, part in parts.items():
-        measurands = tuple(map(_measurand, part.evaluations))
-        of_budget = uncertainty.statement(part.budget, measurands, writer) if part.budget else ()
-        for block in part.cover or of_budget:
+        for block in part.cover or _on_sheet(part, writer):
             if isinstance(block, Notice):
                 found.setdefault(block, []).append(name)
     for block, names in found.items():
         heading = _NAMED.given(names=", ".join(names), heading=block.heading)
         yield Notice(writer.say(heading), block.items)
+
+
+def _on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:
+    """Yield what the first page says of a part that has none of its own, but for what it does not meet."""
+    own = Writer.of(part.measurements, writer.language, writer.marks)
+    if part.budget:
+        yield from uncertainty.statement(part.budget, part.evaluations, writer)
+    yield from cover.unlikely(part, own)
+    yield from missing_readings(part.measurements, own)
+    if part.job:
+        yield from statements.notices(part.job.keys, own)
 
 
 def _sections_of(name: str, part: Certificate, writer: Writer) -> Iterator[Section]:

@@ -351,6 +351,8 @@ _MARK = 1.3
 _FIVE, _FIVE_FINEST = 1.0, 4.6
 _SECTION_HEADING = 14.0 + 2.5 + 5.0
 _LOGO = 31.0
+#: Em of a page of the type of the line below the title, and of a laboratory's name without and with a logo.
+_SUBJECT_EM, _LABORATORY_EM = 50.0, (46.0, 30.0)
 #: Em of the names and values of facts in one of two columns.
 _NAME_EM, _VALUE_EM = 10.4, 16.3
 _FACTS_MARGIN = 4.0
@@ -362,12 +364,17 @@ def height(blocks: Iterable[Block]) -> float:
     return sum(map(_height, gather_facts(blocks)))
 
 
-def head_height(letterhead: Letterhead | None, title: str) -> float:
-    """Return how high the letterhead and the title stand, with what the first page has besides."""
-    room = _lines_of(title, 26.0) * 17.5 + _LINE * 1.1 + 7.0
+def head_height(letterhead: Letterhead | None, title: str, subject: str, number: str) -> float:
+    """Return how high the letterhead and the title stand, with what the first page has besides.
+
+    The number stands behind the subject, or below it where it would be parted.
+    """
+    below_title = _lines_of_words(f"{subject} {number.replace('-', '_')}", _SUBJECT_EM)
+    room = _lines_of(title, 26.0) * 17.5 + _LINE * 1.1 * below_title + 7.0
     if letterhead:
         beside = ", ".join((*letterhead.laboratory.lines, letterhead.accreditation))
-        text = 13.8 + 9.8 * _lines_of(beside, 40.0)
+        name = _lines_of_words(letterhead.laboratory.name, _LABORATORY_EM[bool(letterhead.logo)])
+        text = 1.0 + 12.8 * name + 9.8 * _lines_of(beside, 40.0)
         room += max(text, _LOGO if letterhead.logo else 0.0) + 10.2
     return room - _OF_FIRST
 
@@ -389,10 +396,15 @@ def _height(block: GatheredBlock) -> float:
         case Paragraph():
             return _paragraph_height(block)
         case Notice(title, items):
-            lines = sum(_lines_of(item, _NOTICE_EM) for item in items) + _lines_of(title, _NOTICE_EM)
+            lines = sum(map(notice_lines, (title, *items)))
             return lines * _LINE + 1.5 * len(items) + 19.0
         case facts:
             return _FACTS_MARGIN + max(map(_facts_height, side_by_side(facts)))
+
+
+def notice_lines(text: str) -> int:
+    """Return how many lines a heading or an item of a notice takes."""
+    return _lines_of(text, _NOTICE_EM)
 
 
 def _paragraph_height(paragraph: Paragraph) -> float:
@@ -427,20 +439,27 @@ def _facts_height(groups: tuple[Facts, ...]) -> float:
 
 def fact_lines(name: str, value: str) -> int:
     """Return how many lines a fact takes in one of two columns."""
-    return max(_lines_of(name, _NAME_EM), sum(_lines_of(line, _VALUE_EM) for line in value.split("\n")))
+    lines = sum(_lines_of_words(line, _VALUE_EM, 1.0) for line in value.split("\n"))
+    return max(_lines_of_words(name, _NAME_EM, 1.0), lines)
 
 
 #: Running text is narrower than its letters are estimated.
 _RUNNING = 1.04
 
 
-def _lines_of_words(text: str, room: float) -> int:
-    """Return how many lines a paragraph takes, whose words go over to the next line where they do not fit."""
+def _lines_of_words(text: str, room: float, running: float = _RUNNING) -> int:
+    """Return how many lines a paragraph takes, whose words go over to the next line where they do not fit.
+
+    A word that is wider than a line is parted.
+    """
+    room *= running
     lines, taken = 1, 0.0
     for word in text.split(" "):
         width = width_of(word)
-        if taken and taken + width > _RUNNING * room:
+        if taken and taken + width > room:
             lines, taken = lines + 1, 0.0
+        if width > room:
+            lines, width = lines + int(width / room), width % room
         taken += width + width_of(" ")
     return lines
 

@@ -20,6 +20,7 @@ from zlmreport.document.certificate.circumstances import (
 from zlmreport.language import Words
 from zlmreport.measurement import units
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurand import Coordinate
 
 if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
@@ -48,9 +49,9 @@ _NO_INFLUENCE = Words(
 _CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
 _ALL_CORRECTED = Words(
     en="Every deviation in this document is a corrected one. The readings as they were displayed are in the"
-    " files that the section on their origin names.",
+    " files from which it was made.",
     de="Jede Abweichung in diesem Dokument ist korrigiert. Die angezeigten Messwerte stehen in den Dateien,"
-    " die der Abschnitt über ihre Herkunft nennt.",
+    " aus denen es erstellt ist.",
 )
 
 
@@ -132,9 +133,11 @@ def besides(measurements: MeasurementSet, described: Sequence[Described], writer
 
 
 def axis_in_words(job: Job, writer: Writer) -> str:
-    """Write the axis's name and kind; of two that ran a circle, which circle."""
+    """Write the axis's name and kind; of two that ran a circle, which circle; of sensors their names."""
     if job.keys.circle is not None:
         return circle_in_words(job.keys.circle, writer)
+    if job.axis.measurand.coordinate is Coordinate.TIME:
+        return job.axis.name
     words = Words("{name} ({kind})", "{name} ({kind})")
     return writer.say(words.given(name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]))
 
@@ -150,20 +153,26 @@ def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
     yield Fact(Words(en="Condition", de="Zustand"), machine.condition, ("machine.condition",))
 
 
-#: What moved: an axis, or two on a circle.
-AXIS_OR_CIRCLE = (Words(en="Axis", de="Achse"), Words(en="Circle", de="Kreis"))
+def measured_of(job: Job) -> Words:
+    """Return what was measured of, as a heading: an axis, two on a circle, or sensors over time."""
+    if job.keys.circle is not None:
+        return Words(en="Circle", de="Kreis")
+    if job.axis.measurand.coordinate is Coordinate.TIME:
+        joins = job.axis.measurand.joins_tests
+        return Words(en="Sensors", de="Messtaster") if joins else Words(en="Sensor", de="Messtaster")
+    return Words(en="Axis", de="Achse")
 
 
 def _moved(job: Job, writer: Writer) -> tuple[str, Words, Iterator[Fact]]:
     """Return the group on what moved: its job key, its heading and its facts."""
     if job.keys.circle is not None:
-        return "circle", AXIS_OR_CIRCLE[1], circle_facts(job.keys.circle, writer)
-    return "axis", AXIS_OR_CIRCLE[0], _axis(job, writer)
+        return "circle", measured_of(job), circle_facts(job.keys.circle, writer)
+    return "axis", measured_of(job), _axis(job, writer)
 
 
 def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
     axis, keys = job.axis, job.keys.axis
-    yield Fact(Words(en="Axis", de="Achse"), axis_in_words(job, writer), ("axis.name", "axis.kind"))
+    yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     if axis.travel is not None:
         first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
         travel = f"{first} … {units.with_unit(last, writer.position_unit.symbol)}"

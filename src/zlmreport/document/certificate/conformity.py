@@ -135,6 +135,8 @@ def rule_paragraph(
     words = _rule(keys, limited, writer)
     if keys.rule != "simple" and any(each.expanded_uncertainty is None for each in limited):
         words = _WITHOUT_UNCERTAINTY.given(rule=words)
+    if any(each.known_error for each in limited):
+        words = _KNOWN_ERRORS.given(rule=words)
     yield Paragraph(writer.say(_source_of_limits(evaluations, writer).given(rule=words)))
 
 
@@ -185,7 +187,7 @@ def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Ta
     is_mixed = units != {writer.deviation_unit}
     unit = "" if is_mixed else writer.deviation_unit.symbol
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
         Column(writer.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
         Column(
             writer.say(Words(en="Limit TL", de="Grenzwert TL")) + writer.marks.after("evaluate.tolerances"),
@@ -249,8 +251,7 @@ def _rule(keys: DecisionRuleKeys, limited: Sequence[Parameter], writer: Writer) 
         case "non-binary":
             return _NON_BINARY.given(risk=_tail(coverage_factor, writer))
         case _:
-            rule = _SIMPLE.given(largest=_largest_risk(limited, writer))
-            return _KNOWN_ERRORS.given(rule=rule) if any(each.known_error for each in limited) else rule
+            return _SIMPLE.given(largest=_largest_risk(limited, writer))
 
 
 def _largest_risk(limited: Sequence[Parameter], writer: Writer) -> Words:

@@ -10,12 +10,12 @@ from zlmreport.document.blocks import Block, Facts, Notice, RowGroup, Symbol, Ta
 from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
 from zlmreport.document.certificate.circumstances import Fact, date, days, stated_facts
 from zlmreport.document.certificate.conditions import (
-    AXIS_OR_CIRCLE,
     MACHINE_KINDS,
     axis_in_words,
     facts as facts_of_conditions,
     groups as conditions_in_groups,
     identified,
+    measured_of,
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import missing_readings
@@ -27,14 +27,12 @@ from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
 
 if TYPE_CHECKING:
+    from zlmreport.document.certificate.document import Certificate
     from zlmreport.document.certificate.material import Material
     from zlmreport.document.writer import Writer
     from zlmreport.evaluation.evaluation import Evaluation, Parameter
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
-
-
-_CALIBRATION = Words(en="Calibration", de="Kalibrierung")
 
 
 def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -> tuple[Block, ...]:
@@ -53,12 +51,12 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
     else:
         beside = identified(job, writer)
         of_conditions = facts_of_conditions(job, measurements, of.described, writer, beside)
-        first = (Facts(facts, writer.say(_CALIBRATION)), *of_conditions)
+        first = (Facts(facts, writer.say(statements.WORK[job.keys.certificate.kind])), *of_conditions)
     return (
         *amendment_notice(job.keys.certificate, writer),
         *first,
         _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None),
-        *uncertainty.statement(evaluated[0].budget, (measurements.axis.measurand,), writer),
+        *uncertainty.statement(evaluated[0].budget, evaluations, writer),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
         *unlikely(of, writer),
         *missing_readings(measurements, writer),
@@ -66,24 +64,24 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
         *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
         *statements.notices(job.keys, writer),
-        *(statements.paragraphs(job.keys, writer) if pages is None else ()),
+        *(statements.paragraphs(job, writer) if pages is None else ()),
     )
 
 
 #: Keys of the facts that one of several measurements has of its own.
-_OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
+OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
 
 
 def _of_part(of: Material) -> Iterator[Block]:
     """Yield what one of several measurements has of its own on the first page of their document."""
     job, measurements, writer = of.job, of.measurements, of.writer
     evaluations = tuple(each.evaluation for each in of.evaluated)
-    own = [each for each in identity(of, evaluations) if set(each.keys) & _OF_MEASUREMENT]
-    yield Facts(stated_facts(own, writer), writer.say(_CALIBRATION))
+    own = [each for each in identity(of, evaluations) if set(each.keys) & OF_MEASUREMENT]
+    yield Facts(stated_facts(own, writer), writer.say(statements.WORK[job.keys.certificate.kind]))
     for key, group in conditions_in_groups(job, measurements, of.described, writer):
         if key != "machine":
             yield group
-    yield from uncertainty.statement(of.evaluated[0].budget, (measurements.axis.measurand,), writer)
+    yield from uncertainty.statement(of.evaluated[0].budget, evaluations, writer)
     yield from unlikely(of, writer)
     yield from missing_readings(measurements, writer)
     yield from measured_lines.notices(of.tests, writer)
@@ -101,7 +99,7 @@ _EVIDENCE = Words(
 )
 
 
-def unlikely(of: Material, writer: Writer) -> Iterator[Notice]:
+def unlikely(of: Material | Certificate, writer: Writer) -> Iterator[Notice]:
     """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
     for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
         if sentences:
@@ -202,16 +200,14 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
         )
     kind = writer.say(MACHINE_KINDS[machine.kind])
     yield Fact(
-        Words(en="Item calibrated", de="Gegenstand"),
+        statements.ITEM[keys.certificate.kind],
         f"{machine.type} ({kind})" if machine.type else kind,
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
     yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     yield Fact(
-        AXIS_OR_CIRCLE[keys.circle is not None], axis_in_words(job, writer), ("axis.name", "axis.kind")
-    )
-    yield Fact(
-        Words(en="Evaluated by", de="Ausgewertet nach"),
+        Words(en="Evaluated in accordance with", de="Ausgewertet nach"),
         ", ".join(evaluation.designation for evaluation in evaluations),
         ("evaluate.standard",),
     )
@@ -234,10 +230,7 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
     yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
     if keys.next_due:
         yield Fact(
-            Words(
-                en="Next calibration due, as agreed with the customer",
-                de="Nächste Kalibrierung, wie mit dem Auftraggeber vereinbart",
-            ),
+            statements.NEXT_DUE[keys.certificate.kind],
             writer.date(keys.next_due.date),
         )
     if person:

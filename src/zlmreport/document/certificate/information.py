@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from zlmreport.evaluation.correction.compensated import compensated_by_instrument
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.language import Words
 from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN
 
@@ -36,7 +37,7 @@ class Information(Enum):
 _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
     {
         Information.MOTION: Words(
-            en="Feed, rest at each target and warm-up reported",
+            en="Feed, dwell at each target and warm-up reported",
             de="Vorschub, Verweilzeit je Position und Warmlauf angegeben",
         ),
         Information.PATH: Words(
@@ -44,8 +45,8 @@ _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
             de="Vorschub, Lage des Kreises in der Maschine und Warmlauf angegeben",
         ),
         Information.MEASURING_LINE: Words(
-            en="Measuring line, its offsets and the positions of the other axes reported",
-            de="Messlinie, ihre Abstände und die Stellungen der übrigen Achsen angegeben",
+            en="Measuring line, or where the other axes stood, reported",
+            de="Messlinie oder die Stellungen der übrigen Achsen angegeben",
         ),
         Information.COMPENSATION: Words(
             en="Compensations of the machine that were active reported",
@@ -56,8 +57,9 @@ _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
             de="Temperaturen und ihre Messstellen angegeben",
         ),
         Information.REFERENCE_TEMPERATURE: Words(
-            en="Results for 20 °C: measured there, corrected to it, or the expansion counted in U",
-            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder die Ausdehnung in U enthalten",
+            en="Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U",
+            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder, bis 1 K davon, die Ausdehnung in U "
+            "enthalten",
         ),
         Information.INSTRUMENT: Words(
             en="Measuring instrument, its calibration and its compensation reported",
@@ -141,12 +143,13 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
     """Yield what of the information the job does not state."""
     keys = job.keys
     measurement, instrument, environment = keys.measurement, keys.instrument, keys.environment
-    logged, circle = measurements.conditions, keys.circle
+    logged = {name for line in measurements.lines for name in line.conditions}
+    circle = keys.circle
     length = environment and (environment.axis_temperature or environment.material_temperature)
     stated: Mapping[Information, tuple[tuple[Words, object], ...]] = {
         Information.MOTION: (
             (Words("feed", "Vorschub"), measurement.feed),
-            (Words("rest at each target", "Verweilzeit je Position"), measurement.dwell),
+            (Words("dwell at each target", "Verweilzeit je Position"), measurement.dwell),
             (Words("warm-up", "Warmlauf"), measurement.warm_up),
         ),
         Information.PATH: (
@@ -170,16 +173,19 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
             ),
             (
                 Words("temperature of the machine", "Temperatur der Maschine"),
-                length or logged.keys() & {"axis_temperature", "material_temperature"},
+                length or logged & {"axis_temperature", "material_temperature"},
             ),
             (
-                Words("places of the sensors", "Messstellen"),
+                Words("sensor locations", "Messstellen"),
                 environment and environment.sensors,
             ),
         ),
         Information.INSTRUMENT: (
             (Words("instrument", "Messgerät"), instrument),
-            (Words("its calibration", "seine Kalibrierung"), instrument and instrument.certificate),
+            (
+                Words("its calibration", "seine Kalibrierung"),
+                instrument and is_reference(instrument.certificate or ""),
+            ),
             (
                 Words("its compensation", "seine Kompensation"),
                 instrument

@@ -110,7 +110,9 @@ def uncertainty_sections(of: Material) -> Iterator[Section]:
     elif of.tests:
         yield measured_lines.uncertainty_of_lines(of.evaluated[0], of.tests, of.writer)
     else:
-        yield uncertainty.section(of.evaluated[0].budget, of.job.axis, of.writer)
+        yield uncertainty.section(
+            of.evaluated[0].budget, [each.evaluation for each in of.evaluated], of.writer
+        )
 
 
 def readings_sections(of: Material) -> Iterator[Section]:

@@ -20,7 +20,7 @@ _OWN = ("axis", "measurement", "instrument", "environment")
 _TABLE = Words(en="{name}: {caption}", de="{name}: {caption}")
 
 
-def said_of_each(lines: Iterable[tuple[str, Iterable[Words]]]) -> Iterator[Words]:
+def said_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
     """Yield sentences, each with the name of the line that it is on; without one where there is only one."""
     for name, sentences in lines:
         for said in sentences:
@@ -78,7 +78,7 @@ def readings_of_lines(tests: Sequence[Tested], writer: Writer) -> Iterator[Secti
 
 def uncertainty_of_lines(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
     """Return the uncertainty of what follows from the lines, and the budget of each."""
-    section = uncertainty.section(evaluated.budget, evaluated.evaluation.measurements.axis, writer)
+    section = uncertainty.section(evaluated.budget, (evaluated.evaluation,), writer)
     blocks = list(section.blocks)
     for test in tests:
         own = writer_of(test, writer)

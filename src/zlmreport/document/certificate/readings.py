@@ -21,6 +21,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate.statements import exclusion_notice
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
@@ -49,6 +50,12 @@ _IN_FILES = Words(
     "unter „Herkunft der Ergebnisse“ genannt; das PDF enthält sie, und die Mittelwerte an jedem Winkel in "
     "seiner Ergebnisdatei.",
 )
+_IN_FILES_OVER_TIME = Words(
+    en="The {count} readings that are evaluated are not printed. The files that they were read from are "
+    "named under “Origin of the results”; the PDF carries them.",
+    de="Die {count} ausgewerteten Messwerte sind nicht abgedruckt. Die Dateien, aus denen sie stammen, sind "
+    "unter „Herkunft der Ergebnisse“ genannt; das PDF enthält sie.",
+)
 _CAPTION = Words(
     en="Deviations x = {sign}, in the order of runs",
     de="Abweichungen x = {sign}, in der Reihenfolge der Durchläufe",
@@ -70,7 +77,9 @@ def section(measurements: MeasurementSet, writer: Writer, key: str = "measuremen
     ]
     if measurements.axis.measurand.is_continuous:
         count = int(np.count_nonzero(np.isfinite(measurements.deviation)))
-        blocks.append(Paragraph(writer.say(_IN_FILES.given(count=count))))
+        is_over_time = measurements.axis.measurand.coordinate is Coordinate.TIME
+        said = _IN_FILES_OVER_TIME if is_over_time else _IN_FILES
+        blocks.append(Paragraph(writer.say(said.given(count=count))))
         return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks))
     columns = [
         (approach, index) for approach in measurements.approaches for index in range(len(measurements.runs))

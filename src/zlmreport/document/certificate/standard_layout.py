@@ -5,7 +5,7 @@ Editions that give the same numbers share their page, and it says so.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias, TypeGuard
 
@@ -71,8 +71,8 @@ def lay_out(of: Material) -> LaidOut:
     pages = together(of.evaluated, of.writer)
     page = columns.PAGES[of.job.keys.certificate.paper]
     on_cover = cover.blocks(of, pages)
-    said = () if of.is_part else tuple(statements.paragraphs(of.job.keys, of.writer))
-    free = page - columns.head_height(of.letterhead, of.title) - columns.height(on_cover)
+    said = () if of.is_part else tuple(statements.paragraphs(of.job, of.writer))
+    free = page - head_height(of) - columns.height(on_cover)
     is_said_at_end = columns.height(said) > free >= 0
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
     *others, last = map(_without_graphs, uncertainty_sections(of))
@@ -95,13 +95,26 @@ def lay_out(of: Material) -> LaidOut:
     )
 
 
-def results_by_line(of: Material) -> Iterator[Section]:
+def head_height(of: Material) -> float:
+    """Return how high a document's letterhead and title stand, points."""
+    subject = of.writer.say(statements.subject_of(of.job))
+    return columns.head_height(of.letterhead, of.title, subject, of.job.keys.certificate.number)
+
+
+def of_one(each: Evaluated, writer: Writer) -> Section:
+    """Return the results by one standard."""
+    return page((each,), writer)
+
+
+def results_by_line(
+    of: Material, section_of: Callable[[Evaluated, Writer], Section] = of_one
+) -> Iterator[Section]:
     """Yield what is said of each of several measured lines, on a page if it fits on one.
 
     Lines of which little is said share one, and below a line that ends at the top of a page the next goes on.
     """
     known = conditions.groups(of.job, of.measurements, of.described, of.writer)
-    sections = results_of_lines(of.tests, known, of.writer, lambda each, writer: page((each,), writer))
+    sections = results_of_lines(of.tests, known, of.writer, section_of)
     room = columns.PAGES[of.job.keys.certificate.paper]
     used = room
     for each in sections:
@@ -130,9 +143,7 @@ def _results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator
     if keys:
         from zlmreport.document.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
 
-        sections = beside_as_found(
-            keys, sections, of.as_found, of.evaluated, of.writer, lambda each, writer: page((each,), writer)
-        )
+        sections = beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, of_one)
         comparison = on_a_page(in_smaller_type(next(sections)), columns.PAGES[of.job.keys.certificate.paper])
         yield replace(comparison, new_page=room_of_page is not None)
     if room_of_page is None:
@@ -256,14 +267,14 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
     """
     single = [each for each in figures if len(each.panels) == 1]
     main = main_graph(figures)
-    if main is not None:
+    if main is not None and len(main.panels) == 1:
         again = [each for each in single if each is not main and _shows_again(each.panels[0], main.panels[0])]
         readings = main.panels[0].readings or next((each.panels[0].readings for each in again), ())
         height = _ROUND if main.panels[0].is_polar else _MAIN
         yield replace(main, panels=(replace(main.panels[0], readings=readings),), height=height)
         single = [each for each in single if each is not main and each not in again]
     for each in figures:
-        if 1 < len(each.panels) <= _MOST_BESIDE:
+        if 1 < len(each.panels) <= _MOST_BESIDE and not each.has_several_quantities:
             yield replace(each, height=_BESIDE, is_wide=True)
         elif len(each.panels) > 1:
             yield each
@@ -274,9 +285,10 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
 def main_graph(figures: Sequence[Figure]) -> Figure | None:
     """Return the graph that shows where the parameters arise; any other of one panel if none does.
 
-    Of a circle it is that about the circle.
+    Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis.
     """
     single = [each for each in figures if len(each.panels) == 1]
+    single = single or [each for each in figures if each.has_several_quantities]
     single = [each for each in single if each.panels[0].is_polar] or single
     return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
 

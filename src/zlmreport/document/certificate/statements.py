@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
-from zlmreport.evaluation.uncertainty.reasons import is_reference
+from zlmreport.evaluation import traceability
 from zlmreport.language import Words, same
 from zlmreport.measurement.error_symbol import error_named
 from zlmreport.measurement.units import with_unit
@@ -19,10 +19,35 @@ if TYPE_CHECKING:
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.measurement.provenance import Exclusion
 
-_ONLY_THIS_ITEM = Words(
-    en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
-    de="Die Ergebnisse gelten nur für den kalibrierten Gegenstand in seinem Zustand zur Zeit der Messung.",
-)
+#: What a document of each kind is about: a measuring report calibrates nothing.
+ITEM = {
+    "certificate": Words(en="Item calibrated", de="Kalibriergegenstand"),
+    "report": Words(en="Item measured", de="Messgegenstand"),
+}
+WORK = {
+    "certificate": Words(en="Calibration", de="Kalibrierung"),
+    "report": Words(en="Report", de="Bericht"),
+}
+NEXT_DUE = {
+    "certificate": Words(
+        en="Next calibration due, as agreed with the customer",
+        de="Nächste Kalibrierung, wie mit dem Auftraggeber vereinbart",
+    ),
+    "report": Words(
+        en="Next measurement due, as agreed with the customer",
+        de="Nächste Messung, wie mit dem Auftraggeber vereinbart",
+    ),
+}
+_ONLY_THIS_ITEM = {
+    "certificate": Words(
+        en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
+        de="Die Ergebnisse gelten nur für den Kalibriergegenstand in seinem Zustand zur Zeit der Messung.",
+    ),
+    "report": Words(
+        en="The results relate only to the item measured, in its condition at the time of the measurement.",
+        de="Die Ergebnisse gelten nur für den Messgegenstand in seinem Zustand zur Zeit der Messung.",
+    ),
+}
 #: The statement of 7.8.4.1 c.
 TRACEABLE = Words(
     en="The results are metrologically traceable through the calibration of the measuring instrument "
@@ -108,8 +133,8 @@ _REASON = Words(en="Reason: {reason}", de="Grund: {reason}")
 _CHANGE = Words(en="Changed: {change}", de="Geändert: {change}")
 #: Above every opinion of a document.
 OPINION = Words(
-    en="Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the calibration",
-    de="Meinung und Interpretation (ISO/IEC 17025:2017, 7.8.7), kein Ergebnis der Kalibrierung",
+    en="Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement",
+    de="Meinung und Interpretation (ISO/IEC 17025:2017, 7.8.7), kein Ergebnis der Messung",
 )
 _OPINIONS = Words(en="Opinions and interpretations", de="Meinungen und Interpretationen")
 _RESTS = Words(
@@ -118,10 +143,14 @@ _RESTS = Words(
 )
 
 
-def notices(keys: JobKeys, writer: Writer) -> Iterator[Notice]:
-    """Yield what nobody may overlook: how the work departed from the method, and what others did."""
+def notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> Iterator[Notice]:
+    """Yield what nobody may overlook: how the work departed from the method, and what others did.
+
+    `names_all`: Whether every reading that was set aside is named, for no section on the readings names it.
+    """
     deviations = keys.measurement.deviations_from_method
-    items = (*([deviations] if deviations else []), *exclusions_stated(keys, writer))
+    most = None if names_all else _MOST_NAMED
+    items = (*([deviations] if deviations else []), *exclusions_stated(keys, writer, most))
     if items:
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
@@ -138,16 +167,17 @@ def notices(keys: JobKeys, writer: Writer) -> Iterator[Notice]:
         )
 
 
-def paragraphs(keys: JobKeys, writer: Writer) -> Iterator[Block]:
+def paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     """Yield the statements in running text."""
+    keys = job.keys
     if keys.provided_by_customer:
         yield Paragraph(writer.say(_SUPPLIED.given(mark=BY_CUSTOMER)))
     if keys.agreement.simplified:
         reference = keys.agreement.reference
         yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
-    if keys.instrument and keys.instrument.certificate and is_reference(keys.instrument.certificate):
-        yield Paragraph(writer.say(TRACEABLE.given(certificate=keys.instrument.certificate)))
-    yield Paragraph(writer.say(_ONLY_THIS_ITEM))
+    if keys.instrument and traceability.is_shown(job):
+        yield Paragraph(writer.say(TRACEABLE.given(certificate=keys.instrument.certificate or "")))
+    yield Paragraph(writer.say(_ONLY_THIS_ITEM[keys.certificate.kind]))
     if keys.certificate.kind == "certificate":
         yield Paragraph(writer.say(_ONLY_IN_FULL))
 
@@ -171,8 +201,11 @@ def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _K
         yield Notice(marked, tuple(_item(each, writer) for each in exclusions))
 
 
-def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
-    """Return what the first page says of readings that were set aside: they depart from the method."""
+def exclusions_stated(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
+    """Return what the first page says of readings that were set aside: they depart from the method.
+
+    `most`: Of so many; all of them if it is None.
+    """
     found = [(_EXCLUSION_STATED, _KEY, each) for each in keys.measurement.excluded]
     if keys.as_found:
         found += [(_STATED_AS_FOUND, f"as_found.{_KEY}", each) for each in keys.as_found.measurement.excluded]
@@ -186,10 +219,10 @@ def exclusions_stated(keys: JobKeys, writer: Writer) -> tuple[str, ...]:
                 reason=each.reason,
             )
         )
-        for words, key, each in found[:_MOST_NAMED]
+        for words, key, each in found[:most]
     ]
-    if len(found) > _MOST_NAMED:
-        items.append(writer.say(_MORE.given(count=len(found) - _MOST_NAMED)))
+    if len(found) > len(items):
+        items.append(writer.say(_MORE.given(count=len(found) - len(items))))
     return tuple(items)
 
 

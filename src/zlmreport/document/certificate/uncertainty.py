@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import (
@@ -29,8 +29,8 @@ from zlmreport.measurement.units import MICROMETRE
 
 if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
+    from zlmreport.evaluation.evaluation import Evaluation
     from zlmreport.measurement.axis import Axis
-    from zlmreport.measurement.measurand import Measurand
 
 _TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
 _COVERAGE = Words(
@@ -41,9 +41,10 @@ _COVERAGE = Words(
 )
 _INTERVAL = Words(
     en="{coverage} The interval of the axis holds, with the same probability, what another test of this "
-    "axis by the same plan would find.",
+    "axis by the same plan would find with the same set-up left in place; errors of the set-up are not in it.",
     de="{coverage} Das Intervall der Achse enthält mit derselben Wahrscheinlichkeit, was eine weitere "
-    "Messung nach demselben Plan fände.",
+    "Messung nach demselben Plan mit derselben, unveränderten Messeinrichtung fände; Fehler der "
+    "Messeinrichtung enthält es nicht.",
 )
 _INCOMPLETE = Words(
     en="U incomplete: {missing} not considered",
@@ -102,6 +103,12 @@ _SCATTER = Words(
     de="Die Streuung der Achse selbst ist eine Eigenschaft der Achse, die die Kenngrößen angeben, und keine "
     "Unsicherheit der Messung.",
 )
+_UNSEEN_SCATTER = Words(
+    en="The scatter of the axis itself is a property of the axis and no uncertainty of the measurement; a "
+    "single run does not show it.",
+    de="Die Streuung der Achse selbst ist eine Eigenschaft der Achse und keine Unsicherheit der Messung; ein "
+    "einzelner Durchlauf zeigt sie nicht.",
+)
 _SCATTER_OF_THE_MACHINE = Words(
     en="What the machine does otherwise from time to time is a property of the machine, and no uncertainty "
     "of the measurement.",
@@ -136,16 +143,19 @@ _NO_BUDGET = Words(
 )
 
 
-def statement(budget: Budget | NoBudget, measurands: Iterable[Measurand], writer: Writer) -> Iterator[Block]:
+def statement(
+    budget: Budget | NoBudget, evaluations: Iterable[Evaluation], writer: Writer
+) -> Iterator[Block]:
     """Yield what U means, what it leaves out, or why there is none: for the first page.
 
-    `measurands`: What was measured; targets at which an axis stops have an interval of that axis.
+    `evaluations`: What it is of: where they have intervals of the axis, it is said what these are.
     """
     if isinstance(budget, NoBudget):
         yield Paragraph(writer.say(_NO_BUDGET.given(reason=budget.reason)))
     elif budget.is_complete:
-        stops = not all(each.is_continuous for each in measurands)
-        yield Paragraph(writer.say(_INTERVAL.given(coverage=_COVERAGE) if stops else _COVERAGE))
+        parameters = [each for evaluation in evaluations for each in evaluation.parameters]
+        has_interval = any(each.axis_interval is not None for each in parameters)
+        yield Paragraph(writer.say(_INTERVAL.given(coverage=_COVERAGE) if has_interval else _COVERAGE))
     else:
         missing = "; ".join(writer.say(wording.contributor(name)) for name in budget.missing)
         yield Notice(writer.say(_INCOMPLETE.given(missing=missing)), (writer.say(_INCOMPLETE_MEANS),))
@@ -171,18 +181,22 @@ def neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragraph]:
         yield Paragraph(f"{writer.say(_NEGLIGIBLE)}: {said}.")
 
 
-def section(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Section:
-    """Return the section on the uncertainty of everything that the document states."""
-    return Section("uncertainty", writer.say(_TITLE), tuple(_blocks(budget, axis, writer)))
+def section(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:
+    """Return the section on the uncertainty of everything that evaluations of one test state."""
+    return Section("uncertainty", writer.say(_TITLE), tuple(_blocks(budget, evaluations, writer)))
 
 
-def _blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
-    yield from statement(budget, (axis.measurand,), writer)
+def _blocks(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
+    measurements = evaluations[0].measurements
+    axis = measurements.axis
+    yield from statement(budget, evaluations, writer)
     if isinstance(budget, NoBudget):
         return
     method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
     yield Paragraph(writer.say(_METHOD_BY_POSITION.given(method=method) if stops else method))
-    yield Paragraph(writer.say(_SCATTER if stops else _SCATTER_OF_THE_MACHINE))
+    scatters = any(len(each.runs) > 1 for each in measurements.lines)
+    of_axis = _SCATTER if scatters else _UNSEEN_SCATTER
+    yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))
     if not budget.tests:  # each line of several has a budget of its own
         yield from own_blocks(budget, axis, writer)
     yield from _declared(budget, writer)
@@ -206,7 +220,7 @@ def _declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
 
 def _table(budget: Budget, writer: Writer) -> Table:
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Zeichen"))),
+        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
         Column(writer.say(Words(en="Contribution and its source", de="Beitrag und seine Quelle"))),
         Column(
             writer.say(Words(en="Stated", de="Angabe"))

@@ -16,7 +16,7 @@ from zlmreport.measurement.units import with_unit
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
 
-_SYMBOL = Words(en="Symbol", de="Zeichen")
+_SYMBOL = Words(en="Symbol", de="Formelzeichen")
 _PARAMETER = Words(en="Parameter", de="Kenngröße")
 _VALUE = Words(en="Value", de="Wert")
 _AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")

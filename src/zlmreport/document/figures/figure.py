@@ -34,6 +34,12 @@ class Role(Enum):
     UNCERTAINTY_NEGATIVE = "expanded uncertainty of the model, negative approach"
     NOISE = "scatter of single readings"
     PATH = "motion of the axis"
+    CHANNEL_1 = "first of several channels over time"
+    CHANNEL_2 = "second of several channels"
+    CHANNEL_3 = "third of several channels"
+    CHANNEL_4 = "fourth of several channels"
+    CHANNEL_5 = "fifth of several channels"
+    CHANNEL_6 = "sixth of several channels"
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +159,9 @@ class Panel:
     directions
         Of a panel about a circle: angles, degrees, and what stands at them beside the angle, such as the
         letter of the axis that turns round there; a point on the nominal circle marks each.
+    y_title, y_unit
+        The quantity of a panel that shows another than the figure, and its unit as printed; None and empty
+        for the figure's.
     """
 
     heading: Words | None = None
@@ -165,6 +174,8 @@ class Panel:
     bars: tuple[Bar, ...] = ()
     projection: Literal["straight", "polar"] = "straight"
     directions: tuple[tuple[float, str], ...] = ()
+    y_title: Words | None = None
+    y_unit: str = ""
 
     @property
     def is_polar(self) -> bool:
@@ -209,3 +220,12 @@ class Figure:
     spans_are_alike: bool = True
     height: float | None = None
     is_wide: bool = False
+
+    @property
+    def has_several_quantities(self) -> bool:
+        """Whether panels show quantities of their own: then they stand one below the other on one axis."""
+        return any(panel.y_title for panel in self.panels)
+
+    def value_axis(self, panel: Panel) -> tuple[Words, str]:
+        """Return the quantity along the upright axis of one of its panels, and its unit as printed."""
+        return (panel.y_title, panel.y_unit) if panel.y_title else (self.y_title, self.y_unit)

@@ -5,7 +5,7 @@ All places are points from the lower left corner of the drawing, y upwards.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,20 +108,35 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
     x_title = plain_label(axis_title(figure.x_title, figure.x_unit, language), TEXT_SIZE)
-    y_title = plain_label(axis_title(figure.y_title, figure.y_unit, language), TEXT_SIZE)
-    top = boxes[0].top if boxes else height
     right = boxes[-1].right if boxes else right
-    middle = (bottom + top - y_title.width) / 2
-    foot = max(_EDGE, min(middle, height - _EDGE - y_title.width))
     if all(panel.is_polar for panel in figure.panels) and panels:
         told = plain_label(_magnified(figure, panels, language), TEXT_SIZE)
         alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
         return FigureLayout(WIDTH, height, panels, (alone,))
     titles = (
         PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE),
-        PlacedLabel(y_title, _EDGE + 0.8 * TEXT_SIZE, foot, 90.0),
+        *_value_titles(figure, boxes, language, Box(left, bottom, right, height)),
     )
     return FigureLayout(WIDTH, height, panels, titles)
+
+
+def _value_titles(
+    figure: Figure, boxes: Sequence[Box], language: Language, room: Box
+) -> Iterator[PlacedLabel]:
+    """Yield what stands at the upright axes: once for all panels, or at each where their quantities differ.
+
+    `room`: Of all panels together, up to the upper edge of the figure.
+    """
+    if figure.has_several_quantities:
+        axes = [(figure.value_axis(panel), box) for panel, box in zip(figure.panels, boxes, strict=True)]
+    else:
+        top = boxes[0].top if boxes else room.top
+        axes = [((figure.y_title, figure.y_unit), Box(room.left, room.bottom, room.right, top))]
+    for (quantity, unit), box in axes:
+        label = plain_label(axis_title(quantity, unit, language), TEXT_SIZE)
+        middle = (box.bottom + box.top - label.width) / 2
+        foot = max(_EDGE, min(middle, room.top - _EDGE - label.width))
+        yield PlacedLabel(label, box.left - room.left + _EDGE + 0.8 * TEXT_SIZE, foot, 90.0)
 
 
 _DIVISION = Words(

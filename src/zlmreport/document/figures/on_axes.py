@@ -82,7 +82,7 @@ def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> N
     is_lowest = number == len(figure.panels) - 1
     _set_scales(layout.frame, axes, size, is_lowest=is_lowest, is_polar=layout.panel.is_polar)
     font = _font(Face.REGULAR, TEXT_SIZE)
-    axes.set_ylabel(axis_title(figure.y_title, figure.y_unit, language), fontproperties=font)
+    axes.set_ylabel(axis_title(*figure.value_axis(figure.panels[number]), language), fontproperties=font)
     if is_lowest:
         axes.set_xlabel(axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
     shapes = chain(panel_shapes(layout, is_lowest=is_lowest), legend_shapes(layout))

@@ -93,6 +93,12 @@ ROLES = {
     Role.UNCERTAINTY_NEGATIVE: _style(_VERMILION, 0.6, (0.7, 0.9), None, 0.14),
     Role.NOISE: _style(_BLACK, 0.7, (3.2, 1.8), None, 0.07),
     Role.PATH: _style(_GREY, 0.5, (24.0, 0.8), None, 0.06),
+    Role.CHANNEL_1: _style(_BLUE, 1.0, (40.0, 0.6), None, 0.06),
+    Role.CHANNEL_2: _style(_VERMILION, 1.0, (6.0, 1.8), None, 0.06),
+    Role.CHANNEL_3: _style(_BLACK, 1.0, (1.2, 1.2), None, 0.06),
+    Role.CHANNEL_4: _style(_GREEN, 1.0, (10.0, 1.6, 1.2, 1.6), None, 0.06),
+    Role.CHANNEL_5: _style(_VIOLET, 1.0, (3.0, 1.2), None, 0.06),
+    Role.CHANNEL_6: _style(_GREY, 1.0, (12.0, 1.6, 1.2, 1.4, 1.2, 1.6), None, 0.06),
 }
 MARK_SIZES = {Mark.UP: 4.6, Mark.DOWN: 4.6, Mark.DISC: 3.8}
 

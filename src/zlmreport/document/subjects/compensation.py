@@ -115,7 +115,7 @@ _APPLIED = Words(
 )
 _SHIFTED = Words(en="It is shifted by {length}.", de="Sie ist um {length} verschoben.")
 _WITHIN, _OUTSIDE = Words(en="within", de="innerhalb"), Words(en="outside", de="außerhalb")
-_SYMBOL, _PARAMETER = Words(en="Symbol", de="Zeichen"), Words(en="Parameter", de="Kenngröße")
+_SYMBOL, _PARAMETER = Words(en="Symbol", de="Formelzeichen"), Words(en="Parameter", de="Kenngröße")
 _BEFORE, _SECOND_TEST = Words(en="Before", de="Vorher"), Words(en="Second test", de="Zweite Prüfung")
 _FORECAST = Words(
     en="Forecast from the files as the control reads them",

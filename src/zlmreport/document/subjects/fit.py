@@ -36,9 +36,9 @@ from zlmreport.model.fitting.fit import Fit
 ERROR = Words(en="Error of the model", de="Abweichung des Modells")
 EFFECTS = Words(en="The model's effects", de="Die Einflüsse des Modells")
 _EACH_DIRECTION = Words(en="Each direction by itself", de="Jede Richtung für sich")
-_RMS = Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen")
-_FLOOR = Words(en="Noise floor", de="Grundrauschen")
-_LEFT_OUT = Words(en="Runs predicted from the others", de="Durchläufe, aus den übrigen vorhergesagt")
+RMS = Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen")
+FLOOR = Words(en="Noise floor", de="Grundrauschen")
+LEFT_OUT = Words(en="Runs predicted from the others", de="Durchläufe, aus den übrigen vorhergesagt")
 _READINGS = Words(en="readings", de="Messwerte")
 _AMPLITUDE = Words(
     en="Amplitude of harmonic {order}, from the above", de="Amplitude der {order}. Harmonischen, aus Obigem"
@@ -189,7 +189,7 @@ def fit_sections(fitted: Fitted, language: Language) -> tuple[Section, ...]:
 
 def error_facts(error: ErrorNumbers, axis: Axis, language: Language) -> Facts:
     """Return how far model and readings are apart, root mean square first; what the test tells of it."""
-    values = ((_RMS, error.rms), (_FLOOR, error.noise_rms), (_LEFT_OUT, error.cross_validated_rms))
+    values = ((RMS, error.rms), (FLOOR, error.noise_rms), (LEFT_OUT, error.cross_validated_rms))
     pairs = [
         (name.in_language(language), with_unit(deviation(value, axis, language), axis.deviation_unit.symbol))
         for name, value in values

@@ -145,7 +145,7 @@ def left_after_compensation(forecasts: Sequence[StandardForecast], writer: Write
     """Return what a compensation would leave of the leading parameters of each standard."""
     say, unit = writer.say, writer.deviation_unit.symbol
     columns = (
-        Column(say(Words(en="Symbol", de="Zeichen"))),
+        Column(say(Words(en="Symbol", de="Formelzeichen"))),
         Column(say(Words(en="Parameter", de="Kenngröße"))),
         Column(say(Words(en="Measured", de="Gemessen")), unit, Align.RIGHT),
         Column(say(Words(en="Table of positions", de="Positionstabelle")), unit, Align.RIGHT),

@@ -14,7 +14,22 @@ _INTERFEROMETER = re.compile(
     r"\blaser(?!.*(triangul|sensor|scanner|distan|abstand))",
     re.IGNORECASE,
 )
+#: A part of what is said of an instrument's compensation: up to a comma, a semicolon, a bracket, an "and".
+_PART = re.compile(r"[;,()]|\.\s|\b(?:and|but|only|und|aber|nur)\b", re.IGNORECASE)
 _NOTHING = re.compile(r"\W*(none|no|off|nothing|without|keine?|aus|nichts|ohne)\b\W*", re.IGNORECASE)
+_NOT = re.compile(
+    r"\b(no|not|non|none|off|without|disabled|inactive|un-?compensated|uncorrected|fixed|kein\w*|nicht|aus|ohne|"
+    r"un-?kompensiert|unkorrigiert|deaktiviert|inaktiv|fest\w*)\b",
+    re.IGNORECASE,
+)
+_THE_AIR = re.compile(
+    r"\bair\b|luft|refract|brech|edl[eé]n|ciddor|wave-?length|wellenl|weather|wetter|environment|umwelt|"
+    r"umgebung|ambient|atmos|\bindex\b",
+    re.IGNORECASE,
+)
+_ANYTHING_ELSE = re.compile(
+    r"material|expansion|ausdehnung|werkstoff|temperat|dead|totstrecke", re.IGNORECASE
+)
 
 
 def compensated_by_instrument(job: Job, measurements: MeasurementSet) -> Compensated:
@@ -45,4 +60,22 @@ def is_blind_to_air(job: Job) -> bool:
     if instrument.compensates is not None and instrument.compensates.air is not None:
         return not instrument.compensates.air
     said = instrument.compensation
-    return bool(said and _NOTHING.fullmatch(said) and _INTERFEROMETER.search(instrument.name))
+    return bool(said and _INTERFEROMETER.search(instrument.name) and says_air_is_left(said))
+
+
+def says_air_is_left(said: str) -> bool:
+    """Return whether words on an instrument's compensation say that it did not look at the air.
+
+    They do where they deny compensation, or name another one only, and do not say that the air was looked at.
+
+    >>> says_air_is_left("not compensated"), says_air_is_left("material only")
+    (True, True)
+    >>> says_air_is_left("refractive index of the air; no material temperature")
+    False
+    """
+    parts = [part for part in _PART.split(said) if part.strip()]
+    if any(_NOTHING.fullmatch(part) for part in parts):
+        return True
+    if any(_THE_AIR.search(part) and not _NOT.search(part) for part in parts):
+        return False
+    return any(_NOT.search(part) or _ANYTHING_ELSE.search(part) for part in parts)

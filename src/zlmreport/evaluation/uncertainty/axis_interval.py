@@ -23,7 +23,9 @@ import numpy as np
 
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.statistics import PositionStatistics, joined_statistics, position_statistics
+from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.evaluation.uncertainty.monte_carlo import StandardArithmetic, seed_of, shortened
+from zlmreport.evaluation.uncertainty.rounding import Axes, drawn_axes, hiding_resolution
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 
@@ -42,6 +44,8 @@ _GROWS = 3.0
 #: Standard errors by which variances are taken to differ more than they seem to.
 _CAUTION = 1.0
 _STEP = 1e-3
+#: Part of an interval by which its ends lie beyond the values that they hold.
+_INSIDE = 1e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +63,9 @@ class _Scatter:
 
 
 def axis_intervals(
-    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]], pairs: int = PAIRS
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+    pairs: int = PAIRS,
+    budget: Budget | None = None,
 ) -> tuple[Mapping[str, tuple[float, float]], ...]:
     """Return for each evaluation of one test the interval of each parameter, m or rad.
 
@@ -68,11 +74,12 @@ def axis_intervals(
 
     `evaluations`: Of one test, one at least, each with the arithmetic that takes it from statistics to
         parameters.
+    `budget`: Of its set-up: a resolution that hides the scatter hides it in the next test, too.
     """
     measurements = evaluations[0][0].measurements
     generator = np.random.Generator(np.random.PCG64(seed_of(measurements)))
     stops = not measurements.axis.measurand.is_continuous
-    simulated = _simulated_pairs(measurements, pairs, generator) if stops else None
+    simulated = _simulated_pairs(measurements, pairs, generator, budget) if stops else None
     if simulated is None:
         return tuple({} for _ in evaluations)
     first, second = simulated
@@ -90,11 +97,15 @@ def axis_intervals(
 
 
 def _simulated_pairs(
-    measurements: MeasurementSet, pairs: int, generator: np.random.Generator
+    measurements: MeasurementSet, pairs: int, generator: np.random.Generator, budget: Budget | None
 ) -> tuple[PositionStatistics, PositionStatistics] | None:
     """Return two stacks of tests, of each axis one in each; None where a line tells nothing of scatter."""
     if measurements.tests:
-        lines = {name: _simulated_pairs(each, pairs, generator) for name, each in measurements.tests.items()}
+        budgets = budget.tests if budget else {}
+        lines = {
+            name: _simulated_pairs(each, pairs, generator, budgets.get(name))
+            for name, each in measurements.tests.items()
+        }
         known = {name: each for name, each in lines.items() if each}
         if len(known) < len(lines):
             return None
@@ -104,9 +115,11 @@ def _simulated_pairs(
     scatter = _scatter_of(readings, measurements.target_positions)
     if scatter is None:
         return None
+    hiding = hiding_resolution(budget, readings) if budget else None
+    axes = drawn_axes(hiding, readings, pairs, generator) if hiding else None
     first, second = (
         position_statistics(each, measurements.target_positions)
-        for each in _pairs(scatter, np.isfinite(readings), pairs, generator)
+        for each in _pairs(scatter, np.isfinite(readings), pairs, generator, axes)
     )
     return first, second
 
@@ -115,7 +128,10 @@ def _interval(value: float, one: FloatArray, other: FloatArray) -> tuple[float, 
     """Return the value with the quantiles of the differences within pairs on either side."""
     tail = (1.0 - PROBABILITY) / 2
     differences = np.concatenate((other - one, one - other))
-    low, high = np.quantile(differences, (tail, 1.0 - tail))
+    # Of rounded readings a parameter has few values: the ends are values that occurred, and are inside.
+    low = np.quantile(differences, tail, method="lower")
+    high = np.quantile(differences, 1.0 - tail, method="higher")
+    low, high = (each + side * _INSIDE * (high - low) for each, side in ((low, -1), (high, 1)))
     never_negative = value >= 0 and float(min(one.min(), other.min())) >= 0
     lowest = value + float(low)
     return shortened(max(lowest, 0.0) if never_negative else lowest), shortened(value + float(high))
@@ -222,11 +238,20 @@ def _alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray
 
 
 def _pairs(
-    scatter: _Scatter, there: BoolArray, count: int, generator: np.random.Generator
+    scatter: _Scatter, there: BoolArray, count: int, generator: np.random.Generator, axes: Axes | None = None
 ) -> tuple[FloatArray, FloatArray]:
-    """Return two stacks of tests, (count, approach, position, run): of each axis one in each stack."""
+    """Return two stacks of tests, (count, approach, position, run): of each axis one in each stack.
+
+    `axes`: That are drawn where the last digit hides the scatter; both tests are then rounded.
+    """
     shape = (count, *there.shape[:2])
-    variance = scatter.variance * scatter.freedom / (2 * generator.standard_gamma(scatter.freedom / 2, shape))
+    if axes is None:
+        freedom = scatter.freedom / 2
+        variance = scatter.variance * freedom / generator.standard_gamma(freedom, shape)
+        means = scatter.mean
+    else:
+        variance = np.broadcast_to(axes.sigma[:, np.newaxis, np.newaxis] ** 2, shape)
+        means = axes.means
     freedom = np.maximum(scatter.run_freedom, 1.0)
     of_means = scatter.run_variance * freedom / (2 * generator.standard_gamma(freedom / 2, shape[:2]))
     positions = np.maximum(there.any(axis=-1).sum(axis=1), 1)
@@ -238,9 +263,9 @@ def _pairs(
         test = generator.standard_normal((count, *there.shape))
         test *= np.sqrt(variance)[..., np.newaxis]
         test += (np.sqrt(shared)[..., np.newaxis] * run)[:, :, np.newaxis, :]
-        test += scatter.mean[..., np.newaxis]
+        test += means[..., np.newaxis]
         test[:, ~there] = np.nan
-        tests.append(test)
+        tests.append(axes.rounded(test) if axes else test)
     return tests[0], tests[1]
 
 

@@ -100,6 +100,9 @@ class Contribution:
         Where that figure comes from.
     contributor
         Which usual contributor it is, by its key under ``uncertainty`` or ``instrument``; None for others.
+    effect : (N,) array
+        Which part of it acts on each reading, where its size changes from reading to reading: an error of the
+        expansion coefficient acts as far as the machine is from 20 °C. None where it acts as `acts` says.
     """
 
     name: Words
@@ -109,6 +112,7 @@ class Contribution:
     stated: Words
     source: Words
     contributor: str | None = None
+    effect: FloatArray | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,9 +224,18 @@ class Budget:
         """Return the contributions that act in one way."""
         return tuple(each for each in self.contributions if each.acts is acts)
 
+    def steady(self, acts: Acts) -> tuple[Contribution, ...]:
+        """Return those of them whose size is the same at all readings."""
+        return tuple(each for each in self.acting(acts) if each.effect is None)
+
+    @property
+    def changing(self) -> tuple[Contribution, ...]:
+        """The contributions whose size changes from reading to reading."""
+        return tuple(each for each in self.contributions if each.effect is not None)
+
     def variance(self, acts: Acts) -> float:
-        """Return the sum of u² of the contributions that act in one way, m² or rad²."""
-        return math.fsum(each.standard_uncertainty**2 for each in self.acting(acts))
+        """Return the sum of u² of the steady contributions that act in one way, m² or rad²."""
+        return math.fsum(each.standard_uncertainty**2 for each in self.steady(acts))
 
     @property
     def correction(self) -> FloatArray | None:

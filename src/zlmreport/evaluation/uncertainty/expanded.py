@@ -18,6 +18,7 @@ from zlmreport.evaluation.uncertainty.drift import (
     reading_times,
 )
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS, StandardArithmetic, propagate
+from zlmreport.evaluation.uncertainty.rounding import hiding_resolution, mean_rounding_variance
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 
@@ -51,7 +52,9 @@ def with_uncertainty(
             ),
         )
         for (evaluation, _), of_axis in zip(
-            evaluations, axis_intervals(evaluations, min(PAIRS, trials)), strict=True
+            evaluations,
+            axis_intervals(evaluations, min(PAIRS, trials), None if isinstance(budget, NoBudget) else budget),
+            strict=True,
         )
     )
     if isinstance(budget, NoBudget):
@@ -84,12 +87,14 @@ def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
 
     Notes
     -----
-    u²(x̄_i↑) = u_L²·((P_i − P_1)/L)² + u_0² + u_P² + u_A² + u_E² + u_R²/n, with the sums of squares u_L² of
-    the contributions along the length, u_0² at the datum, u_P² at each position or round a circle, u_A² at
-    each approach and u_R² at each reading, and u_E² of what a drift leaves in the mean; u²(x̄_i↓) has u_D²
-    more, of what parts the directions. Both share u_L, u_0 and u_P; the mean of both has half of u_A², a
-    quarter of u_D², and u_R²/n of all its readings, (1/n↑ + 1/n↓)/4. Known errors are added to k·u whole
-    (JCGM 100, F.2.4.5).
+    u²(x̄_i↑) = u_L²·((P_i − P_1)/L)² + u_0² + u_P² + u_A² + u_E² + u_R²/n, with the sums of squares u_L²
+    of the contributions along the length, u_0² at the datum, u_P² at each position or round a circle,
+    u_A² at each approach and u_R² at each reading, and u_E² of what a drift leaves in the mean;
+    u²(x̄_i↓) has u_D² more, of what parts the directions. Both share u_L, u_0 and u_P; the mean of
+    both has half of u_A², a quarter of u_D², and u_R²/n of all its readings, (1/n↑ + 1/n↓)/4. A
+    resolution that hides the scatter is shared by readings, and acts as its simulated means do. What
+    changes from reading to reading acts as the mean of its effects. Known errors are added to k·u
+    whole (JCGM 100, F.2.4.5).
     """
     statistics, measurements = evaluation.statistics, evaluation.measurements
     effect = effect_along(measurements.target_positions)
@@ -100,17 +105,25 @@ def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
     shared = budget.variance(Acts.ALONG_THE_LENGTH) * effect**2 + alike
     faces, parting = budget.variance(Acts.AT_EACH_APPROACH), budget.variance(Acts.BETWEEN_DIRECTIONS)
     of_direction = parting * np.array([each is Approach.NEGATIVE for each in Approach])[:, np.newaxis]
-    own = budget.variance(Acts.AT_EACH_READING)
+    hiding = hiding_resolution(budget, measurements.deviations())
+    own = budget.variance(Acts.AT_EACH_READING) - (hiding.standard_uncertainty**2 if hiding else 0.0)
     per_reading = 1 / np.where(statistics.count > 0, statistics.count, np.nan)
     of_both = (per_reading[Approach.POSITIVE.index] + per_reading[Approach.NEGATIVE.index]) / 4
     by_approach = shared + of_direction + faces + own * per_reading
     bidirectional = shared + parting / 4 + faces / 2 + own * of_both
+    if hiding is not None:
+        of_approach, of_mean = mean_rounding_variance(hiding, measurements.deviations())
+        by_approach, bidirectional = by_approach + of_approach, bidirectional + of_mean
     drifting = budget.acting(Acts.IN_TIME)
     if drifting:
         of_approach, of_mean = mean_drift_variance(reading_times(measurements), drift_kinds(measurements))
         squares = sum(drift_range(each) ** 2 for each in drifting)
         by_approach = by_approach + squares * of_approach
         bidirectional = bidirectional + squares * of_mean
+    for each in budget.changing:
+        acting = position_statistics(measurements.arranged(np.asarray(each.effect)))
+        by_approach = by_approach + (each.standard_uncertainty * acting.mean) ** 2
+        bidirectional = bidirectional + (each.standard_uncertainty * acting.mean_bidirectional) ** 2
     least = max(budget.least, budget.of_the_instrument)
     known = _known_of_means(evaluation, budget)
 

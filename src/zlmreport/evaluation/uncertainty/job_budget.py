@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,7 @@ from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, decimals_of, read_only_floats
+from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
 from zlmreport.measurement.units import (
     MICROMETRE,
@@ -73,7 +74,7 @@ def budget_of(
     instrument = of_the_instrument or _instrument(job, set_up)
     contributions = (
         *(() if isinstance(instrument, Words) else instrument),
-        *_of_the_length(job, set_up),
+        *_of_the_length(job, measurements, set_up),
         *of_the_circle(job, measurements),
         *air_contributions(job, measurements, set_up.length),
         *_fluctuations(job, measurements),
@@ -155,7 +156,7 @@ def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Itera
             )
 
 
-def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
+def _of_the_length(job: Job, measurements: MeasurementSet, set_up: SetUp) -> Iterator[Contribution]:
     """Yield what is in proportion to the measured length: alignment, temperatures, expansion.
 
     A range of zero states nothing: there is no error of which nobody could be wrong.
@@ -187,9 +188,36 @@ def _of_the_length(job: Job, set_up: SetUp) -> Iterator[Contribution]:
         if coefficient and set_up.difference is not None:
             alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
             full_range = expansion_range(length, set_up.difference, alpha)
-            source = wording.EXPANSION.given(difference=set_up.difference, length=wording.length(length))
             stated = wording.full_range("R(α)", coefficient, "µm/(m·K)")
-            yield _contribution(key, full_range, stated, source, acts=acts)
+            yield replace(
+                _contribution(key, full_range, stated, _of_difference(set_up), acts=acts),
+                effect=_as_it_warms_up(measurements, set_up),
+            )
+
+
+def _of_difference(set_up: SetUp) -> Words:
+    """Return from which difference to 20 °C an error of the coefficient becomes one of the length."""
+    length = wording.length(set_up.length)
+    if not set_up.warms_up or set_up.differences is None:
+        return wording.EXPANSION.given(difference=set_up.difference or 0.0, length=length)
+    low, high = (_shown(float(each)) for each in (set_up.differences.min(), set_up.differences.max()))
+    return wording.EXPANSION_THAT_MOVES.given(low=low, high=high, length=length)
+
+
+def _as_it_warms_up(measurements: MeasurementSet, set_up: SetUp) -> FloatArray | None:
+    """Return which part of an error of the coefficient acts on each reading; None where ΔT stands still."""
+    if not set_up.warms_up or set_up.differences is None or not set_up.difference:
+        return None
+    share = _distances(measurements, set_up) / set_up.length
+    return read_only_floats(share * set_up.differences / set_up.difference)
+
+
+def _distances(measurements: MeasurementSet, set_up: SetUp) -> FloatArray:
+    """Return the length that expands under each reading, (N,), m: from the datum; of a circle its radius."""
+    if set_up.is_circle:
+        return np.full(len(measurements.target), set_up.length)
+    targets, datum = measurements.target_positions, measurements.datum
+    return np.asarray(targets[measurements.target] - (targets[0] if datum is None else datum))
 
 
 def _expansion_in(measurements: MeasurementSet, set_up: SetUp) -> Iterator[KnownError]:
@@ -197,11 +225,7 @@ def _expansion_in(measurements: MeasurementSet, set_up: SetUp) -> Iterator[Known
     alpha, expansion = set_up.uncorrected_coefficient, set_up.uncorrected_expansion
     if not (alpha and expansion) or set_up.differences is None:
         return
-    datum = measurements.datum
-    targets = measurements.target_positions
-    distance = targets[measurements.target] - (targets[0] if datum is None else datum)
-    if measurements.axis.circle is not None:  # its radius expands, whatever the angle
-        distance = np.full_like(distance, set_up.length)
+    distance = _distances(measurements, set_up)
     yield KnownError(
         name=wording.UNCORRECTED,
         correction=read_only_floats(-alpha * set_up.differences * distance),
@@ -302,7 +326,8 @@ def _other(keys: ContributionKeys, unit: Unit) -> Iterator[Contribution]:
 class SetUp:
     """The circumstances of a test, SI; None for what is not known as a number."""
 
-    #: L, from the first target position to the last, m or rad; of a circle its radius where that counts.
+    #: L, from the first target position to the last, m or rad; of a circle its radius where that counts, and
+    #: 0 of what was read over time.
     length: float
     expansion: float | None  #: α of the machine, 1/K.
     device_expansion: float | None  #: α of the measuring device, 1/K.
@@ -312,10 +337,16 @@ class SetUp:
     is_corrected: bool = False  #: Whether the readings are corrected to 20 °C by this program.
     compensated: float | None = None  #: α by which the instrument has corrected them already, 1/K.
     is_circle: bool = False  #: Whether two axes ran a circle together.
+    is_over_time: bool = False  #: Whether nothing moved but with time.
 
     @property
     def acts_of_device(self) -> Acts:
-        """Which readings share the constant part of the instrument's error, where a job does not say."""
+        """Which readings share the constant part of the instrument's error, where a job does not say.
+
+        Of an instrument that stands where it is, what is constant cancels: it errs by how it drifts.
+        """
+        if self.is_over_time:
+            return Acts.IN_TIME
         return Acts.ROUND_THE_CIRCLE if self.is_circle else Acts.AT_EACH_POSITION
 
     @property
@@ -327,7 +358,8 @@ class SetUp:
     def of(cls, job: Job, measurements: MeasurementSet) -> SetUp:
         """Return the circumstances that a job and its readings tell."""
         targets, circle = measurements.target_positions, job.axis.circle
-        length = float(targets[-1] - targets[0])
+        is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
+        length = 0.0 if is_over_time else float(targets[-1] - targets[0])
         if circle is not None:
             length = circle.radius if circle.is_calibrated else 0.0
         environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
@@ -342,6 +374,7 @@ class SetUp:
             is_corrected=material is not None,
             compensated=compensated,
             is_circle=circle is not None,
+            is_over_time=is_over_time,
         )
 
     @property
@@ -350,6 +383,11 @@ class SetUp:
         if self.differences is None:
             return None
         return float(self.differences[np.argmax(np.abs(self.differences))])
+
+    @property
+    def warms_up(self) -> bool:
+        """Whether ΔT moves from reading to reading."""
+        return self.differences is not None and float(np.ptp(self.differences)) > 0.0
 
     @property
     def of_the_sensor(self) -> float | None:
@@ -417,7 +455,8 @@ def _differences(job: Job, measurements: MeasurementSet) -> FloatArray | None:
 
 
 INSTRUMENT = "instrument"
-_OF_EVERY_AXIS = ("environmental_variation", "resolution")
+_RESOLUTION = "resolution"
+_OF_EVERY_AXIS = ("environmental_variation", _RESOLUTION)
 _OF_LENGTHS = (
     "misalignment",
     "machine_temperature",
@@ -456,7 +495,9 @@ def demanded(job: Job) -> tuple[str, ...]:
     corrections = job.keys.corrections
     corrects_air = corrections is not None and corrections.air is not None
     of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else ()
-    return (INSTRUMENT, *of_lengths, *of_air, *_OF_EVERY_AXIS)
+    is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
+    of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
+    return (INSTRUMENT, *of_lengths, *of_air, *of_all)
 
 
 def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:

@@ -38,6 +38,7 @@ from zlmreport.evaluation.uncertainty.drift import (
     reading_times,
 )
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
+from zlmreport.evaluation.uncertainty.rounding import drawn_rounding, hiding_resolution
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -174,15 +175,17 @@ def _distances(
     """Return y* − y in simulated tests with one kind of drift, for each evaluation: (parameter, trial)."""
     distances = [np.empty((len(evaluation.parameters), trials)) for evaluation, _ in evaluations]
     done = 0
-    for statistics, count in _simulated_statistics(
+    for statistics, shown, count in _simulated_statistics(
         budget, evaluations[0][0].measurements, kind, trials, generator
     ):
         chunk = slice(done, done + count)
         done = chunk.stop
         for (evaluation, arithmetic), found in zip(evaluations, distances, strict=True):
             parameters = arithmetic(statistics).parameters
+            stated = arithmetic(shown).parameters if shown else {}
             for each, of_one in zip(evaluation.parameters, found, strict=True):
-                of_one[chunk] = parameters[each.quantity.symbol] - each.value
+                symbol = each.quantity.symbol
+                of_one[chunk] = parameters[symbol] - stated.get(symbol, each.value)
     return distances
 
 
@@ -192,15 +195,17 @@ def _simulated_statistics(
     kind: Drift | None,
     trials: int,
     generator: np.random.Generator,
-) -> Iterator[tuple[PositionStatistics, int]]:
-    """Yield the statistics of simulated tests, so many at a time, and how many they are.
+) -> Iterator[tuple[PositionStatistics, PositionStatistics | None, int]]:
+    """Yield the statistics of simulated tests, so many at a time, those of what was shown, and how many.
 
     Of several measured lines each has errors of its own, drawn from its own budget.
     """
     at_once = max(1, _AT_ONCE // sum(each.deviations().size for each in measurements.lines))
     if not measurements.tests:
-        for tests in _simulated(budget, measurements, kind, trials, generator, at_once):
-            yield position_statistics(tests, measurements.target_positions), len(tests)
+        positions = measurements.target_positions
+        for tests, shown in _simulated(budget, measurements, kind, trials, generator, at_once):
+            of_shown = None if shown is None else position_statistics(shown, positions)
+            yield position_statistics(tests, positions), of_shown, len(tests)
         return
     lines = measurements.tests
     for together in zip(
@@ -212,9 +217,18 @@ def _simulated_statistics(
     ):
         of_each = {
             name: position_statistics(tests, lines[name].target_positions)
-            for name, tests in zip(lines, together, strict=True)
+            for name, (tests, _) in zip(lines, together, strict=True)
         }
-        yield joined_statistics(of_each), len(together[0])
+        count = len(together[0][0])
+        are_shown = {
+            name: position_statistics(
+                np.repeat(line.deviations()[np.newaxis], count, axis=0) if shown is None else shown,
+                line.target_positions,
+            )
+            for (name, line), (_, shown) in zip(lines.items(), together, strict=True)
+            if any(shown is not None for _, shown in together)
+        }
+        yield joined_statistics(of_each), joined_statistics(are_shown) if are_shown else None, count
 
 
 def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
@@ -224,13 +238,24 @@ def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made 
     trials: int,
     generator: np.random.Generator,
     at_once: int,
-) -> Iterator[FloatArray]:
-    """Yield simulated tests, so many at a time: shape (trial, approach, position, run), m or rad."""
+) -> Iterator[tuple[FloatArray, FloatArray | None]]:
+    """Yield simulated tests, so many at a time: shape (trial, approach, position, run), m or rad.
+
+    With each the readings that were shown of them without any other error; None where these are the readings
+    of the test itself.
+    """
     readings = measurements.deviations()
-    along = stratified_draws(budget.acting(Acts.ALONG_THE_LENGTH), trials, generator)
+    along = stratified_draws(budget.steady(Acts.ALONG_THE_LENGTH), trials, generator)
     parting = stratified_draws(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
-    alike = stratified_draws(budget.acting(Acts.AT_THE_DATUM), trials, generator)
+    alike = stratified_draws(budget.steady(Acts.AT_THE_DATUM), trials, generator)
+    changing = [
+        (stratified_draws((each,), trials, generator), measurements.arranged(each.effect))
+        for each in budget.changing
+        if each.effect is not None
+    ]
     drifting = budget.acting(Acts.IN_TIME)
+    hiding = hiding_resolution(budget, readings)
+    independent = [each for each in budget.acting(Acts.AT_EACH_READING) if each is not hiding]
     times = reading_times(measurements)
     effect = effect_along(measurements.target_positions)
     parted = np.array([float(approach is Approach.NEGATIVE) for approach in Approach])
@@ -241,7 +266,8 @@ def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made 
         for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
             curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
             errors += each.standard_uncertainty * curves
-        own = single_draws(budget.acting(Acts.AT_EACH_READING), (count, *readings.shape), generator)
+        own = single_draws(independent, (count, *readings.shape), generator)
+        rounded = drawn_rounding(hiding, readings, count, generator) if hiding else None
         if kind:
             for each in drifting:
                 drifts = drawn_drifts(kind, times, count, generator)
@@ -251,9 +277,11 @@ def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made 
         common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
         shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
         shared += single_draws(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
-        tests = readings + shared[..., np.newaxis]
+        tests = (rounded.before if rounded else readings) + shared[..., np.newaxis]
         tests += own
-        yield tests
+        for draws, effects in changing:
+            tests += np.multiply.outer(draws[trial], effects)
+        yield tests, rounded.shown if rounded else None
 
 
 def _compares_positions(

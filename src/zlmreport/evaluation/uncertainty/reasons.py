@@ -5,25 +5,50 @@ from __future__ import annotations
 import re
 
 _WORD = re.compile(r"[^\W\d_]{2,}")
+#: A size that is not zero, with its unit: ``below 1 nm``.
+_SIZE = re.compile(r"[\d.,]*[1-9][\d.,]*\s*(?:[nµμum]?m|m?K|°C?|%|hPa|″|arcsec|mrad|µrad)(?!\w)")
 #: Words that say of themselves nothing about why a contributor should be negligible.
 _EMPTY: frozenset[str] = frozenset(
     {
+        "above",
+        "angabe",
+        "angaben",
         "angegeben",
         "any",
         "applicable",
         "are",
+        "as",
         "aucun",
+        "auswirkung",
         "because",
+        "bedeutung",
+        "beitrag",
         "bekannt",
+        "below",
+        "benötigt",
         "berücksichtigt",
+        "berücksichtigung",
         "considered",
+        "contribution",
         "das",
         "der",
         "die",
+        "does",
+        "effect",
+        "einfluss",
         "entfaellt",
         "entfällt",
+        "erforderlich",
+        "error",
+        "fehler",
+        "gegeben",
         "gering",
         "grund",
+        "ignored",
+        "ignoriert",
+        "impact",
+        "important",
+        "influence",
         "insignificant",
         "irrelevant",
         "is",
@@ -33,66 +58,135 @@ _EMPTY: frozenset[str] = frozenset(
         "ja",
         "kein",
         "keine",
+        "keinen",
+        "keiner",
         "klein",
         "known",
+        "later",
         "leer",
         "low",
+        "matter",
+        "matters",
+        "mm",
         "na",
+        "needed",
         "negligible",
         "nein",
         "nicht",
         "nichts",
         "nil",
         "no",
+        "noetig",
         "none",
         "not",
         "nothing",
+        "notwendig",
         "nul",
         "null",
+        "nötig",
+        "oben",
         "ohne",
         "ok",
         "okay",
+        "present",
         "reason",
         "relevant",
+        "required",
+        "see",
         "sehr",
+        "siehe",
         "significant",
         "sind",
         "small",
+        "später",
+        "standard",
         "stated",
         "tba",
         "tbd",
+        "test",
         "the",
+        "there",
+        "this",
         "todo",
+        "trivial",
+        "um",
         "unbekannt",
+        "unimportant",
         "unknown",
+        "unten",
         "unwesentlich",
+        "unwichtig",
+        "usual",
+        "usually",
         "vernachlaessigbar",
         "vernachlässigbar",
         "very",
+        "vorhanden",
+        "was",
         "weil",
+        "wichtig",
+        "wie",
+        "wird",
         "without",
         "xx",
         "xxx",
         "yes",
         "zero",
         "zutreffend",
+        "µm",
+        "üblich",
     }
 )
 
 
 def says_something(reason: str) -> bool:
-    """Return whether a text has a word in it that could be a reason.
+    """Return whether a text has a word in it that could be a reason, or a size.
 
-    >>> says_something("laser, no length of its own"), says_something("-"), says_something("none")
+    >>> says_something("laser, no length of its own"), says_something("-"), says_something("no influence")
     (True, False, False)
+    >>> says_something("below 1 nm"), says_something("0 µm")
+    (True, False)
     """
-    return any(word.lower() not in _EMPTY for word in _WORD.findall(reason))
+    return bool(_SIZE.search(reason)) or any(word.lower() not in _EMPTY for word in _WORD.findall(reason))
+
+
+#: Words that say of a document only that it is none, or none yet.
+_OF_NO_DOCUMENT: frozenset[str] = _EMPTY | {
+    "ausstehend",
+    "available",
+    "calibrated",
+    "calibration",
+    "certificate",
+    "fehlt",
+    "folgt",
+    "follows",
+    "kalibrierschein",
+    "kalibriert",
+    "kalibrierung",
+    "keinen",
+    "keiner",
+    "keines",
+    "later",
+    "liegt",
+    "missing",
+    "noch",
+    "pending",
+    "später",
+    "to",
+    "follow",
+    "verfügbar",
+    "vor",
+    "vorhanden",
+    "yet",
+    "zertifikat",
+}
 
 
 def is_reference(text: str) -> bool:
-    """Return whether a text can name a document: it has a number in it, or says something.
+    """Return whether a text can name a document: it has a number in it, or says something else than none.
 
-    >>> is_reference("C-1"), is_reference("none"), is_reference("")
-    (True, False, False)
+    >>> is_reference("C-1"), is_reference("none"), is_reference("not calibrated yet"), is_reference("")
+    (True, False, False, False)
     """
-    return any(character.isdigit() for character in text) or says_something(text)
+    words = (word.lower() for word in _WORD.findall(text))
+    return any(character.isdigit() for character in text) or any(one not in _OF_NO_DOCUMENT for one in words)

@@ -96,6 +96,10 @@ TEMPERATURE = Words(
 EXPANSION = Words(
     en="L·ΔT·R(α), ΔT = {difference} K, L = {length}", de="L·ΔT·R(α), ΔT = {difference} K, L = {length}"
 )
+EXPANSION_THAT_MOVES = Words(
+    en="L·ΔT·R(α), ΔT from {low} to {high} K reading by reading, L = {length}",
+    de="L·ΔT·R(α), ΔT von {low} bis {high} K, Messwert für Messwert, L = {length}",
+)
 DRIFT_AT_REST = Words(
     en="readings of the axis at rest over the time of the test",
     de="Messwerte der ruhenden Achse über die Zeit der Messung",

@@ -1,6 +1,6 @@
 """Hidden effects of simulated machines: how often a diagnosis names the right one, and how wide of it.
 
-    python benchmarks/on_machines.py [CASES] [RESULTS.jsonl]
+    ./run benchmark machines [--cases N] [--results FILE.jsonl]
 
 Each case is a ballbar of two turns, one in each sense (or of one sense), with correlated noise; the hidden
 effect lies off every grid of the search, with a root mean square of ρ times that of the noise. A line for
@@ -9,10 +9,11 @@ each case is appended to the results, so that each can be looked at.
 
 from __future__ import annotations
 
+import argparse
 import json
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
@@ -31,12 +32,15 @@ from machines.simulated import (
     with_lost_motion,
     with_play,
 )
+from zlmreport.machines.choosing import study_of
 from zlmreport.machines.course import Circle
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.residual import centred, root_mean_square
-from zlmreport.machines.study import study_of
+from zlmreport.plugin.registry import find_plugins
 
-NOISE = 0.7e-6
+NOISE = 0.7e-6  # m, root mean square of what scatters
+#: What the model has before anything is looked for: where the bar stands, and how long it is.
+BASE = ("centre-offset", "radius")
 Move = Callable[[Course], tuple[np.ndarray, np.ndarray]]
 
 
@@ -188,7 +192,9 @@ def run(case: Case) -> Case:
     seen = replace(plain, deviation=plain.deviation + total)
     if case.plan == "start 2° off":
         seen = replace(seen, angle=seen.angle + np.where(seen.sense > 0, 1.0, -1.0) * np.radians(2.0))
-    found = diagnose(study_of(bare_machine(), [seen], ("centre-offset", "radius")))
+    registry = find_plugins()
+    base = [registry.circle_effect(name) for name in BASE]
+    found = diagnose(study_of(bare_machine(), [seen], base), registry.circle_effects)
     case.verdict, case.named = found.verdict.value, list(found.found)
     if found.candidates:
         case.first = found.candidates[0].effect.identifier
@@ -199,6 +205,7 @@ def run(case: Case) -> Case:
         sign = _sign_of(case.cause, case.seed)
         truth = sign * sizes[case.cause]
         own = next(each for each in found.complete.estimates if each.term.name == JUDGED[case.cause])
+        assert own.expanded_uncertainty is not None
         case.miss = (own.value - truth) / own.expanded_uncertainty
     return case
 
@@ -247,17 +254,23 @@ def _kind(case: Case) -> str:
     return "pair" if " + " in case.cause else "single"
 
 
-def main() -> None:
-    """Run what is not among the results yet, and print the table of all."""
-    count = int(sys.argv[1]) if len(sys.argv) > 1 else 2
-    results = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-    done = (
-        [Case(**json.loads(line)) for line in results.read_text().splitlines()]
-        if results and results.exists()
-        else []
+def main(arguments: Sequence[str]) -> None:
+    """Diagnose what is not among the results yet, and print the table of all."""
+    parser = argparse.ArgumentParser(prog="./run benchmark machines", description=__doc__.splitlines()[0])
+    parser.add_argument("--cases", type=int, default=2, help="of each cell (%(default)s)")
+    parser.add_argument(
+        "--results",
+        type=Path,
+        metavar="FILE",
+        help="a line for each case; those that it has are not repeated",
     )
+    options = parser.parse_args(arguments)
+    results: Path | None = options.results
+    done = []
+    if results and results.exists():
+        done = [Case(**json.loads(line)) for line in results.read_text(encoding="utf-8").splitlines()]
     known = {(case.plan, case.cause, case.rho, case.seed) for case in done}
-    for case in cases(count):
+    for case in cases(options.cases):
         if (case.plan, case.cause, case.rho, case.seed) in known:
             continue
         done.append(run(case))
@@ -265,7 +278,3 @@ def main() -> None:
             with results.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(asdict(done[-1])) + "\n")
     print(table(done))
-
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,271 @@
+"""Data source ``channels-csv``: channels over time, displacements beside temperatures, as data loggers write.
+
+One channel becomes a measurement set: that which has the name of the test. The target positions are times, s
+from the first reading of the file; there is one run, in the positive sense, as time goes on. Temperatures and
+the state of the air become conditions of its readings. A channel whose name or unit says that it is another
+temperature is a condition too, in °C, by a name that ends in ``_temperature``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from zlmreport.plugin import (
+    CELSIUS,
+    CONDITIONS,
+    DISPLACEMENT,
+    LENGTH_UNITS,
+    MICROMETRE,
+    Approach,
+    Axis,
+    Coordinate,
+    FloatArray,
+    InputError,
+    MeasurementSet,
+    Options,
+    Place,
+    Problem,
+    Words,
+    did_you_mean,
+    hookimpl,
+    quoted,
+)
+from zlmreport.plugin.source import (
+    DataSource,
+    Provenance,
+    Reading,
+    SourceContext,
+    SourceProposal,
+    collect_readings,
+    read_text,
+)
+from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_table
+from zlmreport_plugins.sources.channels_csv.averaging import averaged, interval_for
+from zlmreport_plugins.sources.channels_csv.options import TIME, VALUE, ChannelsCsvOptions
+from zlmreport_plugins.sources.channels_csv.tracks import Channel, Channels, Track, channels_of, unit_of
+
+#: What a condition that is no known one ends in, if it is a temperature.
+_TEMPERATURE = "_temperature"
+_TEMPERATURES = CONDITIONS["air_temperature"]
+#: How sensors are called: by the direction in which they read, and a number where there are two.
+_SENSOR = re.compile(r"[xyz][12]?")
+#: A drift over hours that is smaller than this in what nobody called a unit, m, was read in a larger one.
+_HARDLY = 5e-7
+#: Channels of a file that a message names.
+_MOST_NAMED = 20
+_FROM = Words(
+    en="Channel “{channel}” ({unit}); times are counted from the first reading of the file.",
+    de="Kanal „{channel}“ ({unit}); Zeiten sind vom ersten Messwert der Datei an gezählt.",
+)
+_BESIDE = Words(
+    en="Conditions were logged at other times than channel “{channel}”: {names} at its readings are linear "
+    "between those that were logged.",
+    de="Bedingungen wurden zu anderen Zeiten aufgezeichnet als Kanal „{channel}“: {names} sind bei seinen "
+    "Messwerten linear zwischen den aufgezeichneten.",
+)
+_AVERAGED = Words(
+    en="{readings} readings were averaged over intervals of {interval} s. What the averages leave out has a "
+    "root mean square of {left} µm.",
+    de="{readings} Messwerte wurden über Zeitabschnitte von {interval} s gemittelt. Was die Mittelwerte "
+    "weglassen, hat einen quadratischen Mittelwert von {left} µm.",
+)
+
+
+class ChannelsCsv:
+    """Tables of channels over time."""
+
+    identifier = "channels-csv"
+    title = Words(en="Table of channels over time (CSV)", de="Tabelle von Kanälen über der Zeit (CSV)")
+    options: type[Options] = ChannelsCsvOptions
+    suffixes = ()
+
+    def proposals(self, file: Path) -> Iterable[SourceProposal]:
+        """Return the keys by which a file may be read, if it has sensors over time and nothing else."""
+        options = ChannelsCsvOptions(file=file)
+        try:
+            channels = _channels(options, SourceContext(Axis("X", quantity=DISPLACEMENT), Place(str(file))))
+        except InputError:
+            return []
+        sensors = [each.name for key, each in channels.of.items() if _SENSOR.fullmatch(key)]
+        others = (
+            each
+            for key, each in channels.of.items()
+            if not _SENSOR.fullmatch(key) and _condition(key, each) is None
+        )
+        if not sensors or any(others):
+            return []
+        tests = tuple(sorted(each.upper() for each in sensors))
+        return [SourceProposal(asks=tuple(_asks(tests)), quantity=DISPLACEMENT, tests=tests)]
+
+    def read(self, options: ChannelsCsvOptions, context: SourceContext) -> MeasurementSet:
+        """Read one channel and the conditions beside it; raise `InputError` with every defect."""
+        axis = context.axis
+        if axis.measurand.coordinate is not Coordinate.TIME:
+            raise InputError.at(
+                context.place,
+                "channels-csv reads displacements over time, and this job is on "
+                f"{axis.measurand.identifier}; name its channels as tests: measurement.tests: "
+                "{X1: {source: …}, …}, and evaluate a standard of drift",
+            )
+        channels = _channels(options, context)
+        own = _channel_of(axis.name, channels, options)
+        stated = options.units.get(VALUE)
+        unit = unit_of(own, stated, LENGTH_UNITS, MICROMETRE)
+        track = channels.track(own, unit, LENGTH_UNITS)
+        conditions = dict(_conditions(channels, options))
+        table = channels.table
+        problems = list(dict.fromkeys([*table.problems, *channels.cells.problems]))
+        if not problems and stated is None and own.unit is None:
+            problems = list(_in_a_larger_unit(track, own))
+        if problems:
+            raise InputError(problems)
+        remarks = [_FROM.given(channel=own.name, unit=unit.symbol)]
+        averaging = None
+        interval = options.interval or interval_for(channels.most_readings, channels.lasts)
+        if interval and track.time.size:
+            track, averaging = averaged(track, interval)
+            remarks.append(
+                _AVERAGED.given(
+                    readings=averaging.readings,
+                    interval=float(f"{interval:.6g}"),
+                    left=float(f"{MICROMETRE.from_si(averaging.left_out):.2g}"),
+                )
+            )
+        elsewhere = [name for name, each in conditions.items() if not np.isin(track.time, each.time).all()]
+        if elsewhere and not interval:
+            remarks.append(_BESIDE.given(channel=own.name, names=", ".join(elsewhere)))
+        beside = {name: _at(track.time, each) for name, each in conditions.items()}
+        readings = [
+            Reading(
+                place,
+                float(time),
+                Approach.POSITIVE,
+                1,
+                float(value),
+                float(time),
+                {name: float(values[index]) for name, values in beside.items()},
+            )
+            for index, (place, time, value) in enumerate(
+                zip(track.places, track.time, track.value, strict=True)
+            )
+        ]
+        provenance = Provenance(self.identifier, (table.source.source,), tuple(remarks), averaging=averaging)
+        return collect_readings(readings, axis, provenance, place=table.source.place())
+
+
+def _channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
+    """Return the channels of the table that the keys name."""
+    text = read_text(options.file, options.encoding, options.sheet)
+    table = read_table(text, options, lambda name: _names_column(name, options))
+    # The decimal sign is that of all numbers: which columns have any is known only with it.
+    numbers = [
+        index for index, name in enumerate(table.header.cells) if folded(heading_of(name).name) != TIME
+    ]
+    sign = options.stated_decimal_sign or decimal_sign(table, numbers, options.thousands_signs)
+    cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
+    return channels_of(cells, options, context)
+
+
+def _names_column(text: str, options: ChannelsCsvOptions) -> bool:
+    """Whether a header is a name that this source or the job knows."""
+    named = heading_of(text)
+    name = folded(named.name)
+    is_known = name in {*options.column_names, *CONDITIONS} or bool(_SENSOR.fullmatch(name))
+    spoken = (*options.columns.values(), *options.channels.values(), *options.ignore)
+    return is_known or any(named.is_called(each) for each in spoken)
+
+
+def _channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> Channel:
+    """Return the channel of a test; raise `InputError` with the nearest name if there is none."""
+    called = options.channels.get(name, name)
+    found = channels.named(called)
+    if found is not None:
+        return found
+    names = [each.name for each in channels.of.values()]
+    raise InputError.at(
+        channels.table.source.place(),
+        f"there is no channel {quoted(called)}; {did_you_mean(called, names)}; name it in the job, as in "
+        f"'channels: {{{name}: …}}' (the file has {', '.join(map(quoted, names[:_MOST_NAMED]))})",
+    )
+
+
+def _conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterator[tuple[str, Track]]:
+    """Yield the conditions that were logged, SI where they are known by name, and else in °C."""
+    renamed: dict[str, str] = {}
+    for name in options.channels:
+        if name in CONDITIONS or name.endswith(_TEMPERATURE):
+            renamed[folded(_channel_of(name, channels, options).name)] = name
+    for key, channel in channels.of.items():
+        called = renamed.get(key) or _condition(key, channel)
+        if called is None:
+            continue
+        kind = CONDITIONS.get(called, _TEMPERATURES)
+        track = channels.track(channel, unit_of(channel, None, kind.units, kind.unit), kind.units)
+        yield called, track if called in CONDITIONS else _in_celsius(track, channels, channel)
+
+
+def _condition(key: str, channel: Channel) -> str | None:
+    """Return the name of the condition that a channel is; None for a displacement."""
+    if key in CONDITIONS or key.endswith(_TEMPERATURE):
+        return key
+    is_temperature = (channel.unit or "").casefold() in _TEMPERATURES.units
+    return f"{key}{_TEMPERATURE}" if is_temperature else None
+
+
+def _in_celsius(track: Track, channels: Channels, channel: Channel) -> Track:
+    """Return a temperature as conditions without a name of their own are kept: as found, in °C."""
+    celsius = np.asarray(CELSIUS.from_si(track.value))
+    for index in np.flatnonzero((celsius < _TEMPERATURES.lowest) | (celsius > _TEMPERATURES.highest))[:1]:
+        channels.cells.problems.append(
+            Problem(
+                track.places[index],
+                f"channel {quoted(channel.name)} is not between {_TEMPERATURES.lowest:g} and "
+                f"{_TEMPERATURES.highest:g} °C here; is its unit right?",
+            )
+        )
+    return Track(track.time, celsius, track.places)
+
+
+def _in_a_larger_unit(track: Track, channel: Channel) -> Iterator[Problem]:
+    """Ask where a machine would hardly have moved: the readings are millimetres then."""
+    there = track.value[np.isfinite(track.value)]
+    if there.size < 2:
+        return
+    span = float(np.ptp(there))
+    if 0 < span < _HARDLY:
+        in_file = MICROMETRE.from_si(span)
+        yield Problem(
+            channel.place,
+            f"the readings of channel {quoted(channel.name)} span {in_file:.3g}: as micrometres that is "
+            "hardly a drift; are they millimetres? Say 'units: {value: mm}' in the job, or "
+            "'units: {value: um}' if they are not",
+        )
+
+
+def _at(time: FloatArray, condition: Track) -> FloatArray:
+    """Return a condition at some times, linear between those at which it was logged; NaN beyond them."""
+    there = np.isfinite(condition.value)
+    if not there.any():
+        return np.full(time.shape, np.nan)
+    return np.interp(time, condition.time[there], condition.value[there], left=np.nan, right=np.nan)
+
+
+def _asks(tests: tuple[str, ...]) -> Iterator[str]:
+    """Yield what a file of channels leaves open."""
+    yield "Over which hours is the drift stated? Say 'hours' beside the standard; without it all are taken."
+    for letter in "XYZ":
+        if {f"{letter}1", f"{letter}2"} <= set(tests):
+            yield (
+                f"How far are {letter}1 and {letter}2 apart (mm)? Say 'distance: {{{letter}: …}}' beside the "
+                "standard; their tilt follows from it."
+            )
+
+
+@hookimpl
+def zlmreport_sources() -> Iterable[DataSource]:
+    """Return the reader of channels."""
+    return [ChannelsCsv()]

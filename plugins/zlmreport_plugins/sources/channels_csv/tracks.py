@@ -1,0 +1,214 @@
+"""What a table of channels holds: the readings of each channel with their times, in either layout.
+
+Long: a row is one reading of one channel. Wide: a row is one moment, and each channel has a column.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+
+from zlmreport.plugin import FloatArray, InputError, Place, Problem, ReadingScale, Unit, quoted, unit_named
+from zlmreport.plugin.source import SourceContext
+from zlmreport.plugin.table import (
+    Cells,
+    TextColumn,
+    TextRow,
+    TextTable,
+    column_with_unit,
+    find_heading,
+    folded,
+    heading_of,
+    missing_column,
+    read_headings,
+    time_reader,
+)
+from zlmreport_plugins.sources.channels_csv.options import CHANNEL, TIME, TIMES, VALUE, ChannelsCsvOptions
+
+#: Reads the time of a row, s; None if it noted why it cannot.
+ReadTime: TypeAlias = Callable[[TextRow], float | None]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Where a reading of a channel stands, and when it was taken."""
+
+    row: TextRow
+    index: int  #: Of the column that holds the reading.
+    time: float  #: s, from any fixed moment.
+
+
+@dataclass(frozen=True, slots=True)
+class Channel:
+    """Where the readings of one channel stand."""
+
+    name: str  #: As the file writes it, without its unit.
+    unit: str | None  #: What the file says of its unit; None where it says nothing.
+    place: Place  #: Where it is named first.
+    moments: list[Moment] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class Track:
+    """Readings of one channel in the order of time."""
+
+    time: FloatArray  #: (N,): s from the beginning of the file, rising.
+    value: FloatArray  #: (N,): In its unit's SI; NaN where missing.
+    places: tuple[Place, ...]  #: Where each stands.
+
+
+@dataclass(frozen=True, slots=True)
+class Channels:
+    """The channels of a table by their folded names, and its time."""
+
+    cells: Cells
+    time: TextColumn
+    of: Mapping[str, Channel]
+
+    @property
+    def table(self) -> TextTable:
+        """The table that they stand in."""
+        return self.cells.table
+
+    def named(self, name: str) -> Channel | None:
+        """Return a channel by its name, with or without its unit; None if there is none."""
+        return self.of.get(folded(heading_of(name).name)) or self.of.get(folded(name))
+
+    @property
+    def begins(self) -> float:
+        """The first time of all channels, s."""
+        return min((each.time for channel in self.of.values() for each in channel.moments), default=0.0)
+
+    @property
+    def lasts(self) -> float:
+        """From the first time of all channels to the last, s."""
+        last = max((each.time for channel in self.of.values() for each in channel.moments), default=0.0)
+        return last - self.begins
+
+    @property
+    def most_readings(self) -> int:
+        """How often the channel was read that was read most often."""
+        return max((len(channel.moments) for channel in self.of.values()), default=0)
+
+    def track(
+        self, channel: Channel, unit: Unit | ReadingScale, known: Mapping[str, Unit | ReadingScale]
+    ) -> Track:
+        """Return the readings of a channel; what is wrong with one is noted."""
+        begins = self.begins
+        times: list[float] = []
+        values: list[float] = []
+        places: list[Place] = []
+        for each in channel.moments:
+            column = TextColumn(each.index, channel.name, channel.name, unit, known)
+            value = self.cells.number(each.row, column)
+            if value is None:
+                continue
+            time = each.time - begins
+            if times and time <= times[-1]:
+                said = _out_of_order(channel, places[-1], is_same=time == times[-1])
+                self.cells.note(each.row, self.time, said)
+                continue
+            times.append(time)
+            values.append(value)
+            places.append(self.table.place(each.row, each.index))
+        return Track(np.array(times), np.array(values, dtype=np.float64), tuple(places))
+
+
+def _out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:
+    if is_same:
+        return f"channel {quoted(channel.name)} has a reading of this time in line {before.line} already"
+    return (
+        f"the time is before that of the reading of channel {quoted(channel.name)} in line {before.line}; "
+        "readings stand in the order in which they were taken"
+    )
+
+
+def channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceContext) -> Channels:
+    """Return the channels of a table; raise `InputError` if it has no time, or no channel."""
+    table = cells.table
+    among = read_headings(table, options)
+    heading = find_heading(TIME, among, table, options)
+    if heading is None:
+        raise InputError([missing_column(TIME, among, table, options)])
+    time = column_with_unit(TIME, heading, options, TIMES, context.place, table)
+    named, value = (find_heading(name, among, table, options) for name in (CHANNEL, VALUE))
+    if named is not None and value is None:
+        raise InputError([missing_column(VALUE, among, table, options)])
+    if named is not None and value is not None:
+        return Channels(cells, time, _from_rows(cells, time, named.index, value.index))
+    time_of = time_reader(cells, time)
+    timed = [
+        (row, moment) for row in table.rows if (moment := _moment(cells, time, row, time_of)) is not None
+    ]
+    columns = (each for each in among if each.index != heading.index)
+    found = {
+        folded(each.name): Channel(
+            each.name,
+            each.bracket,
+            table.place(table.header, each.index),
+            [Moment(row, each.index, moment) for row, moment in timed],
+        )
+        for each in columns
+    }
+    return Channels(cells, time, found)
+
+
+def _moment(cells: Cells, column: TextColumn, row: TextRow, time_of: ReadTime) -> float | None:
+    """Return the time of a row, s; None if there is none, which is noted."""
+    time = time_of(row)
+    if time is not None and math.isnan(time):
+        cells.note(row, column, "there is no time; only a reading may be missing")
+        return None
+    return time
+
+
+def _from_rows(cells: Cells, time: TextColumn, named: int, value: int) -> dict[str, Channel]:
+    """Return the channels of a long table, which names one in each row.
+
+    Each has a reader of times of its own: where one channel stands below the other, a clock begins anew.
+    """
+    found: dict[str, Channel] = {}
+    readers: dict[str, ReadTime] = {}
+    column = TextColumn(named, CHANNEL, CHANNEL, None)
+    for row in cells.table.rows:
+        text = row.cells[named]
+        if not text:
+            cells.note(row, column, "there is no channel; only a reading may be missing")
+            continue
+        heading = heading_of(text)
+        channel = found.setdefault(
+            folded(heading.name), Channel(heading.name, heading.bracket, cells.table.place(row, named))
+        )
+        if heading.bracket != channel.unit:
+            cells.note(
+                row,
+                column,
+                f"channel {quoted(channel.name)} is in {heading.bracket or 'no unit'} here, and in "
+                f"{channel.unit or 'no unit'} in line {channel.place.line}",
+            )
+            continue
+        time_of = readers.setdefault(channel.name, time_reader(cells, time))
+        moment = _moment(cells, time, row, time_of)
+        if moment is not None:
+            channel.moments.append(Moment(row, value, moment))
+    return found
+
+
+def unit_of(
+    channel: Channel, stated: str | None, known: Mapping[str, Unit | ReadingScale], usual: Unit | ReadingScale
+) -> Unit | ReadingScale:
+    """Return the unit of a channel: the job's, else the file's, else the usual one.
+
+    Raises `InputError` if the file's is none of its quantity.
+    """
+    spelling = stated or channel.unit
+    if spelling is None:
+        return usual
+    try:
+        return unit_named(spelling, known)
+    except ValueError as error:
+        raise InputError([Problem(channel.place, f"channel {quoted(channel.name)}: {error}")]) from error

@@ -1,0 +1,241 @@
+"""What ISO 230-3 asks of a test of the drift by the environment, held against the readings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from zlmreport.plugin import (
+    CELSIUS,
+    CONDITION_NAMES,
+    CONDITIONS,
+    HOUR,
+    MICROMETRE,
+    BoolArray,
+    FloatArray,
+    MeasurementSet,
+    Words,
+    same_in_all_languages,
+)
+from zlmreport.plugin.standard import Basis, Finding
+from zlmreport_plugins.standards.iso230_3.hours import Hours, longest_gap, usual_interval
+from zlmreport_plugins.standards.iso230_3.quantities import PAIRS
+
+#: Of a test at the least, and of one that shows a whole day, h.
+_AT_LEAST, _A_DAY = 4.0, 24.0
+#: Of the time over which the drift is taken: a longer gap may hide an extreme.
+_PART = 1 / 20
+#: What the name of a temperature that has no name of its own ends in; it is in °C.
+_TEMPERATURE = "_temperature"
+
+
+def findings(measurements: MeasurementSet, hours: Hours, distances: Mapping[str, float]) -> Iterator[Finding]:
+    """Yield the requirements.
+
+    `distances`: Of both sensors of a direction, m, by its letter.
+    """
+    tests = measurements.tests
+    yield _stated(tests, hours)
+    if hours.are_stated:
+        yield _covered(tests, hours)
+    yield _long_enough(tests, hours)
+    yield _without_gaps(tests, hours)
+    yield _directions(tests)
+    yield from _tilts(tests, distances)
+    yield _temperatures(tests)
+    yield _complete(tests)
+    yield from _averaged(tests)
+
+
+def temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, FloatArray]]:
+    """Yield the temperatures beside the readings of a sensor by their names, °C, in the order of time."""
+    order = np.argsort(measurements.target, kind="stable")
+    for name, values in measurements.conditions.items():
+        kind = CONDITIONS.get(name)
+        if kind is not None and kind.unit is CELSIUS:
+            yield name, np.asarray(CELSIUS.from_si(values[order]))
+        elif kind is None and name.endswith(_TEMPERATURE):
+            yield name, values[order]
+
+
+def _duration(tests: Mapping[str, MeasurementSet], hours: Hours) -> float:
+    """Return for how long the shortest record goes over the hours, s."""
+    return min((hours.covered(each.target_positions) for each in tests.values()), default=0.0)
+
+
+def _in_hours(seconds: float) -> float:
+    return float(f"{HOUR.from_si(seconds):.3g}")
+
+
+def _stated(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+    if not hours.are_stated:
+        found = _WHOLE.given(hours=_in_hours(_duration(tests, hours)), start=_in_hours(hours.start))
+        return Finding(_HOURS, found, met=None)
+    found = _THESE.given(hours=_in_hours(hours.length), start=_in_hours(hours.start))
+    return Finding(_HOURS, found, met=True)
+
+
+def _covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+    short = {
+        name: hours.covered(each.target_positions)
+        for name, each in tests.items()
+        if not hours.are_covered(each.target_positions)
+    }
+    if not short:
+        return Finding(_OVER_ALL, _THEY_DO, met=True)
+    name = min(short, key=lambda each: short[each])
+    found = _TOO_SHORT.given(
+        names=", ".join(short), name=name, hours=_in_hours(short[name]), of=_in_hours(hours.length)
+    )
+    return Finding(_OVER_ALL, found, met=False)
+
+
+def _long_enough(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+    duration = _duration(tests, hours)
+    is_enough = duration >= HOUR.to_si(_AT_LEAST) * (1 - 1e-9)
+    found = _LASTED.given(hours=_in_hours(duration))
+    return Finding(_LONG.given(least=_AT_LEAST, day=_A_DAY), found, is_enough)
+
+
+def _without_gaps(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+    gaps = {
+        name: longest_gap(each.target_positions[_there(each) & hours.hold(each.target_positions)])
+        for name, each in tests.items()
+    }
+    name = max(gaps, key=lambda each: gaps[each], default="")
+    if not gaps or not gaps[name]:
+        return Finding(_NO_GAP, _TOO_FEW, met=False)
+    most = _PART * _duration(tests, hours)
+    usual = usual_interval(tests[name].target_positions)
+    found = _LONGEST.given(name=name, gap=float(f"{gaps[name] / 60:.3g}"), usual=float(f"{usual / 60:.3g}"))
+    return Finding(_NO_GAP, found, gaps[name] <= most)
+
+
+def _there(measurements: MeasurementSet) -> BoolArray:
+    """Return at which times there is a reading, shape (position,)."""
+    return np.asarray(np.isfinite(measurements.deviations()).any(axis=(0, 2)))
+
+
+def _directions(tests: Mapping[str, MeasurementSet]) -> Finding:
+    lacking = [letter for letter in PAIRS if not any(name.startswith(letter) for name in tests)]
+    measured = ", ".join(tests)
+    if not lacking:
+        return Finding(_ALL, same_in_all_languages(measured), met=True)
+    return Finding(_ALL, _ONLY.given(measured=measured, lacking=", ".join(lacking)), met=False)
+
+
+def _tilts(tests: Mapping[str, MeasurementSet], distances: Mapping[str, float]) -> Iterator[Finding]:
+    """Yield whether the tilt of each direction can be had that has two sensors, or the distance of two."""
+    for letter, (first, second) in PAIRS.items():
+        has_pair = first in tests and second in tests
+        requirement = _TILT.given(first=first, second=second)
+        if has_pair and letter in distances:
+            found = _APART.given(distance=float(f"{distances[letter] * 1e3:.6g}"))
+            yield Finding(requirement, found, met=True)
+        elif has_pair:
+            yield Finding(requirement, _NO_DISTANCE.given(letter=letter), met=None)
+        elif letter in distances:
+            yield Finding(requirement, _NO_PAIR.given(letter=letter), met=False)
+
+
+def _temperatures(tests: Mapping[str, MeasurementSet]) -> Finding:
+    found: dict[str, float] = {}
+    for each in tests.values():
+        for name, values in temperatures(each):
+            if np.isfinite(values).any():
+                found.setdefault(name, float(np.nanmax(values) - np.nanmin(values)))
+    if not found:
+        return Finding(_BESIDE, _NONE, met=False)
+    parts = [
+        (CONDITION_NAMES.get(name) or same_in_all_languages(name.replace("_", " ")), float(f"{span:.2g}"))
+        for name, span in found.items()
+    ]
+    phrase = "; ".join(f"{{name{number}}} {{span{number}}} K" for number in range(len(parts)))
+    given = {f"name{number}": name for number, (name, _) in enumerate(parts)}
+    spans = {f"span{number}": span for number, (_, span) in enumerate(parts)}
+    return Finding(_BESIDE, Words(phrase, phrase).given(**given, **spans), met=True)
+
+
+def _complete(tests: Mapping[str, MeasurementSet]) -> Finding:
+    missing = {name: int(np.count_nonzero(~np.isfinite(each.deviation))) for name, each in tests.items()}
+    total = sum(len(each.deviation) for each in tests.values())
+    lacking = {name: count for name, count in missing.items() if count}
+    if not lacking:
+        return Finding(_NO_MISSING, _ALL_THERE.given(total=total), met=True)
+    found = _SOME.given(missing=sum(lacking.values()), total=total, names=", ".join(lacking))
+    return Finding(_NO_MISSING, found, met=False)
+
+
+def _averaged(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
+    """Yield how much averages may hide of an extreme, of the sensor of which it is most."""
+    left = {
+        name: each.provenance.averaging.left_out for name, each in tests.items() if each.provenance.averaging
+    }
+    if left:
+        name = max(left, key=lambda each: left[each])
+        found = _LEFT.given(name=name, left=float(f"{MICROMETRE.from_si(left[name]):.2g}"))
+        yield Finding(_HIDDEN, found, None, Basis.APPLIED)
+
+
+_HOURS = Words("Hours over which the drift is taken", "Stunden, über die die Drift genommen wird")
+_WHOLE = Words(
+    "not stated (hours); the whole record is taken: {hours} h from {start} h on",
+    "nicht angegeben (hours); genommen ist die ganze Aufzeichnung: {hours} h ab {start} h",
+)
+_THESE = Words("{hours} h from {start} h on", "{hours} h ab {start} h")
+_OVER_ALL = Words(
+    "Readings over all these hours, but for one interval of readings and a fiftieth at most",
+    "Messwerte über alle diese Stunden, bis auf einen Abstand der Messwerte und höchstens ein Fünfzigstel",
+)
+_THEY_DO = Words("they go over all of them", "sie reichen über alle")
+_TOO_SHORT = Words(
+    "{name}: {hours} h of {of} h; what follows from {names} is not reported, for a range in a shorter time "
+    "is another quantity",
+    "{name}: {hours} h von {of} h; was aus {names} folgt, ist nicht angegeben, denn die Spanne in kürzerer "
+    "Zeit ist eine andere Größe",
+)
+_LONG = Words(
+    "A test of at least {least} h; {day} h show a whole day",
+    "Eine Messung von mindestens {least} h; {day} h zeigen einen ganzen Tag",
+)
+_LASTED = Words("{hours} h", "{hours} h")
+_NO_GAP = Words(
+    "No time without readings longer than a twentieth of the hours",
+    "Keine Zeit ohne Messwerte länger als ein Zwanzigstel der Stunden",
+)
+_TOO_FEW = Words("a sensor has fewer than two readings", "ein Messtaster hat weniger als zwei Messwerte")
+_LONGEST = Words(
+    "{gap} min at most ({name}), usually {usual} min", "höchstens {gap} min ({name}), meist {usual} min"
+)
+_ALL = Words("Sensors in X, Y and Z", "Messtaster in X, Y und Z")
+_ONLY = Words("{measured}; none in {lacking}", "{measured}; keiner in {lacking}")
+_TILT = Words("Tilt from {first} and {second}", "Kippung aus {first} und {second}")
+_APART = Words("both measured, {distance} mm apart", "beide gemessen, {distance} mm Abstand")
+_NO_DISTANCE = Words(
+    "their distance is not stated (distance: {{{letter}: …}}); the tilt is not reported",
+    "ihr Abstand ist nicht angegeben (distance: {{{letter}: …}}); die Kippung ist nicht angegeben",
+)
+_NO_PAIR = Words(
+    "a distance is stated (distance: {letter}), and not both were measured; the tilt is not reported",
+    "ein Abstand ist angegeben (distance: {letter}), und nicht beide sind gemessen; die Kippung ist nicht "
+    "angegeben",
+)
+_BESIDE = Words(
+    "Temperatures recorded beside the displacements, with their ranges",
+    "Temperaturen neben den Verlagerungen aufgezeichnet, mit ihren Spannen",
+)
+_NONE = Words("none", "keine")
+_NO_MISSING = Words("No reading missing", "Kein Messwert fehlt")
+_ALL_THERE = Words("all {total} readings", "alle {total} Messwerte")
+_SOME = Words(
+    "{missing} of {total} missing ({names}); evaluated by what is there",
+    "{missing} von {total} fehlen ({names}); ausgewertet wird, was vorliegt",
+)
+_HIDDEN = Words(
+    "No extreme hidden by averages of readings", "Kein Extremwert durch Mittelung der Messwerte verdeckt"
+)
+_LEFT = Words(
+    "left out of the averages: {left} µm at most ({name}, root mean square)",
+    "von den Mittelwerten weggelassen: höchstens {left} µm ({name}, quadratischer Mittelwert)",
+)

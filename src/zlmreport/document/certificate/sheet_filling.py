@@ -1,0 +1,314 @@
+"""What of all that a sheet has to say beside verdict, graph and parameters stands on the page.
+
+A page with room for everything holds everything: facts in two columns as many as go, the others as running
+text. Where there is less, it keeps what matters most to somebody at the machine: what is to be noted, who and
+what was measured, and what the law wants. The rest is handed back, for the page of details.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Container, Iterable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
+
+from zlmreport.document.blocks import Block, Facts, Notice, Paragraph
+from zlmreport.document.certificate import columns
+from zlmreport.language import Words
+
+if TYPE_CHECKING:
+    from zlmreport.document.writer import Writer
+
+#: A name and a value.
+Pair: TypeAlias = tuple[str, str]
+
+_T = TypeVar("_T")
+_B = TypeVar("_B", bound=Block)
+
+#: Facts in two columns: at most, for more are no longer read at a glance; and where room is short, for
+#: customer and machine are looked for.
+_MOST_IN_COLUMNS, _FEWEST_IN_COLUMNS = 24, 4
+#: Lines in a column of who and what was measured; a longer one is running text.
+_MOST_LINES = 3
+
+_DETAILS = Words(en="Details", de="Einzelheiten")
+_ELSEWHERE = Words(en="On the page “{details}”: {what}.", de="Auf der Seite „{details}“: {what}.")
+_TO_BE_NOTED = Words(en="To be noted", de="Zu beachten")
+_SEE_DETAILS = Words(en="To be noted: see the page “{details}”", de="Zu beachten: siehe Seite „{details}“")
+_ITEM = Words("{heading}: {items}", "{heading}: {items}")
+
+
+#: How the page calls what stands elsewhere.
+_NAMES = {
+    "notices": Words(en="what is to be noted, in full", de="was zu beachten ist, ausführlich"),
+    "who": Words(en="who, what and when", de="wer, was und wann"),
+    "law": Words(
+        en="decision rule, uncertainty and traceability",
+        de="Entscheidungsregel, Messunsicherheit und Rückführbarkeit",
+    ),
+    "conditions": Words(en="further conditions", de="weitere Bedingungen"),
+    "corrections": Words(en="the corrections", de="die Korrektionen"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What there is to say, each in the order in which it matters."""
+
+    notices: tuple[Notice, ...] = ()  #: What must not be overlooked.
+    who: tuple[Pair, ...] = ()  #: Customer, machine, dates, who answers for it.
+    law: tuple[str, ...] = ()  #: Sentences on decision rule, uncertainty and traceability.
+    #: Under which circumstances; a group without a heading has names that say of what they are.
+    conditions: tuple[Facts, ...] = ()
+    #: Facts of conditions that are short and understood without the heading of their group.
+    plain: frozenset[Pair] = frozenset()
+    corrections: tuple[Block, ...] = ()  #: What was corrected.
+
+    @property
+    def names(self) -> list[str]:
+        """What of all this there is, in its order."""
+        return [name for name in _NAMES if getattr(self, name)]
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """What stands on the page: below the graph, below the parameters, and what has no place on it."""
+
+    notices: tuple[Notice, ...]
+    others: tuple[Block, ...]
+    left: Said
+
+    @property
+    def height(self) -> float:
+        """How much of the page all of it takes, points."""
+        return columns.height(self.notices) + columns.height(self.others)
+
+
+def fill(said: Said, room: float, writer: Writer, gained: float = 0.0) -> Filled:
+    """Return what a page with so much room holds; `gained` is what it has besides if it is not the last."""
+    whole = _all_of_it(said, room, writer)
+    if whole:
+        return whole
+    filled = _what_matters_most(said, room + gained, writer, _NAMES)
+    return _what_matters_most(said, room + gained, writer, filled.left.names)
+
+
+def details(left: Iterable[Said], writer: Writer) -> tuple[str, tuple[Block, ...]]:
+    """Return title and blocks of the page of what sheets do not hold; what several lack stands there once."""
+    lacking = tuple(left)
+    groups: dict[str, dict[Pair, None]] = {"": dict.fromkeys(pair for each in lacking for pair in each.who)}
+    for each in lacking:
+        for group in each.conditions:
+            groups.setdefault(group.heading, {}).update(dict.fromkeys(group.pairs))
+    blocks: tuple[Block, ...] = (
+        *(notice for each in lacking for notice in each.notices),
+        *(Facts(tuple(pairs), heading) for heading, pairs in groups.items() if pairs),
+        *(Paragraph(text) for each in lacking for text in each.law),
+        *(block for each in lacking for block in each.corrections),
+    )
+    return writer.say(_DETAILS), tuple(dict.fromkeys(blocks))
+
+
+def _all_of_it(said: Said, room: float, writer: Writer) -> Filled | None:
+    """Return everything, with as many facts in columns as there is room for; None where not all fits."""
+    notices = _in_a_box(said.notices, writer)
+    short, _ = _short_and_long(said.who)
+    short += tuple(pair for group in said.conditions for pair in group.pairs if pair in said.plain)
+    most = min(len(short), _MOST_IN_COLUMNS)
+    for count in range(most, min(most, _FEWEST_IN_COLUMNS) - 1, -1):
+        shown = short[:count]
+        others = (
+            *_in_two_columns(shown),
+            *_facts_in_a_line(_others(said.who, shown)),
+            *_sentences(said.law),
+            *_fine(_in_running_text(_without(said.conditions, shown))),
+            *said.corrections,
+        )
+        filled = Filled(notices, others, Said())
+        if filled.height <= room:
+            return filled
+    return None
+
+
+def _what_matters_most(said: Said, room: float, writer: Writer, reserved: Iterable[str]) -> Filled:
+    """Return the page whose room is taken in the order of what matters, with the line that says what is gone.
+
+    `reserved`: What of its names that line has room for.
+    """
+    ways = _ways_to_note(said.notices, writer)
+    in_full, pointed_at = ways[0], ways[-1]
+    page = _Room(room)
+    page.take([_elsewhere(reserved, writer), *pointed_at])
+    noted = page.upgrade(pointed_at, ways[1:])
+    who, long_who = _who(said, page)
+    law = page.choose(said.law, _sentences)
+    noted = page.upgrade(noted, ways)
+    plain = [pair for group in said.conditions for pair in group.pairs if pair in said.plain]
+    shown = page.choose(plain[: _MOST_IN_COLUMNS - len(who)], _in_two_columns, after=who)
+    further = _without(said.conditions, shown)
+    pairs = [pair for group in further for pair in group.pairs]
+    running = page.choose(pairs, lambda pairs: _fine(_in_running_text(_only(further, pairs))))
+    corrections = page.upgrade((), [said.corrections])
+    cut = said.notices if noted == pointed_at else _cut(said.notices, writer)
+    left = Said(
+        notices=() if noted == in_full else cut,
+        who=_others(said.who, (*who, *long_who)),
+        law=_others(said.law, law),
+        conditions=_without(further, running),
+        corrections=_others(said.corrections, corrections),
+    )
+    others = (
+        *_in_two_columns((*who, *shown)),
+        *_facts_in_a_line(long_who),
+        *_sentences(law),
+        *_fine(_in_running_text(_only(further, running))),
+        *corrections,
+    )
+    pointer = [_elsewhere(left.names, writer)] if left.names else []
+    return Filled(noted, (*others, *pointer), left)
+
+
+def _who(said: Said, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+    """Take room for who and what was measured; return what of it stands in columns, and what in a line.
+
+    In columns stands what leaves room for the law.
+    """
+    short, _ = _short_and_long(said.who)
+    ways = [(short[:count], _others(said.who, short[:count])) for count in (_FEWEST_IN_COLUMNS, 0)]
+    for beside in (_sentences(said.law), ()):
+        for in_columns, in_a_line in ways:
+            blocks = (*_in_two_columns(in_columns), *_facts_in_a_line(in_a_line))
+            if page.holds((*blocks, *beside)):
+                page.take(blocks)
+                return in_columns, in_a_line
+    return (), page.choose(said.who, _facts_in_a_line)
+
+
+class _Room:
+    """Room of a page, that is taken piece by piece."""
+
+    def __init__(self, free: float) -> None:
+        self._free = free
+
+    def holds(self, blocks: Sequence[Block]) -> bool:
+        return columns.height(blocks) <= self._free
+
+    def take(self, blocks: Sequence[Block]) -> None:
+        self._free -= columns.height(blocks)
+
+    def choose(
+        self,
+        items: Sequence[_T],
+        laid: Callable[[tuple[_T, ...]], Sequence[Block]],
+        after: tuple[_T, ...] = (),
+    ) -> tuple[_T, ...]:
+        """Take room for those items that it holds, in their order; those they stand `after` have theirs."""
+        already = columns.height(laid(after))
+        chosen: tuple[_T, ...] = ()
+        for item in items:
+            if columns.height(laid((*after, *chosen, item))) - already <= self._free:
+                chosen = (*chosen, item)
+        self._free -= columns.height(laid((*after, *chosen))) - already
+        return chosen
+
+    def upgrade(self, now: tuple[_B, ...], ways: Sequence[tuple[_B, ...]]) -> tuple[_B, ...]:
+        """Return the first of the ways that there is room for in place of what stands there now, or that."""
+        free = self._free + columns.height(now)
+        for way in ways:
+            if columns.height(way) <= free:
+                self._free = free - columns.height(way)
+                return way
+        return now
+
+
+def _ways_to_note(notices: tuple[Notice, ...], writer: Writer) -> list[tuple[Notice, ...]]:
+    """Return from long to short how notices stand.
+
+    In full; those of a line in full, and the others by their headings; pointed at.
+    """
+    if not notices:
+        return [()]
+    brief = tuple(each if _is_short(each, writer) else replace(each, items=()) for each in notices)
+    pointed_at = Notice(writer.say(_SEE_DETAILS.given(details=_DETAILS)), ())
+    return [_in_a_box(notices, writer), _in_a_box(brief, writer), (pointed_at,)]
+
+
+def _cut(notices: Iterable[Notice], writer: Writer) -> tuple[Notice, ...]:
+    """Return the notices of which a page that is short of room has but the headings."""
+    return tuple(each for each in notices if each.items and not _is_short(each, writer))
+
+
+def _is_short(notice: Notice, writer: Writer) -> bool:
+    """Return whether a notice is a line, and no more is to be said of it."""
+    return columns.notice_lines(_as_item(notice, writer)) == 1
+
+
+def _in_a_box(notices: tuple[Notice, ...], writer: Writer) -> tuple[Notice, ...]:
+    """Return several notices as one: frames take room."""
+    if len(notices) < 2:
+        return notices
+    return (Notice(writer.say(_TO_BE_NOTED), tuple(_as_item(each, writer) for each in notices)),)
+
+
+def _as_item(notice: Notice, writer: Writer) -> str:
+    if not notice.items:
+        return notice.heading
+    return writer.say(_ITEM.given(heading=notice.heading, items="; ".join(notice.items)))
+
+
+def _elsewhere(names: Iterable[str], writer: Writer) -> Paragraph:
+    """Return the line that says what stands on the page of details."""
+    what = ", ".join(writer.say(_NAMES[name]) for name in names)
+    return Paragraph(writer.say(_ELSEWHERE.given(details=_DETAILS, what=what)))
+
+
+def _short_and_long(pairs: Sequence[Pair]) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+    """Return the facts that a column holds in a few lines, and the others."""
+    short = tuple(pair for pair in pairs if columns.fact_lines(*pair) <= _MOST_LINES)
+    return short, _others(pairs, short)
+
+
+def _others(items: Iterable[_T], taken: Container[_T]) -> tuple[_T, ...]:
+    return tuple(each for each in items if each not in taken)
+
+
+def _without(groups: Iterable[Facts], taken: Container[Pair]) -> tuple[Facts, ...]:
+    """Return groups without some of their facts, and without groups that have no other."""
+    left = (replace(group, pairs=_others(group.pairs, taken)) for group in groups)
+    return tuple(group for group in left if group.pairs)
+
+
+def _only(groups: Sequence[Facts], kept: Container[Pair]) -> tuple[Facts, ...]:
+    return _without(groups, {pair for group in groups for pair in group.pairs if pair not in kept})
+
+
+def _fine(text: str) -> tuple[Paragraph, ...]:
+    return (Paragraph(text, fine=True),) if text else ()
+
+
+def _sentences(texts: Iterable[str]) -> tuple[Paragraph, ...]:
+    return _fine(" ".join(texts))
+
+
+def _facts_in_a_line(pairs: Iterable[Pair]) -> tuple[Paragraph, ...]:
+    return _fine(_in_a_line(pairs))
+
+
+def _in_a_line(pairs: Iterable[Pair]) -> str:
+    text = "; ".join(map(": ".join, pairs))
+    return f"{text.rstrip('. ')}." if text else ""
+
+
+def _in_running_text(groups: Iterable[Facts]) -> str:
+    return " ".join(
+        f"{group.heading} – {_in_a_line(group.pairs)}" if group.heading else _in_a_line(group.pairs)
+        for group in groups
+    )
+
+
+def _in_two_columns(pairs: Sequence[Pair]) -> tuple[Facts, ...]:
+    """Return facts as two groups of nearly one height, which stand beside each other."""
+    if len(pairs) < 2:
+        return (Facts(tuple(pairs)),) if pairs else ()
+    lines = [columns.fact_lines(*pair) for pair in pairs]
+    end = min(range(1, len(pairs)), key=lambda end: max(sum(lines[:end]), sum(lines[end:])))
+    return Facts(tuple(pairs[:end])), Facts(tuple(pairs[end:]))

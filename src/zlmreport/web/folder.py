@@ -1,0 +1,244 @@
+"""The jobs of a folder on one page: what fails, what is due, what is fine; each opens as a workbench."""
+
+from __future__ import annotations
+
+import datetime as dt
+import hashlib
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from enum import IntEnum
+from pathlib import Path
+from threading import Lock, Thread
+from typing import Any
+
+from zlmreport import pipeline
+from zlmreport.document.certificate.conformity import STATEMENTS
+from zlmreport.document.certificate.results import Evaluated
+from zlmreport.errors import AccessError, InputError, ZlmreportError
+from zlmreport.job.contradictions import last_day
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.language import Language, Words
+from zlmreport.measurement.provenance import SourceFile
+from zlmreport.plugin.registry import Registry
+from zlmreport.web.bench import PLACE, Bench, stamp_of
+
+#: What is due within this time may be planned now.
+SOON = dt.timedelta(days=90)
+_SUFFIXES = {".yaml", ".yml"}
+_JOB = re.compile(r"^schema:\s*[\"']?zlmreport/job/", re.MULTILINE)
+#: The line that says what a file is stands among its first; comments may come before it.
+_HEAD = 20_000
+_MOST = 2_000
+_NO_AXIS = Words(en="", de="")
+
+
+class State(IntEnum):
+    """How a job stands, the worst first."""
+
+    FAILS = 0
+    NOT_MET = 1
+    OVERDUE = 2
+    UNDECIDED = 3
+    SOON = 4
+    FINE = 5
+    EARLIER = 6  #: A later job tests the same axis.
+    WAITS = 7  #: It is being looked at.
+
+
+_WORDS = {
+    State.FAILS: Words(en="failing", de="fehlerhaft"),
+    State.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
+    State.OVERDUE: Words(en="overdue", de="überfällig"),
+    State.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
+    State.SOON: Words(en="due soon", de="bald fällig"),
+    State.FINE: Words(en="nothing to do", de="nichts zu tun"),
+    State.EARLIER: Words(en="earlier test", de="frühere Prüfung"),
+    State.WAITS: Words(en="being looked at …", de="wird angesehen …"),
+}
+#: What the decisions of a job come to, by the name of their mark.
+_DECIDED = {"NOT_MET": State.NOT_MET, "OPEN": State.UNDECIDED}
+
+
+@dataclass(frozen=True, slots=True)
+class JobRow:
+    """A job of the folder."""
+
+    key: str  #: Names it in addresses: the same as long as it lies where it lies.
+    name: str  #: Relative to the folder.
+    state: State = State.WAITS
+    number: str = ""  #: Of its certificate.
+    machine: str = ""
+    axis: Words = _NO_AXIS  #: With its name, as pages head it.
+    measured: dt.date | None = None
+    due: dt.date | None = None  #: By when the axis is to be measured again; None where no interval is stated.
+    problems: tuple[str, ...] = ()  #: Why it fails, each with its place.
+    closed: str = ""  #: Why it has no page: no error model is of what it measures; empty where it opens.
+
+    def dated(self, today: dt.date, *, is_latest: bool) -> JobRow:
+        """Return the job with what a day makes of it; an earlier test of an axis needs nobody."""
+        if not is_latest and self.state is not State.FAILS:
+            return replace(self, state=State.EARLIER, due=None)
+        if self.due is None or self.state < State.OVERDUE:
+            return self
+        state = self.state
+        if self.due < today:
+            state = State.OVERDUE
+        elif self.due <= today + SOON:
+            state = min(state, State.SOON)
+        return replace(self, state=state)
+
+
+def jobs_in(folder: Path) -> tuple[Path, ...]:
+    """Return the job files below a folder, by their names; hidden folders are passed over.
+
+    Raises `AccessError` if the folder cannot be read, `InputError` if there is none in it.
+    """
+    try:
+        found = sorted(folder.rglob("*"))
+    except OSError as error:
+        raise AccessError.at(PLACE, f"{folder}: {(error.strerror or str(error)).lower()}") from error
+    jobs = tuple(path for path in found if _is_job(path, folder))[:_MOST]
+    if not jobs:
+        raise InputError.at(
+            PLACE, f"{folder}: no job file lies here; one begins with 'schema: zlmreport/job/1'"
+        )
+    return jobs
+
+
+def _is_job(path: Path, folder: Path) -> bool:
+    hidden = any(part.startswith(".") for part in path.relative_to(folder).parts)
+    if hidden or path.suffix not in _SUFFIXES or not path.is_file():
+        return False
+    try:
+        with path.open(encoding="utf-8", errors="replace") as file:
+            return bool(_JOB.search(file.read(_HEAD)))
+    except OSError:
+        return True  # it is listed, with what is wrong
+
+
+@dataclass(slots=True)
+class JobFolder:
+    """The jobs below a folder, looked at one after the other beside the page, and again when they change."""
+
+    path: Path  #: The folder.
+    registry: Registry  #: The installed plugins.
+    today: Callable[[], dt.date]  #: Says the day: what is due depends on it.
+    _known: dict[str, tuple[str, JobRow]] = field(default_factory=dict)
+    _watched: dict[str, tuple[Path, ...]] = field(default_factory=dict)
+    _lock: Lock = field(default_factory=Lock)
+    _worker: Thread | None = None
+
+    def paths(self) -> dict[str, Path]:
+        """Return the job files by their keys."""
+        return {self.key(each): each for each in jobs_in(self.path)}
+
+    def key(self, job: Path) -> str:
+        """Return what names a job in addresses."""
+        return hashlib.sha256(job.relative_to(self.path).as_posix().encode()).hexdigest()[:12]
+
+    def rows(self) -> list[JobRow]:
+        """Return the jobs, the worst first; what is not known yet is looked at beside, and waits."""
+        paths = self.paths()
+        with self._lock:
+            stale = [key for key in paths if key not in self._known or self._is_changed(key)]
+            if stale and (self._worker is None or not self._worker.is_alive()):
+                waiting = {key: paths[key] for key in stale}
+                self._worker = Thread(target=self._look, args=(waiting,), daemon=True)
+                self._worker.start()
+            known = [
+                self._known[key][1] if key in self._known else JobRow(key, self._name(path))
+                for key, path in paths.items()
+            ]
+        return sorted(_dated(known, self.today()), key=lambda each: (each.state, each.name))
+
+    def _name(self, path: Path) -> str:
+        return path.relative_to(self.path).as_posix()
+
+    def _is_changed(self, key: str) -> bool:
+        return stamp_of(self._watched[key]) != self._known[key][0]
+
+    def _look(self, waiting: dict[str, Path]) -> None:
+        for key, path in waiting.items():
+            row, files = looked_at(JobRow(key, self._name(path)), path, self.registry)
+            with self._lock:
+                self._watched[key] = files
+                self._known[key] = stamp_of(files), row
+
+
+def looked_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
+    """Return a job with all that its files say, and these files; a job that cannot be evaluated fails."""
+    files = [path]
+    try:
+        job = load(path, registry)
+        row, files = _described(row, job), _known_paths(job.files)
+        evaluated: list[Evaluated] = []
+        for part in job.parts:
+            readings = pipeline.read(part, registry)
+            files += _known_paths(readings.provenance.files)
+            evaluated += pipeline.evaluated(part, readings, registry)
+        row = replace(row, state=_state(evaluated))
+    except ZlmreportError as error:
+        # Which of the files will be mended nobody knows: those that are named.
+        files += [Path(each.place.file) for each in error.problems]
+        problems = tuple(str(each) for each in error.problems)
+        return replace(row, state=State.FAILS, problems=problems), tuple(dict.fromkeys(files))
+    try:
+        Bench(path, registry).tried(job)
+    except ZlmreportError as error:
+        row = replace(row, closed=error.problems[0].message)
+    return row, tuple(dict.fromkeys(files))
+
+
+def _known_paths(files: Sequence[SourceFile]) -> list[Path]:
+    return [each.path for each in files if each.path is not None]
+
+
+def _described(row: JobRow, job: Job) -> JobRow:
+    keys = job.keys
+    measured = last_day(keys.measurement)
+    interval = keys.fleet.interval if keys.fleet else None
+    return replace(
+        row,
+        number=keys.certificate.number,
+        machine=" ".join(filter(None, (keys.machine.type, keys.machine.serial))),
+        axis=job.axis.heading,
+        measured=measured,
+        due=measured + dt.timedelta(days=interval) if measured and interval else None,
+    )
+
+
+def _state(evaluated: Sequence[Evaluated]) -> State:
+    """Return what the decisions on limits come to, the worst of them."""
+    decisions = (one.decision for each in evaluated for one in each.evaluation.parameters)
+    marks = (STATEMENTS[each.conformity][0].name for each in decisions if each is not None)
+    return min((_DECIDED.get(each, State.FINE) for each in marks), default=State.FINE)
+
+
+def _dated(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
+    latest: dict[tuple[str, str], dt.date] = {}
+    for each in rows:
+        if each.measured:
+            axis = each.machine, each.axis.en
+            latest[axis] = max(each.measured, latest.get(axis, dt.date.min))
+    for each in rows:
+        is_latest = each.measured is None or latest[each.machine, each.axis.en] == each.measured
+        yield each.dated(today, is_latest=is_latest)
+
+
+def row_values(row: JobRow, language: Language) -> dict[str, Any]:
+    """Return a job as a page is told of it."""
+    return {
+        "key": row.key,
+        "name": row.name,
+        "state": row.state.name.lower().replace("_", "-"),
+        "words": _WORDS[row.state].in_language(language),
+        "number": row.number,
+        "machine": row.machine,
+        "axis": row.axis.in_language(language),
+        "measured": row.measured.isoformat() if row.measured else "",
+        "due": row.due.isoformat() if row.due else "",
+        "problems": list(row.problems),
+        "closed": row.closed,
+    }

@@ -1,0 +1,96 @@
+"""What the server answers for a folder of jobs: the list, and behind each of its jobs a workbench."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from threading import Lock
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request as HttpRequest
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Mount, Route
+from starlette.types import Receive, Scope, Send
+
+from zlmreport.errors import ZlmreportError
+from zlmreport.language import Language
+from zlmreport.plugin.registry import Registry
+from zlmreport.web.app import Workbench, file, language_of, shell
+from zlmreport.web.folder import JobFolder, row_values
+from zlmreport.web.guard import Door, DoorKeeper
+from zlmreport.web.texts import texts
+
+
+@dataclass(slots=True)
+class FolderWorkbench:
+    """The answers for a folder of jobs; the workbench of a job begins when it is opened."""
+
+    folder: JobFolder
+    registry: Registry
+    plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
+    _opened: dict[str, tuple[Workbench, Starlette]] = field(default_factory=dict)
+    _lock: Lock = field(default_factory=Lock)
+
+    def warm_up(self) -> None:
+        """Begin to look at the jobs, so that the page need not wait."""
+        self.folder.rows()
+
+    def end(self) -> None:
+        """End what is under way beside, and take its files away."""
+        with self._lock:
+            opened, self._opened = self._opened, {}
+        for workbench, _ in opened.values():
+            workbench.end()
+
+    def app(self, door: Door) -> DoorKeeper:
+        """Return the application behind its guard."""
+        routes = [
+            Route("/", self.page),
+            Route("/files/{name}", file),
+            Route("/api/texts", self.texts),
+            Route("/api/folder", self.jobs),
+            Mount("/jobs/{key}", self.job),
+        ]
+        return DoorKeeper(Starlette(routes=routes), door)
+
+    async def page(self, request: HttpRequest) -> Response:
+        """Answer with the page of the folder; it fills itself."""
+        return shell(self._language(request), self.folder.path.resolve().name)
+
+    async def texts(self, request: HttpRequest) -> Response:
+        """Answer with the words of the page, and that it is one of a folder."""
+        return JSONResponse(
+            {**texts(self._language(request)), "folder": str(self.folder.path.resolve().name)}
+        )
+
+    async def jobs(self, request: HttpRequest) -> Response:
+        """Answer with the jobs, the worst first."""
+
+        def found() -> dict[str, Any]:
+            return {"jobs": [row_values(each, self._language(request)) for each in self.folder.rows()]}
+
+        try:
+            return JSONResponse(await run_in_threadpool(found))
+        except ZlmreportError as error:
+            return JSONResponse({"problems": [str(each) for each in error.problems]}, 422)
+
+    async def job(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Hand a request on to the workbench of a job."""
+        answer = await run_in_threadpool(self._workbench, scope["path_params"]["key"])
+        await (answer or Response(status_code=404))(scope, receive, send)
+
+    def _workbench(self, key: str) -> Starlette | None:
+        with self._lock:
+            if key not in self._opened:
+                path = self.folder.paths().get(key)
+                if path is None:
+                    return None
+                workbench = Workbench.on(path, self.registry, self.plugins)
+                self._opened[key] = workbench, workbench.routed()
+            return self._opened[key][1]
+
+    def _language(self, request: HttpRequest) -> Language:
+        return language_of(request) or Language.ENGLISH

@@ -1,0 +1,322 @@
+"""Twenty doubtful jobs, by several standards, of axes that move and turn, in every layout and language.
+
+Each is refused or marked where it is read, and of none is anything printed that is not so.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+from document.certificate.documents import certificate, lines_of, text_of, without
+from doubtful import doubtful_jobs
+from doubtful.doubtful_jobs import REPORT, SOUND, TARGETS, changed, composed, order, readings, refusals, write
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.measurement.approach import Approach
+from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
+
+GERMAN = ("certificate.language", "de")
+SHEET, STANDARD = ("certificate.layout", "sheet"), ("certificate.layout", "standard")
+#: An axis that turns, and a straightness: what is stated of lengths along the axis is left out.
+TURNING: Mapping[str, Any] = {
+    **without("environment.expansion_coefficient", "uncertainty", keys=SOUND),
+    "certificate": {**SOUND["certificate"], "kind": "report"},
+    "axis": {"name": "C", "kind": "rotary", "travel": [0, 360]},
+    "instrument": {**without("compensation", keys=SOUND["instrument"]), "name": "Autocollimator"},
+    "uncertainty": {"environmental_variation": 0.3},
+}
+ANGLES = np.array([0.0, 31, 64, 90, 127, 158, 180, 221, 249, 270, 338])
+
+Spoil = Callable[[np.ndarray], np.ndarray]
+
+
+@dataclass(frozen=True)
+class Doubtful:
+    """A job, its readings, and what its document says of them."""
+
+    keys: Mapping[str, Any]
+    said: str
+    spoil: Spoil = lambda deviations: deviations
+    targets: np.ndarray = field(default_factory=lambda: TARGETS)
+    runs: int = 5
+
+
+def by(standard: str, **limits: float) -> tuple[str, Any]:
+    """Return the key of a standard with its limits."""
+    return ("evaluate", [{"standard": standard, "tolerances": limits}])
+
+
+def rising(deviations: np.ndarray) -> np.ndarray:
+    """Return readings that rise by 12 from the first to the last."""
+    moved = deviations.copy()
+    for number, at in enumerate(order()):
+        moved[at] += 12 * number / len(order())
+    return moved
+
+
+def stepped(deviations: np.ndarray) -> np.ndarray:
+    """Return readings whose second run stands apart, as after a knock."""
+    moved = deviations.copy()
+    moved[..., 1] += 9
+    return moved
+
+
+def with_outlier(deviations: np.ndarray) -> np.ndarray:
+    moved = deviations.copy()
+    moved[4, 1, 1] += 60
+    return moved
+
+
+def copied(deviations: np.ndarray) -> np.ndarray:
+    """Return readings whose last run is the one before it."""
+    moved = deviations.copy()
+    moved[..., -1] = moved[..., -2]
+    return moved
+
+
+def one_direction_twice(deviations: np.ndarray) -> np.ndarray:
+    return np.repeat(deviations[:, :1], 2, axis=1)
+
+
+JOBS: dict[str, Doubtful] = {
+    "drift by VDI/DGQ 3441 on a sheet": Doubtful(
+        changed(SHEET, GERMAN, by("vdi-dgq-3441", P=25)), "Mittelwerte der Durchläufe steigen von", rising
+    ),
+    "drift of two runs by NMTBA": Doubtful(
+        changed(REPORT, by("nmtba", P=25)), "Run means lie between", stepped, runs=2
+    ),
+    "a run that stands apart": Doubtful(
+        changed(STANDARD, by("iso230-2:2006", A=25)),
+        "1 µm is stated of drift at rest: what exceeds it",
+        stepped,
+    ),
+    "drift that is declared negligible": Doubtful(
+        changed(
+            GERMAN,
+            ("uncertainty", without("environmental_variation", keys=SOUND["uncertainty"])),
+            ("uncertainty.negligible.environmental_variation", "air-conditioned hall"),
+        ),
+        "Drift in Ruhe ist als vernachlässigbar erklärt: dies ist der Achse zugerechnet und nicht in U",
+        rising,
+    ),
+    "an outlier by ISO 230-2:1988": Doubtful(
+        changed(SHEET, by("iso230-2:1988", A=200)), "The reading of run 2 at 398.3 mm ↓ lies", with_outlier
+    ),
+    "an outlier of an axis that turns": Doubtful(
+        changed(GERMAN, STANDARD, by("iso230-2:2014", A=200), of=TURNING),
+        "Der Messwert von Durchlauf 2 bei 127° ↓ liegt",
+        with_outlier,
+        ANGLES,
+    ),
+    "a run that was copied": Doubtful(
+        changed(GERMAN, SHEET, by("vdi-vde-2617", P=20)),
+        "Die Durchläufe 4, 5 sind in jeder Stelle gleich",
+        copied,
+    ),
+    "a direction that was copied": Doubtful(
+        changed(by("iso230-2:1997", B=1)), "Both directions are identical in every digit", one_direction_twice
+    ),
+    "a straightness whose single run was copied to the other direction": Doubtful(
+        changed(REPORT, GERMAN, ("measurement.error", "EYX"), by("iso230-1:2012", EYX=5)),
+        "Beide Richtungen sind in jeder Stelle gleich, in Durchlauf 1",
+        one_direction_twice,
+        runs=1,
+    ),
+    "a straightness in millimetres": Doubtful(
+        changed(REPORT, ("measurement.error", "EYX"), by("iso230-1:2012", EYX=5)),
+        "if the file has mm",
+        lambda deviations: deviations / 1e3,
+    ),
+    "degrees read as seconds of arc": Doubtful(
+        changed(GERMAN, SHEET, by("vdi-dgq-3441", P=12), of=TURNING),
+        "gehört measurement.source.units: {deviation: deg} in den Auftrag",
+        lambda deviations: deviations / 3600,
+        ANGLES,
+    ),
+    "a turning axis taken for a straight one": Doubtful(
+        changed(REPORT, STANDARD, ("axis", {"name": "C", "travel": [0, 360]})),
+        "Axis C is taken for a linear one",
+        targets=ANGLES,
+    ),
+    "an expansion coefficient of 115": Doubtful(
+        changed(GERMAN, SHEET, ("environment.expansion_coefficient", 115)),
+        "115 µm/(m·K) ist ungewöhnlich",
+    ),
+    "a correction by 0.0115 mm/(m·K)": Doubtful(
+        changed(
+            ("corrections", {"material": {"temperature": "axis_temperature"}}),
+            ("environment.expansion_coefficient", 0.0115),
+            ("environment.axis_temperature", 21.5),
+            ("uncertainty.resolution", 0.01),
+        ),
+        "0.0115 mm/(m·K) would be 11.5 µm/(m·K)",
+    ),
+    "an instrument without a date": Doubtful(
+        changed(GERMAN, SHEET, ("instrument", without("calibrated", keys=SOUND["instrument"]))),
+        "Messgerät: Datum der Kalibrierung nicht angegeben",
+    ),
+    "a report by an instrument that was overdue": Doubtful(
+        changed(REPORT, GERMAN, SHEET, ("instrument.due", "2026-10-01")),
+        "Messgerät: Kalibrierung war am 2026-10-01 fällig, vor der Messung vom 2026-11-18",
+    ),
+    "a report by a thermometer without a certificate": Doubtful(
+        changed(REPORT, STANDARD, ("environment.thermometers", [{"name": "T 1", "certificate": "none"}])),
+        "T 1: no calibration certificate named",
+    ),
+    "a turning axis beside the scope": Doubtful(
+        changed(
+            ("laboratory.cmc", {"constant": 0.3, "kind": "linear"}), by("iso230-2:2014", A=9), of=TURNING
+        ),
+        "Outside the accredited scope: results of a rotary axis",
+        targets=ANGLES,
+    ),
+    "five runs over 2.5 m": Doubtful(
+        changed(REPORT, GERMAN, SHEET, ("axis.travel", [0, 2500]), by("iso230-2:2006", A=20)),
+        "über ihre Grenzwerte wird nicht entschieden",
+        targets=2.5 * TARGETS,
+    ),
+    "one run and a limit of R": Doubtful(
+        changed(REPORT, GERMAN, STANDARD, by("iso230-2:2014", R=5)),
+        "R ist durch diese Messung nicht bestimmt; über den Grenzwert wird nicht entschieden",
+        runs=1,
+    ),
+}
+
+
+@pytest.mark.parametrize("name", JOBS)
+def test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so(
+    name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    job = JOBS[name]
+    monkeypatch.setattr(doubtful_jobs, "TARGETS", job.targets)
+    monkeypatch.setattr(doubtful_jobs, "RUNS", job.runs)
+
+    document = composed(tmp_path, job.keys, job.spoil(readings()))
+
+    assert job.said in text_of(document)
+    assert false_in(document) == []
+
+
+def false_in(document: Certificate) -> list[str]:
+    """Return what a document says that is not so, by what else it says."""
+    text, job = text_of(document), document.job
+    assert job is not None
+    is_german, is_report = document.language.value == "de", job.keys.certificate.kind == "report"
+    parameters = [each for of in document.evaluations for each in of.parameters]
+    marked = [each.in_language(document.language) for each in (*document.doubts, *document.evidence)]
+    broken = (
+        "fällig",
+        "was due",
+        "nach der Messung",
+        "after the measurement",
+        "no calibration certificate named",
+    )
+    of_instrument = [each for each in marked if each.startswith(("Messgerät", "Measuring instrument"))]
+    of_results = json.loads(JsonResultsRenderer().render(document)).get("doubtful", [])
+    found = {
+        "a place that nothing fills": bool(re.search(r"\{[a-z_]+\}", text)),
+        "one of several": bool(
+            re.search(
+                r"(?<![\d.,])1 (?:runs|readings|positions|more|Durchläufe|Messwerte|Positionen|weitere)\b",
+                text,
+            )
+        ),
+        "an interval that no table has": ("nterval of the axis" in text or "Intervall der Achse" in text)
+        and all(each.axis_interval is None for each in parameters),
+        "a chain that is broken": any(word in each for word in broken for each in of_instrument)
+        and ("metrologically traceable" in text or "metrologisch rückführbar" in text),
+        "a report that calibrates": is_report
+        and bool(
+            re.search(
+                "tem calibrated|Kalibriergegenstand|^Kalibrierung$|^Calibration$",
+                text,
+                re.MULTILINE,
+            )
+        ),
+        "no word of the field": is_german and bool(re.search(r"\bZeichen \||kalibrierten Gegenstand", text)),
+        "drift out of sight": "cannot be judged" in text or "nicht zu erkennen" in text,
+        "a mark that only the page has": of_results != marked or any(each not in text for each in marked),
+        "a direction that is not there": any(word in text for word in ("both directions", "beide Richtungen"))
+        and set(document.measurements.approaches) != set(Approach),
+    }
+    return [what for what, is_so in found.items() if is_so]
+
+
+# A whole machine.
+
+
+def machine(
+    folder: Path, parts: Mapping[str, tuple[Mapping[str, Any], np.ndarray]], **keys: str
+) -> Certificate:
+    """Return one document of several axes: each with its own job and readings."""
+    shared = {each: SOUND[each] for each in ("schema", "laboratory", "customer", "machine", "location")}
+    own = {**SOUND["certificate"], "kind": "report", **keys}
+    for number, (name, (job, deviations)) in enumerate(parts.items()):
+        write(folder, deviations)
+        (folder / "x.csv").rename(folder / f"{name}.csv")
+        source = {"plugin": "laser-csv", "file": f"{name}.csv"}
+        part = changed(
+            ("axis.name", name),
+            ("measurement.source", source),
+            ("certificate", {**own, "number": f"CAL-1-{number}"}),
+            of=job,
+        )
+        (folder / f"{name}.yaml").write_text(yaml.safe_dump(part), encoding="utf-8")
+    return certificate(
+        folder, {**shared, "certificate": own, "measurements": [f"{name}.yaml" for name in parts]}
+    )
+
+
+@pytest.mark.parametrize("layout", ["full", "standard", "sheet"])
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_the_first_page_of_a_machine_has_what_any_of_its_axes_shows(
+    language: str, layout: str, tmp_path: Path
+) -> None:
+    parts = {
+        "X": (SOUND, readings()),
+        "Y": (SOUND, rising(readings())),
+        "Z": (changed(("instrument.due", "2026-10-01")), readings(seed=2)),
+    }
+    document = machine(tmp_path, parts, language=language, layout=layout)
+    first = "\n".join(line for each in document.cover for line in lines_of(each))
+
+    for en, de in (
+        ("Y: What readings and calibrations show", "Y: Was Messwerte und Kalibrierungen zeigen"),
+        ("Run means rise from", "Mittelwerte der Durchläufe steigen"),
+        ("calibration was due on 2026-10-01", "Kalibrierung war am 2026-10-01 fällig"),
+    ):
+        assert (de if language == "de" else en) in first
+    of_z = [each for of in document.sections if of.key.startswith("EZZ-") for each in of.blocks]
+    said = "\n".join([first, *(line for each in of_z for line in lines_of(each))])
+    assert not re.search("metrologically traceable|metrologisch rückführbar", said)
+    assert not re.search("tem calibrated|Kalibriergegenstand|^Kalibrierung$", text_of(document), re.MULTILINE)
+
+
+# Refused, whatever the layout.
+
+
+@pytest.mark.parametrize(
+    ("keys", "said"),
+    [
+        (
+            changed(SHEET, GERMAN, ("instrument.calibrated", "2027-01-07")),
+            "after the measurement of 2026-11-18",
+        ),
+        (
+            changed(STANDARD, ("instrument.certificate", "liegt noch nicht vor")),
+            "no calibration certificate named",
+        ),
+        (changed(("environment.axis_temperature", 24), by("vdi-dgq-3441", P=20)), "corrections: {material:"),
+        (changed(GERMAN, ("uncertainty.environmental_variation", 0)), "0 states nothing"),
+    ],
+)
+def test_a_certificate_that_its_own_words_refute_is_refused(keys: Any, said: str, tmp_path: Path) -> None:
+    assert said in refusals(tmp_path, keys)

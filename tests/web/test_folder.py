@@ -1,0 +1,166 @@
+"""A folder of jobs: what fails, what is due, and each opens."""
+
+from __future__ import annotations
+
+import datetime as dt
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from processes import awaited
+from web.jobs import registry
+from zlmreport.errors import InputError
+from zlmreport.language import Language
+from zlmreport.web.folder import JobFolder, JobRow, State, jobs_in, looked_at, row_values
+from zlmreport.web.folder_app import FolderWorkbench
+from zlmreport.web.guard import Door
+
+TODAY = dt.date(2026, 11, 26)
+
+
+@pytest.fixture
+def folder(job: Path) -> Iterator[FolderWorkbench]:
+    """Return the workbench of a folder that holds the example's job."""
+    made = FolderWorkbench(JobFolder(job.parent, registry(), lambda: TODAY), registry())
+    yield made
+    made.end()
+
+
+@pytest.fixture
+def listing(folder: FolderWorkbench, door: Door) -> TestClient:
+    """Return a browser that came by the address on the terminal."""
+    client = TestClient(folder.app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
+    assert client.get(door.address).status_code == 303
+    client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
+    return client
+
+
+def rows(listing: TestClient) -> list[dict[str, Any]]:
+    """Return the jobs once all have been looked at."""
+
+    def known() -> Any:
+        found = listing.get("/api/folder").json()["jobs"]
+        return found if all(each["state"] != "waits" for each in found) else None
+
+    found: list[dict[str, Any]] = awaited(known)
+    return found
+
+
+def test_a_job_is_listed_with_axis_and_day(listing: TestClient) -> None:
+    (job,) = rows(listing)
+    assert (job["name"], job["number"], job["state"]) == ("job.yaml", "EXAMPLE-2026-0007", "fine")
+    assert (job["axis"], job["measured"], job["due"]) == ("Axis X", "2026-11-18", "")
+
+
+def test_a_job_opens_as_a_workbench_of_its_own(listing: TestClient) -> None:
+    (job,) = rows(listing)
+    assert listing.get(f"/jobs/{job['key']}/").status_code == 200
+    assert listing.get(f"/jobs/{job['key']}/api/job").json()["number"] == "EXAMPLE-2026-0007"
+    assert listing.get("/jobs/none-such/api/job").status_code == 404
+
+
+def test_a_click_in_a_folder_is_written_into_its_job(job: Path, listing: TestClient) -> None:
+    root = f"/jobs/{rows(listing)[0]['key']}"
+    digest = listing.get(f"{root}/api/job").json()["digest"]
+    added = {"based_on": digest, "action": "add", "effect": "screw-pitch"}
+    assert listing.post(f"{root}/api/change", json=added).is_success
+    assert "    - screw-pitch\n" in job.read_text("utf-8")
+
+
+def test_nobody_opens_a_job_without_the_token(folder: FolderWorkbench, door: Door) -> None:
+    stranger = TestClient(folder.app(door), base_url=f"http://127.0.0.1:{door.port}")
+    key = next(iter(folder.folder.paths()))
+    assert [stranger.get(path).status_code for path in ("/api/folder", f"/jobs/{key}/api/job")] == [403, 403]
+
+
+def test_what_fails_stands_first_with_its_place_and_is_fine_once_it_is_mended(
+    job: Path, listing: TestClient
+) -> None:
+    text = job.read_text("utf-8")
+    job.with_name("a-good.yaml").write_text(text.replace("EXAMPLE-X-7", "OTHER"), "utf-8")
+    job.write_text(text.replace("- offset", "- ofset"), "utf-8")
+    first, second = rows(listing)
+    assert (first["name"], first["state"], second["state"]) == ("job.yaml", "fails", "fine")
+    assert "did you mean 'offset'?" in first["problems"][0]
+    job.write_text(text, "utf-8")
+    assert awaited(lambda: all(each["state"] == "fine" for each in rows(listing)))
+
+
+def test_a_job_that_fails_opens_and_says_what_is_wrong(job: Path, listing: TestClient) -> None:
+    job.write_text(job.read_text("utf-8").replace("- offset", "- ofset"), "utf-8")
+    (row,) = rows(listing)
+    assert listing.get(f"/jobs/{row['key']}/").status_code == 200
+    assert "did you mean 'offset'?" in listing.get(f"/jobs/{row['key']}/api/job").json()["problems"][0]
+
+
+@pytest.mark.parametrize(
+    ("due", "state"),
+    [
+        (TODAY - dt.timedelta(days=1), State.OVERDUE),
+        (TODAY, State.SOON),
+        (TODAY + dt.timedelta(days=90), State.SOON),
+        (TODAY + dt.timedelta(days=91), State.FINE),
+        (None, State.FINE),
+    ],
+)
+def test_an_axis_is_due_after_its_interval(due: dt.date | None, state: State) -> None:
+    assert JobRow("", "", State.FINE, due=due).dated(TODAY, is_latest=True).state is state
+
+
+@pytest.mark.parametrize("state", [State.FAILS, State.NOT_MET, State.OVERDUE])
+def test_being_due_soon_hides_nothing_worse(state: State) -> None:
+    assert JobRow("", "", state, due=TODAY).dated(TODAY, is_latest=True).state is state
+
+
+def test_the_interval_counts_from_the_day_of_the_measurement(job: Path) -> None:
+    job.write_text(f"{job.read_text('utf-8')}\nfleet: {{interval: 180}}\n", "utf-8")
+    row, _ = looked_at(JobRow("", ""), job, registry())
+    assert row.due == dt.date(2027, 5, 17)
+
+
+def test_an_earlier_test_of_an_axis_needs_nobody(job: Path, listing: TestClient) -> None:
+    text = job.read_text("utf-8")
+    job.with_name("before.yaml").write_text(text.replace("date: 2026-11-18", "date: 2025-11-18"), "utf-8")
+    assert [(each["name"], each["state"]) for each in rows(listing)] == [
+        ("job.yaml", "fine"),
+        ("before.yaml", "earlier"),
+    ]
+
+
+def test_a_limit_that_is_not_met_is_said(job: Path) -> None:
+    text = job.read_text("utf-8").replace(
+        "  - iso230-2:2014", "  - {standard: 'iso230-2:2014', tolerances: {A: 5}}"
+    )
+    job.write_text(text, "utf-8")
+    row, _ = looked_at(JobRow("", ""), job, registry())
+    assert row.state is State.NOT_MET, row.problems
+
+
+def test_only_jobs_are_listed(job: Path) -> None:
+    folder = job.parent
+    (folder / "fleet.yaml").write_text("schema: zlmreport/fleet/1\n", "utf-8")
+    hidden = folder / ".old"
+    hidden.mkdir()
+    shutil.copy(job, hidden)
+    assert jobs_in(folder) == (job,)
+
+
+def test_a_folder_without_a_job_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="no job file lies here"):
+        jobs_in(tmp_path)
+
+
+def test_a_job_without_an_error_model_is_listed_and_does_not_open() -> None:
+    circle = Path(__file__).parents[2] / "configs" / "circle" / "certificate.yaml"
+    row, _ = looked_at(JobRow("", ""), circle, registry())
+    assert row.state is not State.FAILS, row.problems
+    assert "no installed effect acts on that" in row.closed
+
+
+def test_a_state_is_told_in_german() -> None:
+    row = JobRow("k", "x.yaml", State.OVERDUE, due=dt.date(2026, 11, 1))
+    assert row_values(row, Language.GERMAN)["words"] == "überfällig"
