@@ -2,11 +2,28 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from model.axis_tests import USUAL, known, linear_test, model_of, noise
-from model.worlds import built, corrected_twice, diagnosed, in_warm_air, joints, lasting_noise, straight
-from zlmreport.model.diagnosis.diagnosis import Verdict
+from model.worlds import (
+    built,
+    corrected_twice,
+    diagnosed,
+    in_warm_air,
+    joints,
+    lasting_noise,
+    straight,
+    with_night,
+)
+from zlmreport.language import Language
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.report import verdict_statement
 
 _DESIGN = linear_test(15, 4)
+
+
+def _said(diagnosis: Diagnosis) -> str:
+    return verdict_statement(diagnosis).in_language(Language.ENGLISH)
 
 
 def test_axis_with_a_bent_scale_and_lost_motion_is_known_from_nothing() -> None:
@@ -34,4 +51,25 @@ def test_air_that_was_corrected_twice_is_named_and_asked_for() -> None:
     leading = found.candidates[0]
     assert leading.identifier == "air-index"
     assert leading.question is not None
-    assert "corrected twice" in leading.question.en
+    assert "corrected twice" in leading.question.in_language(Language.ENGLISH)
+
+
+def test_zero_that_moved_in_a_night_is_a_step_of_the_zero() -> None:
+    design = with_night(_DESIGN, run=2)
+    found = diagnosed(USUAL, design, known(design) + noise(design) + 3e-6 * (design.run > 2))
+    assert found.together[0].identifier == "datum-step"
+    assert any("22 h" in each.in_language(Language.ENGLISH) for each in found.remarks)
+
+
+def test_pitch_that_the_readings_contradict_is_said_beside_that_of_the_job() -> None:
+    wave = 3e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.012)
+    said = _said(diagnosed(USUAL, _DESIGN, known(_DESIGN) + wave + noise(_DESIGN)))
+    assert "screw-pitch" in said
+    assert "12.0 mm fits, the job says 10.0 mm" in said
+
+
+def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:
+    readings = 1e-3 * (straight(_DESIGN) + noise(_DESIGN))
+    said = _said(diagnosed(model_of("offset"), _DESIGN, readings))
+    assert said.startswith("The data look wrong: the deviations are no larger than 0.0")
+    assert "Missing effects: scale-error and backlash" in said

@@ -83,6 +83,8 @@ _SCOPE = Words(
     en="Δ and {axis} in {unit}, {axis} from {first} to {last}; each direction by itself",
     de="Δ und {axis} in {unit}, {axis} von {first} bis {last}; jede Richtung für sich",
 )
+#: SI, or times the value: an uncertainty as large is none.
+_UNDETERMINED = 1e5
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _MOVES = Words(
     en="{effects}: not fixed in position. A table of positions leaves it; it goes away only if the control "
@@ -362,5 +364,8 @@ def _wave(wave: Wave, axis: Axis, language: Language) -> WaveRows:
 def _rounded(value: float, expanded: float, unit: Unit, language: Language) -> tuple[str, str, float]:
     """Write a value and its uncertainty (SI), and return the written value as a number too."""
     sign = language.decimal_sign
+    if expanded > _UNDETERMINED * max(abs(value), 1.0):
+        # Columns that hang together to the last digit: the readings say nothing of it.
+        return general_number(unit.from_si(value), sign), "∞", float(f"{unit.from_si(value):.6g}")
     printed, half = rounded_pair(unit.from_si(value), unit.from_si(expanded), sign)
     return printed, half, float(printed.replace(MINUS, "-").replace(sign, "."))

@@ -9,8 +9,9 @@ from enum import StrEnum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import number_words
+from zlmreport.language.numbers import number_words, significant_words
 from zlmreport.measurement.arrays import IntArray
+from zlmreport.measurement.units import behind
 from zlmreport.model.diagnosis.candidates import NotTestable, effects_to_try
 from zlmreport.model.diagnosis.contest import Told, untold
 from zlmreport.model.diagnosis.faults import Fault, FaultKind, faults_of, gaps
@@ -23,7 +24,7 @@ from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, is_of_another_axis
+from zlmreport.model.effects.effect import Dimension, Effect, is_of_another_axis, unit_of
 from zlmreport.model.effects.sizes import asked_of, usual_range
 from zlmreport.model.fitting.blunders import Outliers, outliers
 from zlmreport.model.fitting.distributions import f_tail
@@ -47,6 +48,9 @@ _LEAST_LEFT = 0.25
 #: Chance of a larger χ²/ν below which it is no noise.
 _IMPROBABLE = 1e-3
 
+#: Share by which a value must differ from what the job says to contradict it.
+_CONTRADICTS = 0.01
+
 _EXPLAINS = Words(
     en="explains {share} % of what the noise leaves open",
     de="erklärt {share} % dessen, was das Rauschen offen lässt",
@@ -61,6 +65,11 @@ _LOOKS_WRONG = Words(
 )
 _NO_FLOOR = Words(
     en="takes the error from {before} to {after}", de="senkt die Abweichung von {before} auf {after}"
+)
+_IN_UNIT = Words(en="{value}{unit}", de="{value}{unit}")
+_JOB_SAYS = Words(
+    en="{name}: {fitted} fits, the job says {stated}.",
+    de="{name}: {fitted} passt, der Auftrag sagt {stated}.",
 )
 _AND = Words(en="{first}; {second}", de="{first}; {second}")
 
@@ -108,7 +117,8 @@ class Candidate:
     discriminate_by: Words | None
     is_plausible: bool = True  #: Whether physics allows it.
     is_large: bool = False  #: Whether a parameter lies beyond what is usual.
-    question: Words | None = None  #: What is asked of one that does; None of a candidate that is not large.
+    #: What is asked of one that does, or is said of one that the job contradicts; None of any other.
+    question: Words | None = None
 
     @property
     def identifier(self) -> str:
@@ -139,8 +149,14 @@ class Diagnosis:
     visibility: tuple[Visibility, ...]  #: How much of each effect this plan can see.
     outliers: IntArray  #: (k,) integer: Readings set aside, by their places in the measurement set.
     remarks: tuple[Words, ...]  #: What was assumed, and what was left out.
-    leaves_noise: bool  #: Whether nothing but noise is left once the whole set is in the model.
+    #: The noise floor with that which lasts over a few readings, m or rad; None without repeats.
+    lasting_noise: float | None
     faults: tuple[Fault, ...] = ()  #: What looks wrong in the data.
+
+    @property
+    def leaves_noise(self) -> bool:
+        """Whether nothing but noise is left once the whole set is in the model."""
+        return self.remainder is None and _is_noise(self.error_after, self.lasting_noise)
 
     @property
     def further(self) -> tuple[str, ...]:
@@ -255,7 +271,6 @@ def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
     tests = residual_tests(residuals_of(fitted, finding.noise))
     stand_off = flagged(observed.design, aside)
     not_testable = effects_to_try(asked.model, fitted.design, asked.effects).not_testable
-    after = held.error if complete is fitted else error_numbers(complete)
     return Diagnosis(
         fit=fitted,
         error=held.error,
@@ -265,7 +280,7 @@ def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
         failures=failures(tests) + ((stand_off,) if stand_off else ()),
         candidates=candidates,
         together=together,
-        error_after=after,
+        error_after=held.error if complete is fitted else error_numbers(complete),
         makeshift=finding.makeshift if together else (),
         remainder=held.left,
         not_testable=not_testable,
@@ -277,7 +292,7 @@ def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
             *gaps(observed.design),
             *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
         ),
-        leaves_noise=held.left is None and _is_noise(after, complete),
+        lasting_noise=lasting_floor(fitted.design, fitted.deviation),
         faults=faults,
     )
 
@@ -297,17 +312,16 @@ def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterabl
 
 def _may_be_noise(error: ErrorNumbers, fitted: Fit) -> bool:
     """Return whether the repeats scatter so much that the error may be their scatter alone."""
-    if _is_noise(error, fitted):
+    if _is_noise(error, lasting_floor(fitted.design, fitted.deviation)):
         return True
     ratio, within = error.chi2_per_dof, repeats(fitted.design, fitted.residual)
     return ratio is None or f_tail(ratio, fitted.degrees, within.degrees) > _IMPROBABLE
 
 
-def _is_noise(error: ErrorNumbers, fitted: Fit) -> bool:
+def _is_noise(error: ErrorNumbers, lasting: float | None) -> bool:
     """Return whether the error is no larger than the noise, also such as lasts over a few readings."""
     if error.chi2_per_dof is None or error.chi2_per_dof <= LARGEST_RATIO:
         return True
-    lasting = lasting_floor(fitted.design, fitted.deviation)
     return lasting is not None and error.rms**2 <= LARGEST_RATIO * lasting**2
 
 
@@ -365,6 +379,7 @@ def _candidate(base: Fit, rival: Rival, equals: Sequence[Rival], before: ErrorNu
     share = _share(base, after, before.noise_rms)
     estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
     question = next(filter(None, (_question(each, base.design) for each in estimates)), None)
+    contradiction = next(filter(None, (_contradiction(each, base.design) for each in estimates)), None)
     values = {each.parameter.name: each.value for each in estimates}
     yield Candidate(
         effect=rival.member.effect,
@@ -380,7 +395,7 @@ def _candidate(base: Fit, rival: Rival, equals: Sequence[Rival], before: ErrorNu
         discriminate_by=discriminate_by(rival.member.effect, [each.member.effect for each in equals]),
         is_plausible=rival.member.effect.forbids(base.design, values) is None,
         is_large=question is not None,
-        question=question,
+        question=question or contradiction,
     )
 
 
@@ -393,6 +408,22 @@ def _question(estimate: Estimate, design: Design) -> Words | None:
     if estimate.value + reach >= low and estimate.value - reach <= high:
         return None
     return asked_of(estimate.parameter, estimate.value, design.axis)
+
+
+def _contradiction(estimate: Estimate, design: Design) -> Words | None:
+    """Return that the readings contradict a value that follows from the job; None if they do not."""
+    if estimate.expected is None or estimate.is_given:
+        return None
+    off = abs(estimate.value - estimate.expected)
+    if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
+        return None
+    kind = design.axis.kind
+    unit = unit_of(estimate.parameter.dimension, kind, time_is_counted=design.time_is_counted)
+    fitted, stated = (
+        _IN_UNIT.given(value=significant_words(unit.from_si(value)), unit=behind(unit.symbol))
+        for value in (estimate.value, estimate.expected)
+    )
+    return _JOB_SAYS.given(fitted=fitted, stated=stated, name=estimate.parameter.description)
 
 
 def discriminate_by(effect: Effect, equals: Sequence[Effect]) -> Words | None:

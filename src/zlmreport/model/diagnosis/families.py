@@ -18,6 +18,7 @@ from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.fitting.contrasts import Contrasts
+from zlmreport.model.fitting.pauses import pauses
 from zlmreport.model.fitting.repeats import cells
 
 #: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there.
@@ -120,12 +121,18 @@ def orthonormal(
 
 
 def _log_weights(design: Design, effect: Effect, thetas: FloatArray) -> FloatArray:
-    """Return ln of the prior probabilities of values: all alike, but for waves in time that follow the runs.
+    """Return ln of the prior probabilities of values: all alike, but for some in time.
 
-    A wave in time whose period is that of a run does the same in every run: what it explains, position and
-    direction explain as well, and theirs is the better story.
+    What happens at one moment happens in a long pause rather than between two readings. A wave in time whose
+    period is that of a run does the same in every run: what it explains, position and direction explain as
+    well, and theirs is the better story.
     """
     weights = np.ones(len(thetas))
+    for column, each in enumerate(effect.searched):
+        if each.dimension is Dimension.TIME and not each.is_refined and pauses(design).any():
+            moments = np.unique(design.time)
+            after = np.clip(np.searchsorted(moments, thetas[:, column]), 1, len(moments) - 1)
+            weights *= moments[after] - moments[after - 1]
     is_time = [each.name == "period" and each.dimension is Dimension.TIME for each in effect.searched]
     cell = cells(design)
     count = np.bincount(cell)

@@ -20,6 +20,7 @@ from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, of_readings
+from zlmreport.model.fitting.pauses import pauses
 from zlmreport.model.fitting.repeats import noise_floor, repeats
 from zlmreport.model.fitting.sessions import of_the_job
 
@@ -46,8 +47,6 @@ _NEAR = 0.1
 _LAGS, _LAGGING, _AS_GOOD = (120.0, 300.0, 600.0, 1200.0), 10.0, -2.0
 #: Squares that may be left, over those of the noise floor.
 _NEARLY_NOISE = 1.3
-#: Gaps between two readings that part sessions: s, and in usual steps.
-_LONG_GAP, _MANY_STEPS = 3600.0, 50.0
 _FEWEST_STUCK, _FEWEST_EQUAL = 20, 6
 #: Agreement of rows with their directions, or of runs with each other, that is clear.
 _CLEAR = 0.5
@@ -120,13 +119,8 @@ def faults_of(
 
 def gaps(design: Design) -> Iterator[Words]:
     """Yield what is to be said of long gaps in time: what lies on either side is a session of its own."""
-    if design.time_is_counted:
-        return
-    steps = np.diff(design.time)
-    usual = float(np.median(steps[steps > 0])) if np.any(steps > 0) else 0.0
-    is_long = (steps > max(_LONG_GAP, _MANY_STEPS * usual)) & (np.diff(design.session) == 0)
-    for place in np.flatnonzero(is_long & (np.diff(design.cycle) != 0)).tolist():
-        hours = significant_words(float(steps[place]) / 3600.0, 2)
+    for place in np.flatnonzero(pauses(design) & (np.diff(design.cycle) != 0)).tolist():
+        hours = significant_words(float(design.time[place + 1] - design.time[place]) / 3600.0, 2)
         yield _GAP.given(hours=hours, before=int(design.run[place]), after=int(design.run[place + 1]))
 
 
@@ -462,16 +456,16 @@ _EXCLUDE_LOG = Words(
     de="diese Werte in der Datei leer lassen; Einflüsse, die ihnen folgen, sind sonst nicht zu erkennen",
 )
 _TINY_TEST = Words(
-    en="the deviations are no larger than {size}; are they in another unit?",
-    de="die Abweichungen sind nicht größer als {size}; stehen sie in einer anderen Einheit?",
+    en="the deviations are no larger than {size}, as if they stood in another unit",
+    de="die Abweichungen sind nicht größer als {size}, als stünden sie in einer anderen Einheit",
 )
 _STILL_TEST = Words(
-    en="the readings repeat to {size}, which no machine does; are they in millimetres?",
-    de="die Messwerte wiederholen sich auf {size}, was keine Maschine tut; stehen sie in Millimetern?",
+    en="the readings repeat to {size}, which no machine does, as if they stood in millimetres",
+    de="die Messwerte wiederholen sich auf {size}, was keine Maschine tut, als stünden sie in Millimetern",
 )
 _WILD_TEST = Words(
-    en="the readings scatter by {size}, which no machine does; are they in another unit?",
-    de="die Messwerte streuen um {size}, was keine Maschine tut; stehen sie in einer anderen Einheit?",
+    en="the readings scatter by {size}, which no machine does, as if they stood in another unit",
+    de="die Messwerte streuen um {size}, was keine Maschine tut, als stünden sie in einer anderen Einheit",
 )
 _STATE_UNITS = Words(en="state source.units", de="source.units angeben")
 _LAGS_BEHIND = Words(

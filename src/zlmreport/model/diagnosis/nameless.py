@@ -20,6 +20,7 @@ from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.noise import NoisePart, NoiseSource, by_session
+from zlmreport.model.fitting.pauses import working_time
 from zlmreport.model.fitting.priors import Expected
 
 #: 2·ln of the odds against a nameless part, its amplitude chosen among some: rarer than a known cause.
@@ -118,7 +119,7 @@ def irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
 
 
 def _features(design: Design) -> Iterator[tuple[Words, Along, FloatArray]]:
-    along, moment = _unit(design.position), _unit(design.time)
+    along, moment = _unit(design.position), _unit(working_time(design))
     lever, direction = (2.0 * along - 1.0)[:, np.newaxis], design.direction[:, np.newaxis]
     runs = np.asarray(design.cycle[:, np.newaxis] == np.unique(design.cycle), dtype=np.float64)
     if runs.shape[1] > 1:

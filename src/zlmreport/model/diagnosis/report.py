@@ -14,6 +14,7 @@ from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, ErrorNumbers, Verdict
+from zlmreport.model.diagnosis.faults import FaultKind
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.diagnosis.visibility import Visibility
@@ -69,6 +70,10 @@ _SHAPE = Words(
     en="Something is left that no installed effect explains: {shape}, {where}; root mean square {size}.",
     de="Es bleibt etwas übrig, das kein installierter Einfluss erklärt: {shape}, {where}; quadratischer "
     "Mittelwert {size}.",
+)
+_IN_DOUBT = Words(
+    en="The data look wrong: {statement}. Remedy: {remedy}. {verdict}",
+    de="Die Daten sehen falsch aus: {statement}. Abhilfe: {remedy}. {verdict}",
 )
 _QUESTION = Words(en="{statement} {question}", de="{statement} {question}")
 _OR = Words(en="{one} or {other}", de="{one} oder {other}")
@@ -324,9 +329,12 @@ def verdict_statement(diagnosis: Diagnosis) -> Words:
         question = by_name[each.identifier].question
         if question is not None:
             statement = _QUESTION.given(statement=statement, question=question)
-    if diagnosis.remainder is None:
+    if diagnosis.remainder is not None:
+        statement = _with_remainder(_BESIDE.given(statement=statement), diagnosis.remainder, diagnosis)
+    unit = next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
+    if unit is None:
         return statement
-    return _with_remainder(_BESIDE.given(statement=statement), diagnosis.remainder, diagnosis)
+    return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
 
 
 def _so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:

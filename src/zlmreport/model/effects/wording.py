@@ -14,11 +14,14 @@ _CELL = Words(en="{position}, {arrow}", de="{position}, {arrow}")
 _COUNTED = Words(en="{value} readings", de="{value} Messwerte")
 _MINUTE = 60.0
 _LONG = 600.0
+#: m or rad: a deviation below it is the rounding of doubles.
+_ROUNDING = 1e-14
 
 
 def deviation(axis: Axis, value: float) -> Words:
     """Return a deviation given in m or rad."""
     unit = axis.deviation_unit
+    value = 0.0 if abs(value) < _ROUNDING else value
     return _QUANTITY.given(value=significant_words(unit.from_si(value), 2), unit=behind(unit.symbol))
 
 

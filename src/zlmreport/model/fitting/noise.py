@@ -21,6 +21,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
 from zlmreport.model.effects.design import Design
+from zlmreport.model.fitting.pauses import working_time
 
 #: Time over which the slow drift forgets itself, as a share of the test's duration.
 _MEMORY = 0.25
@@ -154,7 +155,8 @@ def _repeats(membership: FloatArray) -> bool:
 
 def _slow_drift(design: Design) -> FloatArray:
     """Return the leading eigenfunctions of the covariance exp(−|t − t'|/τ), as a factor of it."""
-    moment = (design.time - design.time.min()) / design.duration
+    time = working_time(design)
+    moment = (time - time.min()) / float(np.ptp(time))
     # On a grid, and by its interpolation at the readings: a test of thousands costs no more than a small one.
     grid, terms = _drift_terms()
     factor = np.column_stack([np.interp(moment, grid, term) for term in terms])
