@@ -227,7 +227,9 @@ class SetSearch:
             information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
             square = contest.expected.square(each.identifier)
             cost += each.family.price + each.spread
-            for explained, rank in self._by_size(each, solved[own], np.asarray(information / variance)):
+            for explained, rank in self._by_size(
+                each, solved[own], np.asarray(information / variance, np.float64)
+            ):
                 cost += contest.worth(explained, rank, square)
             if each.family.is_named:
                 cost += self._unusual(each, solved[own], variance * inverse[own, own])
