@@ -34,6 +34,8 @@ _FINEST, _MULTIPLE = -7, 1e-3
 _TRIALS = 1000
 #: Readings over which noise may last.
 _LASTS = 4
+#: Times the scatter of neighbours up to which it is noise.
+_MOST_LASTING = 1.5
 _SEED = 20_261_118
 
 
@@ -128,22 +130,23 @@ def lasting_floor(design: Design, deviation: FloatArray) -> float | None:
     """Return the noise floor, that counted in which lasts from one reading to the next few; None without one.
 
     Neighbours that scatter together differ by less than they scatter: a floor that is taken from them calls
-    such noise a misfit. Readings a few steps apart show it whole.
+    such noise a misfit. Readings a few steps apart show it whole; where they differ by far more
+    than neighbours, it is a course in time.
 
     `deviation`, (N,): x, m or rad.
     """
     floor = noise_floor(design, deviation)
     if floor is None or not apart_in_time(design):
         return floor
-    within = repeats(design, deviation)
+    within, lasting = repeats(design, deviation), floor
     shares = 1.0 - 1.0 / within.count[within.cell]
     for lag in range(2, _LASTS + 1):
         pairs = (design.cycle[lag:] == design.cycle[:-lag]) & (within.cell[lag:] != within.cell[:-lag])
         steps = (within.centred[lag:] - within.centred[:-lag])[pairs]
         expected = float((shares[lag:] + shares[:-lag])[pairs].sum())
         if expected > 0:
-            floor = max(floor, float(np.sqrt(np.sum(steps**2) / expected)))
-    return floor
+            lasting = max(lasting, float(np.sqrt(np.sum(steps**2) / expected)))
+    return lasting if lasting <= _MOST_LASTING * floor else floor
 
 
 class SpreadFactor(Enum):
