@@ -15,8 +15,9 @@ _OF = {"time", "dt", "datetime", "date"}
 
 def _reads_a_clock(module: Path) -> bool:
     for node in ast.walk(ast.parse(module.read_bytes())):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in _READ:
-            holder = ast.unparse(node.func.value).split(".")
+        # called, or handed on to who calls it
+        if isinstance(node, ast.Attribute) and node.attr in _READ:
+            holder = ast.unparse(node.value).split(".")
             if holder[0] in _OF and holder[-1] in _OF:
                 return True
     return False

@@ -55,7 +55,7 @@ def test_a_page_short_of_room_keeps_who_what_and_that_something_is_to_be_noted()
     filled = fill(SAID, 105, WRITER)
     for said in ("The test deviates from a standard", *(value for _, value in WHO), "simple acceptance"):
         assert said in text(filled)
-    assert "On the page “Details”: what is to be noted, in full, further conditions." in text(filled)
+    assert "On the page “Details”: what is to be noted, further conditions." in text(filled)
 
 
 def test_where_not_even_headings_have_room_the_page_points_at_what_is_to_be_noted() -> None:

