@@ -25,7 +25,7 @@ from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import fit
 from zlmreport.model.fitting.observations import observations_of
 from zlmreport.model.planning.plan import Plan
-from zlmreport.model.simulation.description import Description, Noise
+from zlmreport.model.simulation.description import Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import simulate
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -76,7 +76,7 @@ def drawn_axis(random: np.random.Generator, registry: Registry) -> Description:
         names = [each.name for each in bow.linear]
         terms.append(Term(bow, {name: random.normal(0, 6) * _UM for name in names[1:]} | {names[0]: 0.0}))
         terms = [each for each in terms if each.effect.identifier not in bow.contains]
-    noise = Noise(
+    noise = SimulatedNoise(
         reading=float(np.exp(random.uniform(np.log(0.05), np.log(2.0)))) * _UM,
         position=float(random.choice([0.0, 0.5, 2.0])) * _UM,
         run=float(random.choice([0.0, 0.5])) * _UM,
@@ -121,8 +121,8 @@ def loops(source: str, count: int, seed: int = 1) -> Loops:
 
 def again(axis: Description, seed: int) -> MeasurementSet:
     """Return another test of the same axis: what is fixed in position stays, what scatters is drawn anew."""
-    fixed = simulate(replace(axis, noise=Noise(position=axis.noise.position))).measurements
-    bare = simulate(replace(axis, noise=Noise())).measurements
+    fixed = simulate(replace(axis, noise=SimulatedNoise(position=axis.noise.position))).measurements
+    bare = simulate(replace(axis, noise=SimulatedNoise())).measurements
     other = simulate(replace(axis, seed=seed, noise=replace(axis.noise, position=0.0))).measurements
     return replace(other, deviation=read_only_floats(other.deviation + fixed.deviation - bare.deviation))
 

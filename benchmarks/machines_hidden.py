@@ -33,7 +33,7 @@ from machines.simulated import (
     with_play,
 )
 from zlmreport.machines.choosing import study_of
-from zlmreport.machines.course import Circle
+from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.residual import centred, root_mean_square
 from zlmreport.plugin.registry import find_plugins
@@ -166,7 +166,9 @@ PAIRS = (
 JUDGED = {"squareness": "C0Y", "scale-mismatch": "X-Y", "servo-mismatch": "T_X-T_Y"}
 
 
-def _sized(name: str, rho: float, seed: int, senses: tuple[int, ...]) -> tuple[np.ndarray, float, Circle]:
+def _sized(
+    name: str, rho: float, seed: int, senses: tuple[int, ...]
+) -> tuple[np.ndarray, float, CircularTest]:
     """Return a cause's deviations of a root mean square of ρ·noise, its size, and a circle without it."""
     draw = np.random.default_rng([seed, len(name)])
     plain = circle(nothing, seed=seed, senses=senses, noise=NOISE, first=float(draw.uniform(0, 0.05)))

@@ -15,7 +15,7 @@ from zlmreport.measurement.units import ZERO_CELSIUS
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.planning.targets import target_positions
-from zlmreport.model.simulation.description import Course, Description
+from zlmreport.model.simulation.description import ConditionCourse, Description
 
 _TABLE_ROWS = 21
 _ROUGHNESS = 0.15
@@ -101,13 +101,13 @@ def _smooth_table(random: np.random.Generator, travel: tuple[float, float], size
     return PositionTable(tuple(positions.tolist()), tuple((size * (values - values[0])).tolist()))
 
 
-def _weather(random: np.random.Generator) -> dict[str, Course]:
+def _weather(random: np.random.Generator) -> dict[str, ConditionCourse]:
     """Return the conditions of an hour: scale and screw warm up, the air wanders."""
 
-    def warming(rise: tuple[float, float], noise: float) -> Course:
+    def warming(rise: tuple[float, float], noise: float) -> ConditionCourse:
         start = ZERO_CELSIUS + random.uniform(19.0, 22.0)
         end = start + random.uniform(*rise)
-        return Course(start, end, random.uniform(600.0, 2400.0), sensor_noise=noise)
+        return ConditionCourse(start, end, random.uniform(600.0, 2400.0), sensor_noise=noise)
 
     air = ZERO_CELSIUS + random.uniform(18.5, 22.5)
     pressure = random.uniform(960e2, 1030e2)
@@ -115,13 +115,15 @@ def _weather(random: np.random.Generator) -> dict[str, Course]:
     return {
         "axis_temperature": warming((0.5, 3.0), 0.01),
         "screw_temperature": warming((1.5, 8.0), 0.02),
-        "air_temperature": Course(
+        "air_temperature": ConditionCourse(
             air,
             air + random.normal(0.0, 0.7),
             swing=random.uniform(0.1, 0.5),
             swing_period=random.uniform(300.0, 1500.0),
             sensor_noise=0.02,
         ),
-        "air_pressure": Course(pressure, pressure + random.normal(0.0, 120.0), sensor_noise=2.0),
-        "relative_humidity": Course(humidity, humidity + random.normal(0.0, 0.04), sensor_noise=0.002),
+        "air_pressure": ConditionCourse(pressure, pressure + random.normal(0.0, 120.0), sensor_noise=2.0),
+        "relative_humidity": ConditionCourse(
+            humidity, humidity + random.normal(0.0, 0.04), sensor_noise=0.002
+        ),
     }

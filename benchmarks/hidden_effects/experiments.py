@@ -27,8 +27,8 @@ from zlmreport.model.fitting.observations import observations_of
 from zlmreport.model.fitting.sessions import held_together, with_zeros
 from zlmreport.model.planning.deciding import question_of_tie
 from zlmreport.model.planning.experiment import Experiment, next_experiment
-from zlmreport.model.planning.plan import Expected, Plan
-from zlmreport.model.simulation.description import Noise, noise_of
+from zlmreport.model.planning.plan import ExpectedTest, Plan
+from zlmreport.model.simulation.description import SimulatedNoise, noise_of
 
 #: Targets and runs of tests that leave ties.
 _TARGETS, _RUNS = (7, 9, 11, 15), (2, 3, 4)
@@ -68,7 +68,7 @@ def judged(case: Case) -> Record:
     if question is None or first.verdict is not Verdict.MISSING or case.hidden[0] not in question.names:
         return named(case) | {"outcome": "no tie with the truth in it"}
     rise = float(np.ptp(first.fit.design.conditions["axis_temperature"]))
-    expected = Expected(question.sigma, rise)
+    expected = ExpectedTest(question.sigma, rise)
     advice = next_experiment(question, plan, expected, INSTALLED, trial.description.seed)
     found = named(case) | {"outcome": "judged", "tied": list(question.names), "decides": advice.decides}
     found |= {"diagnosis": diagnosed - started, "experiment": time.process_time() - diagnosed}
@@ -108,7 +108,9 @@ def _measured_again(trial: Trial, plan: Plan, design: Design, known: FloatArray)
     first = trial.description
     noise, seed = first.noise, first.seed + 1
     stays = np.array_equal(plan.targets, first.plan.targets)
-    geometry = Noise(0.0, position=noise.position, position_and_direction=noise.position_and_direction)
+    geometry = SimulatedNoise(
+        0.0, position=noise.position, position_and_direction=noise.position_and_direction
+    )
     irregular = noise_of(geometry, design, first.seed if stays else seed)
     description = replace(
         first,

@@ -20,7 +20,7 @@ from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.observations import observations_of
-from zlmreport.model.fitting.priors import Expected, Lesson, learned
+from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learned
 from zlmreport.model.planning.methods import Method
 
 _EARLIER, _MACHINES = 10, 20
@@ -62,12 +62,12 @@ def judged(case: Case) -> Record:
 
 
 @lru_cache
-def _taught(machine: int, *, is_rotary: bool) -> Expected:
+def _taught(machine: int, *, is_rotary: bool) -> PriorExpectation:
     """Return what the noise of ten earlier tests teaches that hide nothing."""
     fits = [
         _earlier(_FIRST_EARLIER + _EARLIER * machine + each, is_rotary=is_rotary) for each in range(_EARLIER)
     ]
-    return Expected.of(
+    return PriorExpectation.of(
         learned([Lesson.of(each) for each in fits]).model_copy(update={"effects": {}}), fits[0].design.axis
     )
 

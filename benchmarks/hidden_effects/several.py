@@ -28,7 +28,7 @@ from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.observations import Observations, observations_of
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.simulation.description import Noise
+from zlmreport.model.simulation.description import SimulatedNoise
 from zlmreport.model.simulation.simulate import design_of
 
 _SIGMAS = (0.05, 0.3, 0.8, 3.0)  # µm; on a rotary axis as many µm at a radius of one metre
@@ -81,7 +81,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
     draw = drawn_rotary_test if is_rotary else drawn_linear_test
     description = draw(random, method, 21, int(random.choice(_RUNS)))
     sigma = float(MICROMETRE.to_si(_SIGMAS[number % len(_SIGMAS)]))
-    description = replace(description, noise=Noise(reading=sigma))
+    description = replace(description, noise=SimulatedNoise(reading=sigma))
     design = wandering(design_of(description), random)
     base = base_columns([EFFECTS["offset"]], design)
     causes: list[Term] = []

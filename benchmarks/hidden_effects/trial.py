@@ -23,7 +23,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.targets import target_positions
-from zlmreport.model.simulation.description import Description, Noise
+from zlmreport.model.simulation.description import Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import design_of, deviation_by, observed
 from zlmreport_plugins.effects import zlmreport_effects
 
@@ -271,11 +271,11 @@ def sum_of(effects: Sequence[Term], design: Design) -> FloatArray:
     return np.sum(deviations, axis=0) if deviations else np.zeros(len(design.position))
 
 
-def _noise(scatter: Scatter, kind: AxisKind, random: np.random.Generator) -> Noise:
+def _noise(scatter: Scatter, kind: AxisKind, random: np.random.Generator) -> SimulatedNoise:
     unit = _unit(kind)
     if scatter is Scatter.CLEAN:
-        return Noise(reading=_SIGMA * unit)
-    return Noise(
+        return SimulatedNoise(reading=_SIGMA * unit)
+    return SimulatedNoise(
         reading=_SIGMA * unit,
         unequal=0.4,
         position=0.3 * unit,

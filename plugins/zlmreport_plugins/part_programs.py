@@ -100,7 +100,7 @@ class _Iso:
                 yield f"{_TO_CENTRE[axis]}{self.between}{value:.{decimals}f}"
 
 
-class LinuxCncOptions(ProgramOptions):
+class LinuxCncProgramOptions(ProgramOptions):
     """The keys of ``linuxcnc``."""
 
     decimals: int = Field(4, ge=0, le=9, description="Digits after the decimal point of positions.")
@@ -109,7 +109,7 @@ class LinuxCncOptions(ProgramOptions):
     )
 
 
-class LinuxCnc(_Dialect):
+class LinuxCncProgram(_Dialect):
     """RS274/NGC as LinuxCNC takes it.
 
     - ``G53`` moves in machine coordinates; it holds for its own block, and takes the feed of ``G1``.
@@ -125,9 +125,9 @@ class LinuxCnc(_Dialect):
     identifier = "linuxcnc"
     title = Words(en="LinuxCNC (RS274/NGC)", de="LinuxCNC (RS274/NGC)")
     suffix = ".ngc"
-    options: Any = LinuxCncOptions
+    options: Any = LinuxCncProgramOptions
 
-    def lines(self, motion: Motion, options: LinuxCncOptions) -> Iterator[str]:
+    def lines(self, motion: Motion, options: LinuxCncProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         axis = axis_address(motion, options)
         yield from (f"({text})" for text in program_heading(motion))
@@ -143,7 +143,7 @@ class LinuxCnc(_Dialect):
                 yield f"G4 P{program_number(motion.dwell)}"
         yield "M2"
 
-    def lines_of_circle(self, path: CirclePath, options: LinuxCncOptions) -> Iterator[str]:
+    def lines_of_circle(self, path: CirclePath, options: LinuxCncProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         yield from (f"({text})" for text in circle_heading(path, options))
         yield "G21 G90 G94 G40 G49 G80 G91.1 (mm, absolute, feed per minute, no offsets, arcs by I J K)"
@@ -160,7 +160,7 @@ class LinuxCnc(_Dialect):
         yield "M2"
 
 
-class FanucOptions(ProgramOptions):
+class FanucProgramOptions(ProgramOptions):
     """The keys of ``fanuc``."""
 
     decimals: int = Field(
@@ -177,7 +177,7 @@ class FanucOptions(ProgramOptions):
     )
 
 
-class Fanuc(_Dialect):
+class FanucProgram(_Dialect):
     """ISO code as Fanuc controls take it.
 
     - Positions and times have a decimal point always: without one, a control may count least increments.
@@ -194,9 +194,9 @@ class Fanuc(_Dialect):
     identifier = "fanuc"
     title = Words(en="Fanuc (ISO code)", de="Fanuc (ISO-Code)")
     suffix = ".nc"
-    options: Any = FanucOptions
+    options: Any = FanucProgramOptions
 
-    def lines(self, motion: Motion, options: FanucOptions) -> Iterator[str]:
+    def lines(self, motion: Motion, options: FanucProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         axis = axis_address(motion, options)
         yield "%"
@@ -217,7 +217,7 @@ class Fanuc(_Dialect):
         yield "M30"
         yield "%"
 
-    def lines_of_circle(self, path: CirclePath, options: FanucOptions) -> Iterator[str]:
+    def lines_of_circle(self, path: CirclePath, options: FanucProgramOptions) -> Iterator[str]:
         """Yield the lines."""
         yield "%"
         yield f"O{options.number:04d}"
@@ -244,7 +244,7 @@ class Siemens840dOptions(ProgramOptions):
     )
 
 
-class Siemens840d(_Dialect):
+class Siemens840dProgram(_Dialect):
     """The language of SINUMERIK 840D.
 
     - ``SUPA`` moves in machine coordinates; it holds for its own block. ``D0`` switches tool offsets off.
@@ -297,7 +297,7 @@ class HeidenhainOptions(ProgramOptions):
     decimals: int = Field(4, ge=0, le=6, description="Digits after the decimal point of positions.")
 
 
-class Heidenhain(_Dialect):
+class HeidenhainProgram(_Dialect):
     """Klartext.
 
     - ``M91`` moves in machine coordinates; it holds for its own block. ``R0`` is without radius compensation.
@@ -382,4 +382,4 @@ def _pointed(number: str) -> str:
 @hookimpl
 def zlmreport_part_programs() -> Iterable[PartProgram]:
     """Return the writers."""
-    return [Fanuc(), Heidenhain(), LinuxCnc(), Siemens840d()]
+    return [FanucProgram(), HeidenhainProgram(), LinuxCncProgram(), Siemens840dProgram()]

@@ -21,7 +21,7 @@ from verification.issued import LABORATORY, issue, lay_out, registry
 from verification.remembered import remembering
 from zlmreport.errors import ZlmreportError
 from zlmreport.verification import table
-from zlmreport.verification.findings import Outcome, Verdict
+from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
 from zlmreport.verification.readers import READERS, Reader, Seen, seen_by, without_leads
 from zlmreport.verification.verify import verify
 
@@ -84,7 +84,7 @@ class Faces:
         What the strict reading of its bytes refuses, which is most, need not be made again for that.
         """
         refused = table.finding(content, is_signed=False)
-        if refused.verdict is Verdict.DIFFERS:
+        if refused.verdict is VerificationVerdict.DIFFERS:
             return str(refused.detail), False
         with tempfile.TemporaryDirectory(prefix="zlmreport-attack-") as folder:
             path = Path(folder, "certificate.pdf")
@@ -94,8 +94,12 @@ class Faces:
             except ZlmreportError as error:
                 return error.problems[0].message, False
         parts = (found.signature, *found.files, *found.pages, *found.document)
-        said = [f"{each.subject}: {each.detail}" for each in parts if each.verdict is not Verdict.HOLDS]
-        return "; ".join(said[:3]) or found.outcome.value, found.outcome is Outcome.HOLDS
+        said = [
+            f"{each.subject}: {each.detail}"
+            for each in parts
+            if each.verdict is not VerificationVerdict.HOLDS
+        ]
+        return "; ".join(said[:3]) or found.outcome.value, found.outcome is VerificationOutcome.HOLDS
 
     def differences(self, content: bytes) -> Iterator[str]:
         """Yield what a reader shows otherwise than of the certificate as issued, also where it mends."""

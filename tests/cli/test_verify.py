@@ -14,7 +14,7 @@ from zlmreport.cli import main
 from zlmreport.cli.terminal import said
 from zlmreport.cli.verify import _own_words
 from zlmreport.document.certificate.build import GENERATOR
-from zlmreport.verification.findings import OwnText
+from zlmreport.verification.findings import QuotedText
 
 Run = Callable[..., tuple[int, str, str]]
 DIGEST = re.compile(r"[0-9A-HJKMNP-TV-Z]{4}(-[0-9A-HJKMNP-TV-Z]{4}){3}")
@@ -138,7 +138,7 @@ def test_what_a_foreign_file_says_of_itself_does_not_steer_the_terminal(report: 
 
 def own_lines(texts: list[tuple[str, str]]) -> list[str]:
     """Return what is told of words that somebody wrote, without the heading."""
-    return list(_own_words([OwnText(*each) for each in texts], said))[1:]
+    return list(_own_words([QuotedText(*each) for each in texts], said))[1:]
 
 
 def test_a_text_that_every_measurement_repeats_is_told_once_with_its_places() -> None:

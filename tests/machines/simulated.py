@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from zlmreport.machines.course import Circle
-from zlmreport.machines.curve import Curve
-from zlmreport.machines.kinematics import Chain, Line
+from zlmreport.machines.course import CircularTest
+from zlmreport.machines.curve import AxisErrorCurve
+from zlmreport.machines.kinematics import Chain, ErrorLine
 from zlmreport.machines.machine import Machine, missing_errors
 from zlmreport.measurement.circle import NominalCircle
 
@@ -23,7 +23,7 @@ def bare_machine(curves=(), letters="XYFZ", tool=(0.0, 0.0, 0.0)):
 
 def straight_curve(name, length, slope=0.0, u=0.0):
     nodes = np.linspace(0, length, 11)
-    return Curve(name, nodes, slope * nodes, np.eye(11) * u, Line({}), "test")
+    return AxisErrorCurve(name, nodes, slope * nodes, np.eye(11) * u, ErrorLine({}), "test")
 
 
 def turns(senses=(1, -1), repeats=1, count=360, first=0.0):
@@ -59,7 +59,7 @@ def circle(move, seed=0, **how):
     deviation = deviation + noise * healthy_noise(angle, sense, run, random)
     step = np.abs(angle[1] - angle[0]) * radius / feed
     nominal = NominalCircle(plane, radius, feed, CENTRES[plane])
-    return Circle(name, nominal, angle, sense, run, deviation, step * np.arange(len(angle)))
+    return CircularTest(name, nominal, angle, sense, run, deviation, step * np.arange(len(angle)))
 
 
 class Path(NamedTuple):

@@ -16,8 +16,9 @@ from machines.simulated import (
     with_play,
 )
 from zlmreport.machines.choosing import study_of
-from zlmreport.machines.diagnosis import Verdict, diagnose
+from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.diagnosis_report import build_values, diagnosis_values
+from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()

@@ -8,7 +8,7 @@ from zlmreport.machines.kinematics import (
     ERRORS,
     ORDERS,
     Chain,
-    Line,
+    ErrorLine,
     deviation,
     lever_arm,
 )
@@ -85,7 +85,7 @@ def test_two_orders_are_as_they_are_written_out(order, written_out, position, to
 @given(st.sampled_from(ORDERS), _point, _point, st.sampled_from("XYZ"), st.integers(0, 2**32))
 def test_an_error_is_itself_on_the_line_on_which_it_was_measured(order, position, tool, axis, seed):
     errors = {name: value for name, value in _sizes(seed).items() if name[2] == axis}
-    line = Line(dict(zip("XYZ", position, strict=True)), tool)
+    line = ErrorLine(dict(zip("XYZ", position, strict=True)), tool)
     found = deviation(errors, Chain(f"F{order}"), np.array([position]), tool, dict.fromkeys(errors, line))[0]
     assert found == pytest.approx([errors[f"E{d}{axis}"] for d in "XYZ"], abs=1e-15)
 
@@ -93,7 +93,7 @@ def test_an_error_is_itself_on_the_line_on_which_it_was_measured(order, position
 @given(st.sampled_from(ORDERS), _point, _point, st.sampled_from("XYZ"))
 def test_the_own_coordinate_never_is_an_arm_of_its_own_rotations(order, position, line, axis):
     chain, own = Chain(f"{order}F"), "XYZ".index(axis)
-    arm = lever_arm(axis, chain, Line(dict(zip("XYZ", line, strict=True))), np.array([position]))[0]
+    arm = lever_arm(axis, chain, ErrorLine(dict(zip("XYZ", line, strict=True))), np.array([position]))[0]
     assert arm[own] == 0.0
 
 

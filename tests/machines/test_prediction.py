@@ -5,7 +5,7 @@ import pytest
 
 from machines.simulated import MICRO, bare_machine, circle, nothing
 from zlmreport.machines.curve import measured_curve, without_alignment
-from zlmreport.machines.kinematics import Line
+from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
 from zlmreport.machines.volume import diagonals, measured_space, volume_map
 from zlmreport.measurement.axis import Axis
@@ -41,7 +41,7 @@ def test_the_band_holds_the_circle_that_the_axes_would_make():
     true_y = -3 * MICRO * TARGETS / 0.5
     exact = {
         name: measured_curve(
-            name, readings(curve, random, 2 * MICRO, 0.0, 1), InstrumentError(), Line({}), ""
+            name, readings(curve, random, 2 * MICRO, 0.0, 1), InstrumentError(), ErrorLine({}), ""
         )
         for name, curve in (("EXX", true_x), ("EYY", true_y))
     }
@@ -49,11 +49,11 @@ def test_the_band_holds_the_circle_that_the_axes_would_make():
     seen = circle(nothing, noise=0.0)
     for name, curve in (("EXX", true_x), ("EYY", true_y)):
         sides = np.concatenate([curve - MICRO, curve + MICRO])  # lost motion of 2 µm, without the instrument
-        exact[name] = type(exact[name])(name, TARGETS, sides, np.zeros((len(sides), 0)), Line({}), "")
+        exact[name] = type(exact[name])(name, TARGETS, sides, np.zeros((len(sides), 0)), ErrorLine({}), "")
     truth = predict(bare_machine(exact.values()), seen.course()).values
     for _ in range(150):
         curves = [
-            measured_curve(name, readings(curve, random, 2 * MICRO), INSTRUMENT, Line({}), "")
+            measured_curve(name, readings(curve, random, 2 * MICRO), INSTRUMENT, ErrorLine({}), "")
             for name, curve in (("EXX", true_x), ("EYY", true_y))
         ]
         found = predict(bare_machine(curves), seen.course())
@@ -67,7 +67,7 @@ def test_a_straightness_error_loses_its_line_and_an_angle_its_mean():
     random = np.random.default_rng(1)
     bent = 4 * MICRO * (TARGETS / 0.5) ** 2
     for name, orders in (("EYX", 1), ("EBX", 0), ("EXX", None)):
-        raw = measured_curve(name, readings(bent, random, scatter=0.0), INSTRUMENT, Line({}), "")
+        raw = measured_curve(name, readings(bent, random, scatter=0.0), INSTRUMENT, ErrorLine({}), "")
         found = without_alignment(raw)
         if orders is None:
             assert found is raw
@@ -79,13 +79,15 @@ def test_a_straightness_error_loses_its_line_and_an_angle_its_mean():
 
 
 def test_out_of_square_axes_stretch_one_diagonal_and_shorten_the_other():
-    from zlmreport.machines.curve import Curve
+    from zlmreport.machines.curve import AxisErrorCurve
 
     flat = [
-        Curve(f"E{axis}{axis}", np.array([0.0, length]), np.zeros(2), np.zeros((2, 0)), Line({}), "")
+        AxisErrorCurve(
+            f"E{axis}{axis}", np.array([0.0, length]), np.zeros(2), np.zeros((2, 0)), ErrorLine({}), ""
+        )
         for axis, length in (("X", 0.5), ("Y", 0.4), ("Z", 0.3))
     ]
-    square = Curve("C0Y", np.zeros(1), np.array([20e-6]), np.eye(1) * 1e-6, Line({}), "")
+    square = AxisErrorCurve("C0Y", np.zeros(1), np.array([20e-6]), np.eye(1) * 1e-6, ErrorLine({}), "")
     machine = bare_machine([*flat, square])
     space = measured_space(machine)
     length = np.sqrt(0.5**2 + 0.4**2 + 0.3**2)

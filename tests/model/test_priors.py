@@ -15,7 +15,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.contrasts import contrasts_of
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import NoiseSource, noise_parts, ratio_grid
-from zlmreport.model.fitting.priors import Expected, Lesson, as_text, learned
+from zlmreport.model.fitting.priors import Lesson, PriorExpectation, as_text, learned
 
 _MODEL = model_of("offset", "scale-error", "backlash")
 _DESIGN = linear_test(targets=11, runs=3, seed=4)
@@ -42,7 +42,7 @@ def _fits(fixed: float, tests: int) -> list[Fit]:
     ]
 
 
-def _contest(design: Design, readings: FloatArray, expected: Expected, *effects: str) -> Contest:
+def _contest(design: Design, readings: FloatArray, expected: PriorExpectation, *effects: str) -> Contest:
     base = np.concatenate([term.effect.columns(design, np.empty(0)) for term in _MODEL.terms], axis=1)
     return Contest.of(design, base, [EFFECTS[each] for each in effects], readings, expected=expected)
 
@@ -50,8 +50,8 @@ def _contest(design: Design, readings: FloatArray, expected: Expected, *effects:
 def test_an_amplitude_that_was_seldom_costs_what_its_probability_says() -> None:
     readings = _scattered(_DESIGN, 3, 0.5)
     stated = np.array([[0.0, 0.03, 0.1, 0.25], [0.1, 0.2, 0.3, 0.4]])
-    plain = _contest(_DESIGN, readings, Expected())
-    knowing = _contest(_DESIGN, readings, Expected({NoiseSource.POSITION: stated}))
+    plain = _contest(_DESIGN, readings, PriorExpectation())
+    knowing = _contest(_DESIGN, readings, PriorExpectation({NoiseSource.POSITION: stated}))
     place = [part.source for part in plain.parts].index(NoiseSource.POSITION)
     for level, probability in enumerate(stated[1]):
         amplitudes = tuple(level * (number == place) for number in range(len(plain.parts)))
@@ -63,7 +63,7 @@ def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> N
     fits = _fits(0.5, 3)
     found = _learned(fits).noise["position"]
     ratios, probabilities = np.array(found.ratios), np.array(found.probabilities)
-    expected = Expected.of(_learned(fits), AXIS)
+    expected = PriorExpectation.of(_learned(fits), AXIS)
     counts = np.full(len(ratios), 1.0 / len(ratios))  # of the test that knows nothing
     for each in fits:
         parts = noise_parts(each.design)
@@ -103,17 +103,17 @@ def test_an_effect_of_the_expected_size_has_more_evidence_than_one_of_another() 
     known, wrong = (
         contest.scan(contest.quiet, []).criterion[0]
         for each in (float(size), 300.0)
-        for contest in [_contest(_DESIGN, readings, Expected(sizes={"first-run": each}), "first-run")]
+        for contest in [_contest(_DESIGN, readings, PriorExpectation(sizes={"first-run": each}), "first-run")]
     )
     assert known < wrong - 2
-    small = Expected(sizes={"first-run": 2e-6}).in_units_of(1e-6)
+    small = PriorExpectation(sizes={"first-run": 2e-6}).in_units_of(1e-6)
     assert small.square("first-run") == pytest.approx(4.0)
     assert small.square("backlash") == 1.0
 
 
 def test_ratios_of_a_file_that_are_not_tried_count_for_the_nearest() -> None:
     parts = [part for part in noise_parts(_DESIGN) if part.source is NoiseSource.POSITION]
-    expected = Expected({NoiseSource.POSITION: np.array([[0.01, 0.2, 0.5], [1.0, 2.0, 1.0]])})
+    expected = PriorExpectation({NoiseSource.POSITION: np.array([[0.01, 0.2, 0.5], [1.0, 2.0, 1.0]])})
     found = expected.probabilities([part.source for part in parts], ratio_grid(parts))
     np.testing.assert_allclose(found, [0.25, 0.0, 0.0, 0.75], atol=2e-3)
     assert np.all(found > 0)

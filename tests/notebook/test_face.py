@@ -25,7 +25,7 @@ import zlmreport as z
 from environments import ROOT
 from zlmreport.notebook import frames
 from zlmreport.notebook.frames import Library
-from zlmreport.verification.findings import Verdict
+from zlmreport.verification.findings import VerificationVerdict
 
 JOB = ROOT / "configs" / "linear-axis" / "certificate.yaml"
 TARGETS = [0.0, 100.0, 250.0]
@@ -448,7 +448,7 @@ def test_a_certificate_is_verified(tmp_path: Path) -> None:
     assert found.number == "R-1"
     assert found.differences == ()
     assert repr(found) == "<Verification of R-1: holds>"
-    open_page = replace(found._found.pages[0], verdict=Verdict.OPEN)
+    open_page = replace(found._found.pages[0], verdict=VerificationVerdict.OPEN)
     undecided = type(found)(found.file, replace(found._found, pages=(open_page,)))
     assert not undecided
     assert repr(undecided) == "<Verification of R-1: not decided>"

@@ -11,7 +11,7 @@ from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.verification.alone import format_of
-from zlmreport.verification.findings import Outcome, Verdict
+from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
 from zlmreport.verification.verify import verify
 
 FORMATS = ("json", "csv", "xlsx", "html", "pdf-typst")
@@ -53,8 +53,10 @@ def test_one_that_was_altered_does_not_hold(
     path = laid_out(tmp_path, documents, ending, ".pdf")
     path.write_bytes(documents[ending].replace(old, new))
     found = verify(path, registry())
-    assert found.outcome is Outcome.DOES_NOT_HOLD
-    assert [each.subject for each in found.files if each.verdict is Verdict.DIFFERS] == [path.name]
+    assert found.outcome is VerificationOutcome.DOES_NOT_HOLD
+    assert [each.subject for each in found.files if each.verdict is VerificationVerdict.DIFFERS] == [
+        path.name
+    ]
 
 
 @pytest.mark.parametrize("ending", [".json", ".csv", ".xlsx", ".html"])
@@ -62,7 +64,7 @@ def test_without_its_pdf_nothing_of_it_is_decided(
     ending: str, documents: dict[str, bytes], tmp_path: Path
 ) -> None:
     found = verify(laid_out(tmp_path, documents, ending), registry())
-    assert (found.outcome, found.undecided) == (Outcome.UNDECIDED, ("files",))
+    assert (found.outcome, found.undecided) == (VerificationOutcome.UNDECIDED, ("files",))
     states_digest = ending in {".json", ".html"}
     assert [bool(each.values["digest"]) for each in found.remarks] == [True] * states_digest
 
@@ -72,7 +74,7 @@ def test_beside_a_pdf_that_does_not_hold_it_does_not_either(
 ) -> None:
     path = laid_out(tmp_path, documents, ".json", ".pdf")
     path.with_suffix(".pdf").write_bytes(documents[".pdf"] + b"\n1 0 obj\n<< >>\nendobj\n")
-    assert verify(path, registry()).outcome is Outcome.DOES_NOT_HOLD
+    assert verify(path, registry()).outcome is VerificationOutcome.DOES_NOT_HOLD
 
 
 @pytest.mark.parametrize("content", [b'{"schema": "other/1"}', b"PK\x03\x04", b"<html>", b"standard,value\n"])

@@ -9,7 +9,7 @@ import pytest
 
 from zlmreport.verification.attached import compare, stated_by
 from zlmreport.verification.carrier import Carried
-from zlmreport.verification.findings import Verdict
+from zlmreport.verification.findings import VerificationVerdict
 
 
 def carrier(content: bytes, name: str = "CAL-1.json", relationship: str = "Data") -> Any:
@@ -33,17 +33,17 @@ def carried(content: bytes) -> dict[str, Carried]:
 @pytest.mark.parametrize(
     ("content", "same_processor", "verdict"),
     [
-        (b"<value>1.25000000001</value>", True, Verdict.DIFFERS),
-        (b"<value>1.25000000001</value>", False, Verdict.HOLDS),
-        (b"<value>1.26</value>", False, Verdict.DIFFERS),
-        (b"<conformity>fail</conformity>", False, Verdict.DIFFERS),
-        (b"<note>A = 0.1 um, passed</note>", False, Verdict.DIFFERS),
+        (b"<value>1.25000000001</value>", True, VerificationVerdict.DIFFERS),
+        (b"<value>1.25000000001</value>", False, VerificationVerdict.HOLDS),
+        (b"<value>1.26</value>", False, VerificationVerdict.DIFFERS),
+        (b"<conformity>fail</conformity>", False, VerificationVerdict.DIFFERS),
+        (b"<note>A = 0.1 um, passed</note>", False, VerificationVerdict.DIFFERS),
     ],
 )
 def test_what_is_made_of_the_readings_is_made_again(
     content: bytes,
     same_processor: bool,  # noqa: FBT001 - a column
-    verdict: Verdict,
+    verdict: VerificationVerdict,
 ) -> None:
     """Another processor rounds the last digit otherwise; the same one does not."""
     again = carried(b"<value>1.25</value>")

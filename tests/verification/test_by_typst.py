@@ -16,7 +16,7 @@ from verification.test_verify import differing
 from zlmreport.plugin.protocols import made
 from zlmreport.plugin.registry import DISABLE, find_plugins
 from zlmreport.verification import verify as verifying
-from zlmreport.verification.findings import Verdict, Verification
+from zlmreport.verification.findings import Verification, VerificationVerdict
 
 Verify = Callable[[bytes], Verification]
 
@@ -25,7 +25,7 @@ def test_it_holds_as_it_was_issued(by_typst: bytes, verified: Verify) -> None:
     found = verified(by_typst)
     assert found.holds
     verdicts = {each.verdict for each in (*found.files, *found.values, *found.pages, *found.document)}
-    assert verdicts == {Verdict.HOLDS}
+    assert verdicts == {VerificationVerdict.HOLDS}
     assert len(found.pages) > 2
 
 
@@ -53,5 +53,5 @@ def test_where_its_renderer_is_missing_nothing_of_its_drawing_is_said_to_hold(
     path = tmp_path / "certificate.pdf"
     path.write_bytes(by_typst)
     found = verifying.verify(path, find_plugins({DISABLE: "pdf-typst"}))
-    assert Verdict.HOLDS not in {each.verdict for each in found.pages}
-    assert {each.verdict for each in found.values} == {Verdict.HOLDS}
+    assert VerificationVerdict.HOLDS not in {each.verdict for each in found.pages}
+    assert {each.verdict for each in found.values} == {VerificationVerdict.HOLDS}

@@ -12,7 +12,7 @@ from verification.altering import Forgery, rewritten
 from verification.forgeries import FORGERIES, plain
 from verification.test_trust import signed
 from zlmreport.errors import InputError
-from zlmreport.verification.findings import Outcome, Verdict, Verification
+from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
 
 Verify = Callable[[bytes], Verification]
 
@@ -56,8 +56,8 @@ def test_a_signed_certificate_that_is_forged_is_not_what_was_signed(
         found = verified(forgery.make(signed(issued, tmp_path)))
     except InputError:
         return
-    assert found.outcome is Outcome.DOES_NOT_HOLD, f"seen: {forgery.seen}"
-    assert found.signature.verdict is not Verdict.HOLDS
+    assert found.outcome is VerificationOutcome.DOES_NOT_HOLD, f"seen: {forgery.seen}"
+    assert found.signature.verdict is not VerificationVerdict.HOLDS
 
 
 @pytest.mark.parametrize(
@@ -79,5 +79,9 @@ def is_found(forgery: Forgery, pdf: bytes, verified: Verify) -> None:
         found = verified(forged)
     except InputError:
         return
-    expected = Outcome.UNDECIDED if forgery.name == "another release" else Outcome.DOES_NOT_HOLD
+    expected = (
+        VerificationOutcome.UNDECIDED
+        if forgery.name == "another release"
+        else VerificationOutcome.DOES_NOT_HOLD
+    )
     assert found.outcome is expected, f"seen: {forgery.seen}"

@@ -6,12 +6,12 @@ import pytest
 from pypdf import PdfWriter
 from pypdf.generic import DecodedStreamObject, DictionaryObject, NameObject
 
-from zlmreport.verification.marks import ForeignError, Mark, marks
+from zlmreport.verification.marks import DrawnMark, ForeignError, marks
 
 IMAGE = DictionaryObject({NameObject("/Subtype"): NameObject("/Image")})
 
 
-def drawn(content: str) -> list[Mark]:
+def drawn(content: str) -> list[DrawnMark]:
     """Return what a page draws that has a picture /P, a form /F and a graphics state /G."""
     writer = PdfWriter()
     page = writer.add_blank_page(100, 100)
@@ -28,7 +28,7 @@ def drawn(content: str) -> list[Mark]:
 
 def test_a_line_is_its_points_its_width_and_its_colour() -> None:
     (line,) = drawn("2 w 1 0 0 RG 10 20 m 30 40 l S")
-    assert line == Mark(
+    assert line == DrawnMark(
         ("S", "ml", ((), ("rgb", (1.0, 0.0, 0.0))), "", ()),
         (2.0, 0.0, 0.0, 2.0),
         (10.0, 20.0, 30.0, 40.0),
@@ -63,11 +63,11 @@ def test_a_transformation_moves_and_turns_what_is_drawn_after_it_and_is_taken_ba
 
 
 def test_a_path_that_bounds_what_follows_is_a_mark_and_ends() -> None:
-    assert drawn("1 2 m 3 4 l W n") == [Mark(("clip", "W", "ml"), (), (1.0, 2.0, 3.0, 4.0))]
+    assert drawn("1 2 m 3 4 l W n") == [DrawnMark(("clip", "W", "ml"), (), (1.0, 2.0, 3.0, 4.0))]
 
 
 def test_a_picture_is_its_pixels_its_corners_and_how_much_shows_through() -> None:
-    assert drawn("q 3 0 0 4 10 20 cm /P Do Q")[1] == Mark(
+    assert drawn("q 3 0 0 4 10 20 cm /P Do Q")[1] == DrawnMark(
         ("picture", "image", ""), (), (10.0, 20.0, 13.0, 20.0, 10.0, 24.0)
     )
     assert drawn("/G gs /P Do")[0].what == ("picture", "image", "other")
@@ -81,10 +81,10 @@ def test_what_no_certificate_draws_by_is_refused(content: str) -> None:
 
 def test_the_same_elsewhere_is_the_same_mark_and_another_shape_is_none() -> None:
     here, there, larger = (
-        Mark(("S",), (1.0,), place) for place in ((0, 0, 9, 9), (5, 5, 14, 14), (0, 0, 9, 12))
+        DrawnMark(("S",), (1.0,), place) for place in ((0, 0, 9, 9), (5, 5, 14, 14), (0, 0, 9, 12))
     )
     assert here.is_as(there)
     assert not here.is_where(there)
     assert not here.is_as(larger)
-    assert not here.is_as(Mark(("S",), (1.1,), here.place))
-    assert not here.is_as(Mark(("f",), (1.0,), here.place))
+    assert not here.is_as(DrawnMark(("S",), (1.1,), here.place))
+    assert not here.is_as(DrawnMark(("f",), (1.0,), here.place))

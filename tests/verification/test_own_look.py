@@ -9,7 +9,7 @@ import matplotlib as mpl
 import pytest
 
 from verification.issued import LABORATORY, issue, lay_out, page_with, with_digit, with_page_content
-from zlmreport.verification.findings import Outcome, Verdict, Verification
+from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
 
 FONT = Path(mpl.get_data_path(), "fonts", "ttf", "DejaVuSerif.ttf")
 TYPEFACE = f"typeface: {{regular: {FONT}, semibold: {FONT}}}"
@@ -31,9 +31,9 @@ def test_its_values_are_decided_and_how_its_pages_are_drawn_is_not(
     issued: bytes, verified: Callable[[bytes], Verification]
 ) -> None:
     found = verified(issued)
-    assert found.outcome is Outcome.UNDECIDED
-    assert {each.verdict for each in (*found.files, *found.values)} == {Verdict.HOLDS}
-    assert Verdict.DIFFERS not in {each.verdict for each in (*found.pages, *found.document)}
+    assert found.outcome is VerificationOutcome.UNDECIDED
+    assert {each.verdict for each in (*found.files, *found.values)} == {VerificationVerdict.HOLDS}
+    assert VerificationVerdict.DIFFERS not in {each.verdict for each in (*found.pages, *found.document)}
     assert "typeface or by templates" in found.remarks[0].en
 
 
@@ -42,22 +42,22 @@ def test_a_number_that_is_taken_from_its_pages_is_found(
 ) -> None:
     page = page_with(issued, "Figure 1")
     found = verified(with_page_content(issued, page, lambda _: b""))
-    assert found.outcome is not Outcome.UNDECIDED
+    assert found.outcome is not VerificationOutcome.UNDECIDED
     assert any("cannot be read on its pages" in each.detail for each in found.document)
 
 
 #: A digit of a result; a limit, which has no decimals; two uncertainties that change places.
 CHANGED = {
-    "a result": ([("7.26", "7.96")], Outcome.DOES_NOT_HOLD),
-    "a whole number": ([("20", "30")], Outcome.DOES_NOT_HOLD),
-    "two numbers": ([("0.71", "0.73"), ("0.73", "0.71")], Outcome.UNDECIDED),
+    "a result": ([("7.26", "7.96")], VerificationOutcome.DOES_NOT_HOLD),
+    "a whole number": ([("20", "30")], VerificationOutcome.DOES_NOT_HOLD),
+    "two numbers": ([("0.71", "0.73"), ("0.73", "0.71")], VerificationOutcome.UNDECIDED),
 }
 
 
 @pytest.mark.parametrize(("digits", "outcome"), CHANGED.values(), ids=CHANGED)
 def test_a_page_whose_number_was_changed_never_holds(
     digits: list[tuple[str, str]],
-    outcome: Outcome,
+    outcome: VerificationOutcome,
     issued: bytes,
     verified: Callable[[bytes], Verification],
 ) -> None:
@@ -67,4 +67,4 @@ def test_a_page_whose_number_was_changed_never_holds(
         forged = with_digit(forged, number, other)
     found = verified(forged)
     assert found.outcome is outcome
-    assert Verdict.HOLDS not in {each.verdict for each in found.pages if each.subject in changed}
+    assert VerificationVerdict.HOLDS not in {each.verdict for each in found.pages if each.subject in changed}

@@ -11,7 +11,7 @@ import pytest
 
 from verification.issued import JOB, LABORATORY, issue, lay_out
 from zlmreport.job.keys import JobKeys
-from zlmreport.verification.findings import Outcome, OwnText, Verdict, Verification
+from zlmreport.verification.findings import QuotedText, Verification, VerificationOutcome, VerificationVerdict
 from zlmreport.verification.own_texts import own_texts
 
 
@@ -50,9 +50,9 @@ def test_a_result_in_the_laboratorys_own_words_is_not_decided(
     laboratory: str, tmp_path: Path, verified: Callable[[bytes], Verification]
 ) -> None:
     found = verified(issue(lay_out(tmp_path, laboratory=laboratory), "pdf-typst"))
-    assert found.outcome is Outcome.UNDECIDED
+    assert found.outcome is VerificationOutcome.UNDECIDED
     assert found.undecided == ("document",)
-    (stated,) = (each for each in found.document if each.verdict is Verdict.OPEN)
+    (stated,) = (each for each in found.document if each.verdict is VerificationVerdict.OPEN)
     assert "own word" in stated.detail.en
 
 
@@ -60,7 +60,7 @@ def test_a_result_in_the_name_of_the_axis_is_not_decided(
     tmp_path: Path, verified: Callable[[bytes], Verification]
 ) -> None:
     job = JOB.replace("name: X", "name: 'X, P = 1.0 µm'")
-    assert verified(issue(lay_out(tmp_path, job=job), "pdf-typst")).outcome is Outcome.UNDECIDED
+    assert verified(issue(lay_out(tmp_path, job=job), "pdf-typst")).outcome is VerificationOutcome.UNDECIDED
 
 
 @pytest.mark.parametrize("sections", WORDS.values(), ids=WORDS)
@@ -86,7 +86,7 @@ NO_CLAIMS = [
 ]
 
 
-def _texts_of(title: str, *symbols: str) -> list[OwnText]:
+def _texts_of(title: str, *symbols: str) -> list[QuotedText]:
     """Return the words of a certificate with a title, on which these parameters stand."""
     parameters = [SimpleNamespace(quantity=SimpleNamespace(symbol=each)) for each in symbols]
     certificate = SimpleNamespace(
@@ -166,8 +166,10 @@ def test_a_day_that_has_not_come_is_not_decided(
 ) -> None:
     laboratory = LABORATORY.replace("issued: 2026-11-20", "issued: 2131-11-20")
     found = verified(issue(lay_out(tmp_path, laboratory=laboratory), "pdf-typst"))
-    assert found.outcome is Outcome.UNDECIDED
-    assert [each.subject for each in found.document if each.verdict is Verdict.OPEN] == ["certificate.issued"]
+    assert found.outcome is VerificationOutcome.UNDECIDED
+    assert [each.subject for each in found.document if each.verdict is VerificationVerdict.OPEN] == [
+        "certificate.issued"
+    ]
 
 
 def test_a_day_on_which_something_will_be_due_holds(
@@ -184,4 +186,4 @@ def test_a_length_may_stand_where_it_is_asked_for(
     name, text = key.split(": ", 1)
     job = JOB.replace("measurement: {", f"measurement: {{{name}: '{text}', ")
     found = verified(issue(lay_out(tmp_path, job=job), "pdf-typst"))
-    assert found.outcome is (Outcome.HOLDS if name == "line" else Outcome.UNDECIDED)
+    assert found.outcome is (VerificationOutcome.HOLDS if name == "line" else VerificationOutcome.UNDECIDED)

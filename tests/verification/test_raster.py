@@ -13,7 +13,7 @@ from pypdf import PdfReader
 from verification.issued import with_page_content
 from zlmreport.cli.terminal import said
 from zlmreport.verification import raster
-from zlmreport.verification.findings import Outcome, Verdict, Verification
+from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
 
 
 def page(drawn: str, width: int = 200, rotate: int = 0) -> bytes:
@@ -34,7 +34,7 @@ def page(drawn: str, width: int = 200, rotate: int = 0) -> bytes:
 def seen(content: bytes, again: bytes, *, is_alike: bool = True) -> str:
     """Return what is told of the first page; empty if both show the same."""
     found = raster.compare(content, again, [is_alike])
-    assert all(each.verdict is Verdict.DIFFERS for each in found.values())
+    assert all(each.verdict is VerificationVerdict.DIFFERS for each in found.values())
     return str(found[0].detail) if found else ""
 
 
@@ -91,10 +91,12 @@ def test_a_mark_may_be_off_by_a_pixel_where_other_libraries_drew(
 
 
 @pytest.mark.parametrize(
-    ("points", "outcome"), [(0.3, Outcome.HOLDS), (2.0, Outcome.UNDECIDED)], ids=["a little", "far"]
+    ("points", "outcome"),
+    [(0.3, VerificationOutcome.HOLDS), (2.0, VerificationOutcome.UNDECIDED)],
+    ids=["a little", "far"],
 )
 def test_what_another_library_shifted_holds_within_the_tolerance(
-    issued: bytes, verified: Callable[[bytes], Verification], points: float, outcome: Outcome
+    issued: bytes, verified: Callable[[bytes], Verification], points: float, outcome: VerificationOutcome
 ) -> None:
     shift = b"1 0 0 1 %f 0 cm\n" % points
     shifted = issued

@@ -22,7 +22,7 @@ from zlmreport.cli.terminal import said
 from zlmreport.document.signing.signer import open_signer
 from zlmreport.errors import Place
 from zlmreport.job.loading import load
-from zlmreport.verification.findings import Verdict, Verification
+from zlmreport.verification.findings import Verification, VerificationVerdict
 
 Verify = Callable[[bytes], Verification]
 Sign = Callable[[bytes], bytes]
@@ -42,7 +42,7 @@ def sign(tmp_path_factory: pytest.TempPathFactory) -> Sign:
 def test_an_unsigned_certificate_holds_and_the_finding_says_so(issued: bytes, verified: Verify) -> None:
     signature = verified(issued).signature
     assert (signature.verdict, said(signature.detail)) == (
-        Verdict.OPEN,
+        VerificationVerdict.OPEN,
         "not signed: nothing tells who made the file",
     )
 
@@ -50,9 +50,9 @@ def test_an_unsigned_certificate_holds_and_the_finding_says_so(issued: bytes, ve
 def test_a_signed_certificate_holds_and_names_the_signer(issued: bytes, sign: Sign, verified: Verify) -> None:
     found = verified(sign(issued))
     assert found.holds
-    assert found.signature.verdict is Verdict.HOLDS
+    assert found.signature.verdict is VerificationVerdict.HOLDS
     assert f"intact, by Common Name: {NAME}" in said(found.signature.detail)
-    assert {each.verdict for each in (*found.pages, *found.document)} == {Verdict.HOLDS}
+    assert {each.verdict for each in (*found.pages, *found.document)} == {VerificationVerdict.HOLDS}
 
 
 def test_a_certificate_with_a_time_stamp_holds_without_a_network(
@@ -72,7 +72,9 @@ def test_a_certificate_with_a_time_stamp_holds_without_a_network(
             (document,) = pipeline.run(job, registry(), signer).documents
     found = verified(document.content)
     assert found.holds
-    assert {each.verdict for each in (*found.pages, *found.document, *found.files)} == {Verdict.HOLDS}
+    assert {each.verdict for each in (*found.pages, *found.document, *found.files)} == {
+        VerificationVerdict.HOLDS
+    }
     assert "UTC by a time stamp of Common Name: Test Clock, of unknown trust" in said(found.signature.detail)
     assert "; kept with its proofs since 20" in said(found.signature.detail)
 
@@ -81,7 +83,7 @@ def test_a_signed_certificate_that_was_altered_before_does_not_hold(
     issued: bytes, sign: Sign, verified: Verify
 ) -> None:
     found = verified(sign(with_digit(issued, "7.26", "7.96")))
-    assert found.signature.verdict is Verdict.HOLDS
+    assert found.signature.verdict is VerificationVerdict.HOLDS
     assert not found.holds
 
 
@@ -89,7 +91,7 @@ def test_one_bit_of_what_was_signed_is_found(issued: bytes, sign: Sign, verified
     pdf = bytearray(sign(issued))
     pdf[pdf.index(b"%\xf0") + 1] ^= 1  # in a comment that no page shows
     found = verified(bytes(pdf))
-    assert found.signature.verdict is Verdict.DIFFERS
+    assert found.signature.verdict is VerificationVerdict.DIFFERS
     assert not found.holds
 
 
@@ -103,7 +105,7 @@ def test_a_change_after_the_signature_is_found(issued: bytes, sign: Sign, verifi
         "the file is signed, but something was added after it was signed"
     )
     assert "the page's /Rotate" in said(found.signature.detail)
-    assert found.pages[0].verdict is Verdict.DIFFERS
+    assert found.pages[0].verdict is VerificationVerdict.DIFFERS
 
 
 def test_a_field_of_a_signature_that_covers_a_number_is_a_change(
@@ -115,7 +117,7 @@ def test_a_field_of_a_signature_that_covers_a_number_is_a_change(
         field[NameObject("/Rect")] = ArrayObject(FloatObject(value) for value in (100, 100, 200, 200))
 
     found = verified(altered(sign(issued), enlarge))
-    assert Verdict.DIFFERS in {each.verdict for each in found.pages}
+    assert VerificationVerdict.DIFFERS in {each.verdict for each in found.pages}
 
 
 def test_a_signature_that_was_taken_out_leaves_an_unsigned_certificate(
@@ -124,7 +126,7 @@ def test_a_signature_that_was_taken_out_leaves_an_unsigned_certificate(
     signed = sign(issued)
     assert PdfReader(BytesIO(signed)).root_object["/AcroForm"]
     found = verified(signed[: len(issued)])
-    assert found.signature.verdict is Verdict.OPEN
+    assert found.signature.verdict is VerificationVerdict.OPEN
     assert found.holds
 
 

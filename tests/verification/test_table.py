@@ -12,9 +12,9 @@ from verification.forgeries import plain
 from verification.issued import altered
 from verification.raw_forgeries import with_packed_table
 from verification.test_trust import signed
-from zlmreport.verification.findings import Verdict
+from zlmreport.verification.findings import VerificationVerdict
 from zlmreport.verification.table import finding, scan
-from zlmreport.verification.tokens import Name, OddError, Reference, read_object, read_value
+from zlmreport.verification.tokens import OddError, PdfName, Reference, read_object, read_value
 
 
 @pytest.mark.parametrize("printed", ["issued", "by_typst"])
@@ -32,7 +32,9 @@ from zlmreport.verification.tokens import Name, OddError, Reference, read_object
 def test_a_sound_file_is_read_from_its_first_to_its_last_byte(
     printed: str, saved: Callable[[bytes], bytes], request: pytest.FixtureRequest
 ) -> None:
-    assert finding(saved(request.getfixturevalue(printed)), is_signed=False).verdict is Verdict.HOLDS
+    assert (
+        finding(saved(request.getfixturevalue(printed)), is_signed=False).verdict is VerificationVerdict.HOLDS
+    )
 
 
 @pytest.mark.parametrize("printed", ["issued", "by_typst"])
@@ -40,7 +42,7 @@ def test_a_signature_may_add_a_revision_and_nothing_else_may(
     printed: str, request: pytest.FixtureRequest, tmp_path: Path
 ) -> None:
     pdf = signed(request.getfixturevalue(printed), tmp_path)
-    assert finding(pdf, is_signed=True).verdict is Verdict.HOLDS
+    assert finding(pdf, is_signed=True).verdict is VerificationVerdict.HOLDS
     assert "no signature" in str(finding(pdf, is_signed=False).detail)
 
 
@@ -57,7 +59,7 @@ def test_every_byte_between_objects_counts(issued: bytes) -> None:
     ("text", "value"),
     [
         (b"<< /A 1 /B [ 2 0 R (a\\)b(c)) ] >>", {b"A": 1, b"B": [Reference(2, 0), b"(a\\)b(c))"]}),
-        (b"/A#42", Name(b"AB")),
+        (b"/A#42", PdfName(b"AB")),
         (b"[-.5 +3 true null <41 42>]", [-0.5, 3, True, None, b"<41 42>"]),
     ],
 )

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from zlmreport.verification.findings import Verdict
+from zlmreport.verification.findings import VerificationVerdict
 from zlmreport.verification.values import compare
 
 
@@ -24,7 +24,7 @@ def differing(stated: Any, recomputed: Any, *, same_programs: bool = True) -> di
     return {
         "/".join(value.path): (value.stated, value.recomputed)
         for value in compare(stated, recomputed, same_programs=same_programs)
-        if value.verdict is Verdict.DIFFERS
+        if value.verdict is VerificationVerdict.DIFFERS
     }
 
 
@@ -34,7 +34,7 @@ A = "evaluations/iso/parameters/A"
 def test_equal_files_agree_in_every_value() -> None:
     found = compare(results(), results(), same_programs=True)
     assert len(found) == 8
-    assert {value.verdict for value in found} == {Verdict.HOLDS}
+    assert {value.verdict for value in found} == {VerificationVerdict.HOLDS}
 
 
 @pytest.mark.parametrize("value", [22.0 * (1 + 5e-10), 22, 22.0 - 1e-10])
@@ -94,7 +94,9 @@ def test_what_only_this_release_states_is_left_open() -> None:
     assert differing(results(), newer).keys() == {f"{A}/expanded_uncertainty"}
     assert differing(results(), newer, same_programs=False) == {}
     (left_open,) = (
-        each for each in compare(results(), newer, same_programs=False) if each.verdict is Verdict.OPEN
+        each
+        for each in compare(results(), newer, same_programs=False)
+        if each.verdict is VerificationVerdict.OPEN
     )
     assert "/".join(left_open.path) == f"{A}/expanded_uncertainty"
 

@@ -31,7 +31,12 @@ from verification.issued import (
 from zlmreport import pipeline
 from zlmreport.cli.terminal import said
 from zlmreport.document.certificate.build import GENERATOR
-from zlmreport.verification.findings import Finding, Outcome, Verdict, Verification
+from zlmreport.verification.findings import (
+    CheckedStatement,
+    Verification,
+    VerificationOutcome,
+    VerificationVerdict,
+)
 
 Verify = Callable[[bytes], Verification]
 RESULTS = f"{NUMBER}.json"
@@ -40,15 +45,17 @@ RESULTS = f"{NUMBER}.json"
 def differing(found: Verification) -> list[str]:
     """The subjects of all findings that differ, and the paths of values."""
     findings = (*found.files, *found.pages, *found.document)
-    subjects = [each.subject for each in findings if each.verdict is Verdict.DIFFERS]
-    return subjects + ["/".join(each.path) for each in found.values if each.verdict is Verdict.DIFFERS]
+    subjects = [each.subject for each in findings if each.verdict is VerificationVerdict.DIFFERS]
+    return subjects + [
+        "/".join(each.path) for each in found.values if each.verdict is VerificationVerdict.DIFFERS
+    ]
 
 
-def finding(found: Verification, subject: str) -> Finding:
+def finding(found: Verification, subject: str) -> CheckedStatement:
     (one,) = (
         each
         for each in (*found.files, *found.pages, *found.document)
-        if each.subject == subject and each.verdict is Verdict.DIFFERS
+        if each.subject == subject and each.verdict is VerificationVerdict.DIFFERS
     )
     return one
 
@@ -67,7 +74,7 @@ def test_a_certificate_holds_as_it_was_issued(issued: bytes, verified: Verify) -
         RESULTS,
     }
     verdicts = {each.verdict for each in (*found.files, *found.values, *found.pages, *found.document)}
-    assert verdicts == {Verdict.HOLDS}
+    assert verdicts == {VerificationVerdict.HOLDS}
 
 
 def test_every_number_of_the_results_file_is_compared(issued: bytes, verified: Verify) -> None:
@@ -206,7 +213,7 @@ def test_stated_and_recomputed_value_stand_side_by_side(issued: bytes, verified:
     found = verified(
         with_results(issued, lambda results: results["evaluations"][0]["parameters"][0].update(value=4.5))
     )
-    (value,) = (each for each in found.values if each.verdict is Verdict.DIFFERS)
+    (value,) = (each for each in found.values if each.verdict is VerificationVerdict.DIFFERS)
     assert (value.stated, value.recomputed) == (4.5, pytest.approx(7.26, abs=0.005))
 
 
@@ -281,7 +288,7 @@ def test_a_page_that_is_appended_is_found(issued: bytes, verified: Verify) -> No
 def test_a_page_that_is_removed_is_found_and_the_others_hold(issued: bytes, verified: Verify) -> None:
     found = verified(altered(issued, lambda writer: writer.remove_page(1)))
     assert finding(found, "page 2").detail == "is missing"
-    assert [each.subject for each in found.pages if each.verdict is Verdict.DIFFERS] == ["page 2"]
+    assert [each.subject for each in found.pages if each.verdict is VerificationVerdict.DIFFERS] == ["page 2"]
 
 
 def test_a_number_that_is_hidden_in_the_metadata_is_found(issued: bytes, verified: Verify) -> None:
@@ -348,7 +355,7 @@ def older(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 def test_what_another_release_made_holds_if_all_of_it_is_repeated(older: bytes, verified: Verify) -> None:
     found = verified(older)
-    assert found.outcome is Outcome.HOLDS
+    assert found.outcome is VerificationOutcome.HOLDS
     assert found.identity.generator == "zlmreport 0.0.9"
     assert tuple(map(said, found.remarks)) == (
         f"made by zlmreport 0.0.9; this is {GENERATOR}, and it repeats all of it in that name",
@@ -373,7 +380,7 @@ def test_what_another_release_stated_and_this_cannot_repeat_is_not_decided(
     older: bytes, verified: Verify, change: Callable[[bytes], bytes], part: str
 ) -> None:
     found = verified(change(older))
-    assert (found.outcome, found.undecided) == (Outcome.UNDECIDED, (part,))
+    assert (found.outcome, found.undecided) == (VerificationOutcome.UNDECIDED, (part,))
     assert said(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
 
 
@@ -383,10 +390,10 @@ def test_a_value_that_the_readings_do_not_give_is_wrong_in_every_release(
     found = verified(_of_first_parameter(older, value=4.5))
     assert differing(found) == ["evaluations/nmtba/parameters/P/value"]
     readings = READINGS.replace("200,+,2,3.1", "200,+,2,3.2").encode()
-    assert verified(with_source(older, "x-axis.csv", readings)).outcome is Outcome.DOES_NOT_HOLD
+    assert verified(with_source(older, "x-axis.csv", readings)).outcome is VerificationOutcome.DOES_NOT_HOLD
 
 
 @pytest.mark.parametrize("named", ["zlmreport 0.0.9, checked by PTB", "zlmreport by PTB", "zlmrep0rt 0.0.9"])
 def test_what_is_no_name_of_a_release_is_printed_by_none(issued: bytes, verified: Verify, named: str) -> None:
     stated = with_results(issued, lambda results: results["provenance"].update(generator=named))
-    assert verified(stated).outcome is Outcome.UNDECIDED
+    assert verified(stated).outcome is VerificationOutcome.UNDECIDED

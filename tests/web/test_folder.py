@@ -15,7 +15,7 @@ from processes import awaited
 from web.jobs import registry
 from zlmreport.errors import InputError
 from zlmreport.language import Language
-from zlmreport.web.folder import JobFolder, JobRow, State, jobs_in, looked_at, row_values
+from zlmreport.web.folder import JobFolder, JobRow, JobState, jobs_in, looked_at, row_values
 from zlmreport.web.folder_app import FolderWorkbench
 from zlmreport.web.guard import Door
 
@@ -100,19 +100,19 @@ def test_a_job_that_fails_opens_and_says_what_is_wrong(job: Path, listing: TestC
 @pytest.mark.parametrize(
     ("due", "state"),
     [
-        (TODAY - dt.timedelta(days=1), State.OVERDUE),
-        (TODAY, State.SOON),
-        (TODAY + dt.timedelta(days=90), State.SOON),
-        (TODAY + dt.timedelta(days=91), State.FINE),
-        (None, State.FINE),
+        (TODAY - dt.timedelta(days=1), JobState.OVERDUE),
+        (TODAY, JobState.SOON),
+        (TODAY + dt.timedelta(days=90), JobState.SOON),
+        (TODAY + dt.timedelta(days=91), JobState.FINE),
+        (None, JobState.FINE),
     ],
 )
-def test_an_axis_is_due_after_its_interval(due: dt.date | None, state: State) -> None:
-    assert JobRow("", "", State.FINE, due=due).dated(TODAY, is_latest=True).state is state
+def test_an_axis_is_due_after_its_interval(due: dt.date | None, state: JobState) -> None:
+    assert JobRow("", "", JobState.FINE, due=due).dated(TODAY, is_latest=True).state is state
 
 
-@pytest.mark.parametrize("state", [State.FAILS, State.NOT_MET, State.OVERDUE])
-def test_being_due_soon_hides_nothing_worse(state: State) -> None:
+@pytest.mark.parametrize("state", [JobState.FAILS, JobState.NOT_MET, JobState.OVERDUE])
+def test_being_due_soon_hides_nothing_worse(state: JobState) -> None:
     assert JobRow("", "", state, due=TODAY).dated(TODAY, is_latest=True).state is state
 
 
@@ -137,7 +137,7 @@ def test_a_limit_that_is_not_met_is_said(job: Path) -> None:
     )
     job.write_text(text, "utf-8")
     row, _ = looked_at(JobRow("", ""), job, registry())
-    assert row.state is State.NOT_MET, row.problems
+    assert row.state is JobState.NOT_MET, row.problems
 
 
 def test_only_jobs_are_listed(job: Path) -> None:
@@ -157,10 +157,10 @@ def test_a_folder_without_a_job_is_refused(tmp_path: Path) -> None:
 def test_a_job_without_an_error_model_is_listed_and_does_not_open() -> None:
     circle = Path(__file__).parents[2] / "configs" / "circle" / "certificate.yaml"
     row, _ = looked_at(JobRow("", ""), circle, registry())
-    assert row.state is not State.FAILS, row.problems
+    assert row.state is not JobState.FAILS, row.problems
     assert "no installed effect acts on that" in row.closed
 
 
 def test_a_state_is_told_in_german() -> None:
-    row = JobRow("k", "x.yaml", State.OVERDUE, due=dt.date(2026, 11, 1))
+    row = JobRow("k", "x.yaml", JobState.OVERDUE, due=dt.date(2026, 11, 1))
     assert row_values(row, Language.GERMAN)["words"] == "überfällig"

@@ -21,7 +21,7 @@ from zlmreport import pipeline
 from zlmreport.job.loading import load
 from zlmreport.language import Language, same
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.diagnosis.faults import Fault, FaultKind
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.effects.design import at_positions
@@ -291,7 +291,9 @@ def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Stu
 
 
 def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None:
-    fault = Fault(FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file"))
+    fault = DataFault(
+        FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file")
+    )
     diagnosis = replace(study.diagnosis(registry().effects), faults=(fault,))
     (found,) = diagnosed(diagnosis, study, registry().effects, Language.ENGLISH)["faults"]
     assert (found["statement"], found["remedy"]) == ("run 3 looks swapped", "correct the file")

@@ -125,7 +125,7 @@ _METHOD_NOT_FOUND = -32_601
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class IdsAnswer:
     """What an IDS answers."""
 
     number: int  #: Of the question.
@@ -141,7 +141,7 @@ def question(number: int, method: str, *parameters: int) -> bytes:
     return json.dumps(message, separators=(",", ":")).encode("ascii")
 
 
-def answer_to(number: int, arrived: bytes) -> Answer | None:
+def answer_to(number: int, arrived: bytes) -> IdsAnswer | None:
     """Return the answer to a question in what has arrived; None if it is not there, or not whole.
 
     Answers to earlier questions, which came too late, are passed over.
@@ -160,7 +160,7 @@ def answer_to(number: int, arrived: bytes) -> Answer | None:
     return None
 
 
-def _answer(message: Any) -> Answer | None:
+def _answer(message: Any) -> IdsAnswer | None:
     """Return a message as an answer; None if it is none."""
     if not isinstance(message, dict) or not isinstance(message.get("id"), int):
         return None
@@ -168,11 +168,11 @@ def _answer(message: Any) -> Answer | None:
     error = message.get("error")
     if isinstance(error, dict):
         is_unknown = error.get("code") == _METHOD_NOT_FOUND
-        return Answer(number, error=str(error.get("message", "error")), is_unknown=is_unknown)
+        return IdsAnswer(number, error=str(error.get("message", "error")), is_unknown=is_unknown)
     result = message.get("result")
     if not isinstance(result, list) or not result or not isinstance(result[0], int):
         return None
-    return Answer(number, result[0], tuple(result[1:]))
+    return IdsAnswer(number, result[0], tuple(result[1:]))
 
 
 #: Of the methods, on older and on newer firmware.
@@ -211,7 +211,7 @@ class Client:
             "of 2019 or later?"
         )
 
-    def call(self, method: str, *parameters: int, of_ecu: bool = False) -> Answer | None:
+    def call(self, method: str, *parameters: int, of_ecu: bool = False) -> IdsAnswer | None:
         """Return the answer to a question; None if it did not come or was not understood.
 
         Raises `AccessError` if the device has not answered for its time.

@@ -154,7 +154,7 @@ _ACKNOWLEDGED_WITHIN = 10.0
 
 
 @dataclass(slots=True)
-class Outcome:
+class SessionOutcome:
     """How a command ended."""
 
     data: list[str] = field(default_factory=list)  #: The texts of its data lines.
@@ -204,12 +204,12 @@ class Session:
         """Raise the error of the machine, with what the operator can do."""
         raise AccessError.at(self._connection.place, f"the machine stopped: {error}; {advice(error)}")
 
-    def ask(self, command: str) -> Outcome:
+    def ask(self, command: str) -> SessionOutcome:
         """Give a command, and return how it ended."""
         self._tag = self._tag % _LAST_TAG + 1
         tag = f"{self._tag:05d}"
         self._connection.send(f"{tag} {command}")
-        outcome = Outcome()
+        outcome = SessionOutcome()
         is_acknowledged = False
         until = time.monotonic() + _ACKNOWLEDGED_WITHIN
         while True:
@@ -233,7 +233,7 @@ class Session:
             else:
                 return outcome
 
-    def _see_to(self, outcome: Outcome) -> None:
+    def _see_to(self, outcome: SessionOutcome) -> None:
         """Tell the errors that are not in the way; the first that is ends the session."""
         for error in outcome.errors:
             if error.is_in_the_way:

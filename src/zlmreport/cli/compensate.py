@@ -27,13 +27,13 @@ from zlmreport.files import Document, write_new
 from zlmreport.job.choices import controller_choice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.tree import Entry, Keys, Scalar, keys_of
+from zlmreport.job.tree import KeyEntry, Keys, Scalar, keys_of
 from zlmreport.language import Language
 from zlmreport.measurement.axis import refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.compensation.basis import (
-    Basis,
     FittedModel,
+    TableBasis,
     basis_of_means,
     basis_of_model,
     with_table,
@@ -127,7 +127,7 @@ def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, Measu
 
 def _basis(
     job: Job, curve: ErrorCurve, measurements: MeasurementSet, registry: Registry, options: Namespace
-) -> Basis:
+) -> TableBasis:
     """Return what is known of the axis: its means, or its model where that is asked for."""
     is_of_model = options.source == "model"
     if is_of_model and not job.effects:
@@ -155,8 +155,8 @@ def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Contr
             _COMMAND, f"which control? State --controller NAME, or compensation.controller: {known}"
         )
     base: Keys = stated.stated if stated and stated.identifier == name else keys_of(_COMMAND)
-    entries = [Entry(key, _COMMAND, Scalar(_COMMAND, text)) for key, text in options.set]
-    named = Entry("controller", _COMMAND, Scalar(_COMMAND, name))
+    entries = [KeyEntry(key, _COMMAND, Scalar(_COMMAND, text)) for key, text in options.set]
+    named = KeyEntry("controller", _COMMAND, Scalar(_COMMAND, name))
     problems: list[Any] = []
     choice = controller_choice(
         keys_of(base.place, (*base.entries.values(), *entries, named)), registry, problems

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from zlmreport.measurement.axis import Axis
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.diagnosis.diagnosis import Diagnosis
-    from zlmreport.model.diagnosis.faults import Fault
+    from zlmreport.model.diagnosis.faults import DataFault
     from zlmreport.plugin.registry import Registry
 
 
@@ -282,7 +282,7 @@ def findings(result: JobResult) -> Iterator[str]:
     yield from _model(result)
 
 
-def _faults(measurements: MeasurementSet) -> tuple[Fault, ...]:
+def _faults(measurements: MeasurementSet) -> tuple[DataFault, ...]:
     """Return what the rows of a file themselves show to be wrong; units are among the doubts."""
     import numpy as np  # noqa: PLC0415 - the same
 

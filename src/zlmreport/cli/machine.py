@@ -12,7 +12,7 @@ from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import Document, write
 from zlmreport.language import Language
-from zlmreport.machines.comparison import Compared, compare_circles, compare_line
+from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, diagnosis_values
 from zlmreport.machines.document import machine_document
@@ -169,7 +169,7 @@ def _changed(
     return _laid_out(machine, sections), change_values(before, after, (compared[0], compared[1]))
 
 
-def _sizes(title: str, compared: Sequence[Compared], noise: float) -> Section:
+def _sizes(title: str, compared: Sequence[ComparedTest], noise: float) -> Section:
     return Section("sizes", title, (tests.sizes_table(compared, _SAY, noise),))
 
 

@@ -16,32 +16,44 @@ from zlmreport.language import Words
 from zlmreport.measurement.units import printed_symbol
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.verification.findings import (
-    Finding,
-    Outcome,
-    OwnText,
-    Value,
-    Verdict,
+    CheckedStatement,
+    ComparedValue,
+    QuotedText,
     Verification,
+    VerificationOutcome,
+    VerificationVerdict,
     is_number,
 )
 from zlmreport.verification.verify import verify
 from zlmreport.version import __version__
 
-_CODES = {Outcome.HOLDS: 0, Outcome.DOES_NOT_HOLD: 1, Outcome.UNDECIDED: 5}
-_HOLDS = {Outcome.HOLDS: True, Outcome.DOES_NOT_HOLD: False, Outcome.UNDECIDED: None}
-_COLOURS = {Verdict.HOLDS: Colour.GREEN, Verdict.DIFFERS: Colour.RED, Verdict.OPEN: Colour.YELLOW}
+_CODES = {
+    VerificationOutcome.HOLDS: 0,
+    VerificationOutcome.DOES_NOT_HOLD: 1,
+    VerificationOutcome.UNDECIDED: 5,
+}
+_HOLDS = {
+    VerificationOutcome.HOLDS: True,
+    VerificationOutcome.DOES_NOT_HOLD: False,
+    VerificationOutcome.UNDECIDED: None,
+}
+_COLOURS = {
+    VerificationVerdict.HOLDS: Colour.GREEN,
+    VerificationVerdict.DIFFERS: Colour.RED,
+    VerificationVerdict.OPEN: Colour.YELLOW,
+}
 _MOST_LINES = 12
 _LONGEST_TEXT = 40
 _LONGEST_QUOTE = 200
 #: Steps of a value's path that say nothing to people.
 _CONTAINERS = frozenset({"evaluations", "parameters", "positions"})
 _SAID = {
-    Verdict.HOLDS: Words(en="holds", de="stimmt"),
-    Verdict.DIFFERS: Words(en="differs", de="weicht ab"),
-    Verdict.OPEN: Words(en="not compared", de="nicht verglichen"),
-    Outcome.HOLDS: Words(en="holds", de="bestätigt"),
-    Outcome.DOES_NOT_HOLD: Words(en="does not hold", de="nicht bestätigt"),
-    Outcome.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
+    VerificationVerdict.HOLDS: Words(en="holds", de="stimmt"),
+    VerificationVerdict.DIFFERS: Words(en="differs", de="weicht ab"),
+    VerificationVerdict.OPEN: Words(en="not compared", de="nicht verglichen"),
+    VerificationOutcome.HOLDS: Words(en="holds", de="bestätigt"),
+    VerificationOutcome.DOES_NOT_HOLD: Words(en="does not hold", de="nicht bestätigt"),
+    VerificationOutcome.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
 }
 _PARTS = {
     "signature": Words(en="signature", de="Signatur"),
@@ -85,7 +97,7 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
     identity, signature = found.identity, found.signature
     say = partial(said, language=identity.language)
     # What does not hold is no copy of anything: its digest would only be taken for a sign that it is.
-    is_told = identity.digest and found.outcome is not Outcome.DOES_NOT_HOLD
+    is_told = identity.digest and found.outcome is not VerificationOutcome.DOES_NOT_HOLD
     digest = f"  {visible(identity.digest)}" if is_told else ""
     yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found, say)}{digest}"
     if identity.number:
@@ -125,15 +137,15 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
 def _verdict(found: Verification, say: _Say) -> str:
     outcome, count = say(_SAID[found.outcome]), found.differences
     match found.outcome:
-        case Outcome.HOLDS if found.is_trusted:
+        case VerificationOutcome.HOLDS if found.is_trusted:
             trusted = Words(
                 en="signed by a key that is trusted", de="signiert mit einem Schlüssel, dem vertraut wird"
             )
             return f"{Colour.GREEN.of(outcome)}: {say(trusted)}"
-        case Outcome.HOLDS:
+        case VerificationOutcome.HOLDS:
             unknown = Words(en="consistent, origin unknown", de="in sich stimmig, Herkunft unbekannt")
             return f"{Colour.GREEN.of(outcome)}: {say(unknown)}"
-        case Outcome.UNDECIDED:
+        case VerificationOutcome.UNDECIDED:
             names = say(Words(en=" and ", de=" und ")).join(say(_PARTS[each]) for each in found.undecided)
             open_parts = Words(
                 en="{names} could not be compared whole", de="{names} nicht vollständig vergleichbar"
@@ -146,11 +158,13 @@ def _verdict(found: Verification, say: _Say) -> str:
     return f"{Colour.RED.of(outcome)}: {say(one if count == 1 else more.given(n=count))}"
 
 
-def _summary(label: str, findings: Sequence[Finding], what: Words, say: _Say) -> Iterator[tuple[str, str]]:
+def _summary(
+    label: str, findings: Sequence[CheckedStatement], what: Words, say: _Say
+) -> Iterator[tuple[str, str]]:
     """Yield how many findings hold, and each that does not."""
     if not findings:
         return
-    others = [each for each in findings if each.verdict is not Verdict.HOLDS]
+    others = [each for each in findings if each.verdict is not VerificationVerdict.HOLDS]
     yield label, say(what.given(of=_of(len(findings) - len(others), len(findings))))
     for each in others[:_MOST_LINES]:
         verdict = _COLOURS[each.verdict].of(say(_SAID[each.verdict]))
@@ -164,34 +178,39 @@ def _of(number: int, total: int) -> Words:
     return Words(en="{number} of {total}", de="{number} von {total}").given(number=number, total=total)
 
 
-def _numbers(values: Sequence[Value], say: _Say) -> Iterator[tuple[str, str]]:
+def _numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[str, str]]:
     """Yield how many numbers hold, and each value that does not and stands in no table below."""
     numbers = sum(value.is_number for value in values)
     if not numbers:
         return
-    holding = sum(value.is_number and value.verdict is Verdict.HOLDS for value in values)
+    holding = sum(value.is_number and value.verdict is VerificationVerdict.HOLDS for value in values)
     given = Words(
         en="{of} as the attached readings give them", de="{of} wie aus den angehängten Messwerten berechnet"
     )
     yield say(Words(en="numbers", de="Zahlen")), say(given.given(of=_of(holding, numbers)))
     elsewhere = [
-        Finding(" ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _both(value))
+        CheckedStatement(
+            " ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _both(value)
+        )
         for value in values
-        if value.verdict is Verdict.DIFFERS and not _is_of_parameter(value)
+        if value.verdict is VerificationVerdict.DIFFERS and not _is_of_parameter(value)
     ]
     yield from list(_summary("", elsewhere, given, say))[1:]
 
 
-def _own_words(texts: Sequence[OwnText], say: _Say) -> Iterator[str]:
+def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
     """Yield the words that somebody else wrote, each once, with what nobody can tell by looking."""
     yield f"  {say(_OWN_WORDS)}"
-    by_text: dict[str, list[OwnText]] = {}
+    by_text: dict[str, list[QuotedText]] = {}
     for each in texts:
         by_text.setdefault(each.text, []).append(each)
     for text, alike in by_text.items():
         places = ", ".join(_places([each.key for each in alike], say))
         yield visible(f"  {places}: '{_shortened(text)}'")
-        yield from (f"    {_COLOURS[Verdict.OPEN].of(visible(say(oddity)))}" for oddity in alike[0].oddities)
+        yield from (
+            f"    {_COLOURS[VerificationVerdict.OPEN].of(visible(say(oddity)))}"
+            for oddity in alike[0].oddities
+        )
 
 
 def _places(keys: Sequence[str], say: _Say) -> Iterator[str]:
@@ -224,7 +243,7 @@ def _shortened(text: str) -> str:
     return line if len(line) <= _LONGEST_QUOTE else f"{line[: _LONGEST_QUOTE - 1]}…"
 
 
-def _parameters(standard: str, values: Sequence[Value], say: _Say) -> Iterator[str]:
+def _parameters(standard: str, values: Sequence[ComparedValue], say: _Say) -> Iterator[str]:
     """Yield the parameters of a standard, each with all that is stated of it and differs."""
     of_standard = [value for value in values if _is_of_parameter(value) and value.path[1] == standard]
     units = {str(value.recomputed) for value in of_standard if value.path[-1] == "unit"}
@@ -232,8 +251,8 @@ def _parameters(standard: str, values: Sequence[Value], say: _Say) -> Iterator[s
     rows = []
     for symbol in dict.fromkeys(value.path[3] for value in of_standard):
         own = {value.path[-1]: value for value in of_standard if value.path[3] == symbol}
-        wrong = {key: value for key, value in own.items() if value.verdict is Verdict.DIFFERS}
-        verdict = Verdict.DIFFERS if wrong else Verdict.HOLDS
+        wrong = {key: value for key, value in own.items() if value.verdict is VerificationVerdict.DIFFERS}
+        verdict = VerificationVerdict.DIFFERS if wrong else VerificationVerdict.HOLDS
         others = "; ".join(f"{key}: {_both(value)}" for key, value in wrong.items() if key != "value")
         value = own.get("value")
         rows.append(
@@ -248,20 +267,20 @@ def _parameters(standard: str, values: Sequence[Value], say: _Say) -> Iterator[s
     yield from table([head, *rows], right=(1, 2), indent="  ")
 
 
-def _is_of_parameter(value: Value) -> bool:
+def _is_of_parameter(value: ComparedValue) -> bool:
     return len(value.path) > 4 and value.path[0] == "evaluations" and value.path[2] == "parameters"
 
 
-def _both(value: Value) -> str:
+def _both(value: ComparedValue) -> str:
     stated, recomputed = _shown(value)
     return f"{stated} is stated, and {recomputed} recomputed"
 
 
-def _shown(value: Value) -> tuple[str, str]:
+def _shown(value: ComparedValue) -> tuple[str, str]:
     """Return the stated and the recomputed value with as many digits as tell the two apart."""
     for digits in range(5, 18):
         stated, recomputed = (_written(each, digits) for each in (value.stated, value.recomputed))
-        if stated != recomputed or value.verdict is not Verdict.DIFFERS:
+        if stated != recomputed or value.verdict is not VerificationVerdict.DIFFERS:
             break
     return stated, recomputed
 
@@ -315,9 +334,9 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
     }
 
 
-def _findings(findings: Iterable[Finding]) -> list[dict[str, str]]:
+def _findings(findings: Iterable[CheckedStatement]) -> list[dict[str, str]]:
     return [_finding(each) for each in findings]
 
 
-def _finding(finding: Finding) -> dict[str, str]:
+def _finding(finding: CheckedStatement) -> dict[str, str]:
     return {"subject": finding.subject, "verdict": finding.verdict.value, "detail": said(finding.detail)}

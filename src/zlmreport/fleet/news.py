@@ -175,7 +175,7 @@ _CORE = ("plugin", "tells")
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class NewsChannel:
     """A way to tell people."""
 
     notifier: Notifier  #: Of a plugin.
@@ -209,15 +209,15 @@ class Way:
 class Ways:
     """All ways of a fleet; one that failed is not tried again in the same night."""
 
-    all: tuple[Way, ...] = ()  #: In the order of the fleet file.
+    all: tuple[NewsChannel, ...] = ()  #: In the order of the fleet file.
     #: What is to be said of those that nobody was reached by tonight.
     untold: dict[str, NightNotice] = field(default_factory=dict)
 
-    def of(self, occasion: Occasion) -> Iterator[Way]:
+    def of(self, occasion: Occasion) -> Iterator[NewsChannel]:
         """Yield those that tell of an occasion, and may still work."""
         return (way for way in self.all if occasion in way.tells and way.name not in self.untold)
 
-    def tell(self, way: Way, message: Message, watch: Callable[[NightNotice], None]) -> bool:
+    def tell(self, way: NewsChannel, message: Message, watch: Callable[[NightNotice], None]) -> bool:
         """Tell people by one of them, and return whether it was taken; if not, the watch takes note."""
         reason = way.tell(message)
         if reason:
@@ -240,7 +240,7 @@ def ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:
     return Ways(tuple(way for way in found if way))
 
 
-def _way(fleet: FleetFile, index: int, registry: Registry, problems: list[Problem]) -> Way | None:
+def _way(fleet: FleetFile, index: int, registry: Registry, problems: list[Problem]) -> NewsChannel | None:
     keys, core = found_at(fleet.tree, ("notify", index)), fleet.keys.notify[index]
     named = found_at(fleet.tree, ("notify", index, "plugin"))
     if not isinstance(keys, Keys) or not isinstance(named, Scalar):
@@ -252,4 +252,4 @@ def _way(fleet: FleetFile, index: int, registry: Registry, problems: list[Proble
         return None
     own = replace(keys.without(*_CORE), place=named.place)
     options = validate(notifier.options, own, problems, within="notify", also_known=_CORE)
-    return Way(notifier, options, frozenset(map(Occasion, core.tells))) if options else None
+    return NewsChannel(notifier, options, frozenset(map(Occasion, core.tells))) if options else None

@@ -32,7 +32,7 @@ from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.causes import LEAST_MACHINES, Shared, shared
 from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
-from zlmreport.fleet.overview_cells import Cells, Names, key_of
+from zlmreport.fleet.overview_cells import CellWriter, Names, key_of
 from zlmreport.fleet.overview_trend import trend_in_full
 from zlmreport.fleet.records import LedgerEntry, NightNotice, PastNight, RecordedParameter, State
 from zlmreport.fleet.state import SOON, DueDate, FailingJob, FleetState
@@ -55,7 +55,7 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
     chosen = _shown_in_full(printed)
     anchors = {key_of(each.series): f"trend-{number}" for number, each in enumerate(chosen, 1)}
-    cells = Cells(language, names, period, files, state.effects, anchors)
+    cells = CellWriter(language, names, period, files, state.effects, anchors)
     script = overview_script()
     return render(
         OverviewContext(
@@ -75,7 +75,7 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
     )
 
 
-def _facts(state: FleetState, cells: Cells) -> Iterator[tuple[str, str]]:
+def _facts(state: FleetState, cells: CellWriter) -> Iterator[tuple[str, str]]:
     yield cells.say(words.LAST_RUN), cells.say(_run(state.night))
     yield cells.say(words.JOBS), cells.say(words.JOBS_DONE.given(jobs=state.jobs, **state.counts))
     yield cells.say(words.CERTIFICATES), str(len(state.certificates))
@@ -94,7 +94,7 @@ def _run(night: PastNight | None) -> Words:
     return words.RAN.given(began=began, duration=duration.given(number=seconds))
 
 
-def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
+def _tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
     counted = (
         (len(state.notices), words.NOTICED, "noticed"),
         (len(state.failures), words.FAILED, "failed"),
@@ -114,7 +114,7 @@ def _tiles(state: FleetState, cells: Cells) -> Iterator[TileContext]:
     yield TileContext(str(len(state.axes)), cells.say(words.AXES), "calm", "machines")
 
 
-def _sections(state: FleetState, cells: Cells) -> Iterator[OverviewSectionContext]:
+def _sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSectionContext]:
     needed = tuple(map(render, needs(state, cells)))
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
@@ -145,11 +145,11 @@ class _Table(Generic[T]):
     title: Words
     caption: Words
     heading: Words
-    columns: tuple[tuple[Words, Callable[[Cells, T], OverviewCellContext]], ...]
+    columns: tuple[tuple[Words, Callable[[CellWriter, T], OverviewCellContext]], ...]
     style: str = ""
 
     def of(
-        self, groups: Iterable[tuple[OverviewCellContext, Iterable[T]]], cells: Cells
+        self, groups: Iterable[tuple[OverviewCellContext, Iterable[T]]], cells: CellWriter
     ) -> OverviewTableContext:
         """Return the table of groups, each with its first cell and what its rows are about."""
         made = tuple(
@@ -179,13 +179,13 @@ def _date(moment: str) -> OverviewCellContext:
 
 
 _VALUES = (
-    (words.PARAMETER, Cells.parameter),
-    (words.VALUE, Cells.value),
-    (words.LIMIT, Cells.limit),
+    (words.PARAMETER, CellWriter.parameter),
+    (words.VALUE, CellWriter.value),
+    (words.LIMIT, CellWriter.limit),
 )
-_COURSE = (words.COURSE, Cells.course)
-_OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, Cells.latest))
-_OF_TERMS: tuple[tuple[Words, Callable[[Cells, DueDate], OverviewCellContext]], ...] = (
+_COURSE = (words.COURSE, CellWriter.course)
+_OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, CellWriter.latest))
+_OF_TERMS: tuple[tuple[Words, Callable[[CellWriter, DueDate], OverviewCellContext]], ...] = (
     (words.MEASURED_ON, lambda _, term: _date(term.entry.measured)),
     (words.DUE, lambda _, term: _date(term.due.isoformat())),
 )
@@ -213,14 +213,14 @@ _CHANGED = _Table(
     words.CHANGED,
     words.CHANGED_CAPTION,
     words.AXIS,
-    (*_VALUES, _COURSE, (words.CHANGE, Cells.change), (words.CAME_WITH, Cells.came_with)),
+    (*_VALUES, _COURSE, (words.CHANGE, CellWriter.change), (words.CAME_WITH, CellWriter.came_with)),
 )
 _DRIFTING = _Table(
     "drifting",
     words.DRIFTING,
     words.DRIFTING_CAPTION,
     words.AXIS,
-    (*_VALUES, _COURSE, (words.DRIFT, Cells.drift), (words.REACHED, Cells.reached)),
+    (*_VALUES, _COURSE, (words.DRIFT, CellWriter.drift), (words.REACHED, CellWriter.reached)),
 )
 _OVERDUE = _Table("overdue", words.OVERDUE, words.OVERDUE_CAPTION, words.CERTIFICATE, _OF_TERMS)
 _DUE = _Table(
@@ -253,7 +253,7 @@ _SHARED: _Table[Shared] = _Table(
 )
 
 
-def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
+def needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableContext]:
     """Yield a table of each kind of thing that needs somebody; none where there is nothing of the kind."""
     noticed = [(OverviewCellContext(cells.say(words.ABOUTS[each.about])), [each]) for each in state.notices]
     failed = [
@@ -272,15 +272,17 @@ def needs(state: FleetState, cells: Cells) -> Iterator[OverviewTableContext]:
     return (each for each in tables if each.groups)
 
 
-def _axes(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
+def _axes(trends: Sequence[Trend], cells: CellWriter) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
     return ((cells.axis(each[0]), each) for each in by_axis(trends).values())
 
 
-def _terms(terms: Sequence[DueDate], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[DueDate]]]:
+def _terms(
+    terms: Sequence[DueDate], cells: CellWriter
+) -> Iterator[tuple[OverviewCellContext, list[DueDate]]]:
     return ((cells.issued(each.entry), [each]) for each in terms)
 
 
-def _drifts(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
+def _drifts(trends: Sequence[Trend], cells: CellWriter) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
     for head, of_axis in _axes(trends, cells):
         # An axis of which nothing is limited still shows its first parameter.
         shown = [each for each in of_axis if each.series.latest.limit is not None] or of_axis[:1]
@@ -289,7 +291,7 @@ def _drifts(trends: Sequence[Trend], cells: Cells) -> Iterator[tuple[OverviewCel
         yield replace(head, note=note), shown
 
 
-def machines(state: FleetState, cells: Cells) -> OverviewMachinesContext:
+def machines(state: FleetState, cells: CellWriter) -> OverviewMachinesContext:
     """Return all axes, machine by machine: of each its parameters, a row each."""
     marks, due = _marks(state), {term.entry.axis_key: term.due for term in state.terms}
     axes = by_axis(state.trends)
@@ -304,13 +306,13 @@ def machines(state: FleetState, cells: Cells) -> OverviewMachinesContext:
     )
 
 
-_OF_AXES: tuple[tuple[Words, Callable[[Cells, Trend], OverviewCellContext]], ...] = (
-    (words.PARAMETER, Cells.brief),
-    (words.VALUE, Cells.value),
-    (words.LIMIT, Cells.limit),
-    (words.STATE, Cells.state),
+_OF_AXES: tuple[tuple[Words, Callable[[CellWriter, Trend], OverviewCellContext]], ...] = (
+    (words.PARAMETER, CellWriter.brief),
+    (words.VALUE, CellWriter.value),
+    (words.LIMIT, CellWriter.limit),
+    (words.STATE, CellWriter.state),
     _COURSE,
-    (words.CHANGE_OR_DRIFT, Cells.change_in_brief),
+    (words.CHANGE_OR_DRIFT, CellWriter.change_in_brief),
 )
 
 
@@ -318,7 +320,7 @@ def _machine(
     axes: Mapping[tuple[str, str], Sequence[Trend]],
     marks: Sequence[tuple[str, Words, frozenset[tuple[str, str]]]],
     due: Mapping[tuple[str, str], date],
-    cells: Cells,
+    cells: CellWriter,
 ) -> OverviewMachineContext:
     rows = []
     for key, trends in axes.items():
@@ -344,7 +346,7 @@ def _shown_in_full(state: FleetState) -> tuple[Trend, ...]:
     return tuple(each for each in state.trends if key_of(each.series) in keys)
 
 
-def tools(state: FleetState, cells: Cells) -> OverviewToolsContext:
+def tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
     """Return what a reader searches, chooses and orders the axes by: only what there is can be chosen."""
     choices = [(key, f"{cells.say(label)} ({len(axes)})") for key, label, axes in _marks(state) if axes]
     orders = (
@@ -412,7 +414,7 @@ _SAMPLE = (8.4, 9.9, 11.2, 13.5, 14.6, 17.0, 18.4, 20.6)
 _UNCERTAINTY, _LIMIT = 1.5, 20.0
 
 
-def legend(cells: Cells) -> OverviewLegendContext:
+def legend(cells: CellWriter) -> OverviewLegendContext:
     """Return the legend."""
     terms = (
         (words.TERM_VALUE, words.MEANING_VALUE),

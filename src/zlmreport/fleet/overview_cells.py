@@ -68,7 +68,7 @@ _LEAST_P = 1e-4
 
 
 @dataclass(frozen=True, slots=True)
-class Cells:
+class CellWriter:
     """Writes cells in one language."""
 
     language: Language  #: Of the page.

@@ -15,12 +15,12 @@ from zlmreport.document.typesetting.overview import (
 from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.drifts import Trend
-from zlmreport.fleet.overview_cells import Cells, key_of
+from zlmreport.fleet.overview_cells import CellWriter, key_of
 from zlmreport.fleet.trend import Series
 from zlmreport.fleet.trend_graph import LARGE, trend_graph
 
 
-def trend_in_full(trend: Trend, cells: Cells) -> OverviewTrendContext:
+def trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
     """Return what is shown of a trend when its small graph is chosen."""
     series = trend.series
     key = cells.anchors[key_of(series)]
@@ -38,7 +38,7 @@ def trend_in_full(trend: Trend, cells: Cells) -> OverviewTrendContext:
     )
 
 
-def _facts(trend: Trend, cells: Cells) -> Iterator[tuple[str, str]]:
+def _facts(trend: Trend, cells: CellWriter) -> Iterator[tuple[str, str]]:
     """Yield what the tests say of a change and of a drift, and when the limit is reached."""
     if trend.step or trend.is_wilder:
         changed, came_with = cells.change(trend), cells.came_with(trend)
@@ -53,7 +53,7 @@ def _in_a_line(cell: OverviewCellContext) -> str:
     return "; ".join(filter(None, (cell.content, cell.note)))
 
 
-def _tests(key: str, series: Series, cells: Cells) -> OverviewTableContext:
+def _tests(key: str, series: Series, cells: CellWriter) -> OverviewTableContext:
     """Return every test, the latest first."""
     rows = []
     for each in reversed(series.calibrations):
@@ -75,7 +75,7 @@ def _tests(key: str, series: Series, cells: Cells) -> OverviewTableContext:
     )
 
 
-def _effects(key: str, effects: Sequence[Series], cells: Cells) -> OverviewTableContext | None:
+def _effects(key: str, effects: Sequence[Series], cells: CellWriter) -> OverviewTableContext | None:
     """Return the parameters of the error model of an axis; None where it has none."""
     if not effects:
         return None

@@ -14,7 +14,7 @@ from typing import Any, Self
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Machine
+from zlmreport.job.measurement_keys import MachineUnderTest
 from zlmreport.language import Language, Words
 from zlmreport.measurement.units import Unit
 
@@ -171,7 +171,7 @@ _NOT_IN_NAMES = re.compile(r"[^\w.-]+")
 _LONGEST_NAME = 100
 
 
-def designation(machine: Machine) -> str:
+def designation(machine: MachineUnderTest) -> str:
     """Return a machine's manufacturer, model and serial number: what it is called in a fleet."""
     return " ".join(filter(None, (machine.type, machine.serial)))
 

@@ -9,7 +9,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date
 
-from zlmreport.document.figures.canvas import Face, Fill, Run, Segment, Stroke, SvgCanvas
+from zlmreport.document.figures.canvas import Fill, Run, Segment, Stroke, SvgCanvas, TypeFace
 from zlmreport.document.figures.metrics import advance
 from zlmreport.document.figures.scale import round_ticks
 from zlmreport.fleet.drifts import Trend
@@ -180,8 +180,8 @@ def _dates(frame: _Frame) -> Iterator[tuple[date, str]]:
 def _write(canvas: SvgCanvas, place: tuple[float, float], text: str, size: float, *, share: float) -> None:
     """Write a text, the share of its width before a place: 0 begins there, 1 ends there."""
     x, y = place
-    start = x - share * advance(text, Face.REGULAR) * size
-    canvas.text("scale", [Run(text, Face.REGULAR, size, start, y)], _GREY, 0.0)
+    start = x - share * advance(text, TypeFace.REGULAR) * size
+    canvas.text("scale", [Run(text, TypeFace.REGULAR, size, start, y)], _GREY, 0.0)
 
 
 def _draw_limit(canvas: SvgCanvas, frame: _Frame, limit: float) -> None:

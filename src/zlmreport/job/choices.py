@@ -16,7 +16,7 @@ from zlmreport.job.formula_keys import FormulaKeys, ParameterName
 from zlmreport.job.formula_parts import refuse_unsound
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram, WithKeys
 from zlmreport.job.sentences import shown
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, found_at, keys_of
 from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, keys_in, model_in
 
 
@@ -59,7 +59,7 @@ def choice_in(
 
 def group_naming(key: str, item: Node) -> Keys:
     """Return the group of keys that an item of a list is; a bare identifier stands for a key alone."""
-    return item if isinstance(item, Keys) else keys_of(item.place, (Entry(key, item.place, item),))
+    return item if isinstance(item, Keys) else keys_of(item.place, (KeyEntry(key, item.place, item),))
 
 
 def instrument_choice(

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, quoted
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, found_at, keys_of, merged
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, found_at, keys_of, merged
 from zlmreport.job.types import path_named
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import symbol_of_positioning
@@ -125,7 +125,7 @@ def part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
         of_all = certificate.value.entries
         kept = tuple(of_all[key] for key in _OF_CERTIFICATE if key in of_all)
         group = keys_of(certificate.value.place, kept)
-        shared.append(Entry("certificate", certificate.place, group))
+        shared.append(KeyEntry("certificate", certificate.place, group))
     return merged(own.without("certificate"), keys_of(own.place, tuple(shared)))
 
 

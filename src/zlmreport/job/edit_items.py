@@ -14,14 +14,14 @@ import yaml
 
 from zlmreport.errors import InputError, Place
 from zlmreport.job.edit import EFFECTS, Edit, ListChange, content_of, edit_list, listed_items, meaning
-from zlmreport.job.extents import Form, Written
+from zlmreport.job.extents import ValueForm, Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.list_edits import ListKey, UneditableError, as_text, inserted, members, with_member
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.job.parse import decoded
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar, keys_of
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, keys_of
 
 #: What means the same with and without quotes, and is written without.
 _DATE = re.compile(r"\d{4}-\d\d-\d\d", re.ASCII)
@@ -75,18 +75,18 @@ def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterC
 def _effect_node(item: Node, effect: str, parameter: str, value: float | None) -> Node:
     """Return an effect as it is written, with another value of a parameter, or without one."""
     place = item.place
-    entries: dict[str, Entry] = {}
+    entries: dict[str, KeyEntry] = {}
     if isinstance(item, Keys) and effect in item.entries and isinstance(item.entries[effect].value, Keys):
         entries = dict(_keys(item.entries[effect].value))
     entries.pop(parameter, None)
     if value is not None:
-        entries[parameter] = Entry(parameter, place, Scalar(place, _number(value)))
+        entries[parameter] = KeyEntry(parameter, place, Scalar(place, _number(value)))
     if not entries:
         return Scalar(place, effect)
-    return keys_of(place, (Entry(effect, place, keys_of(place, tuple(entries.values()))),))
+    return keys_of(place, (KeyEntry(effect, place, keys_of(place, tuple(entries.values()))),))
 
 
-def _keys(node: Node) -> Mapping[str, Entry]:
+def _keys(node: Node) -> Mapping[str, KeyEntry]:
     return MappingProxyType({}) if isinstance(node, Scalar | Items) else node.entries
 
 
@@ -128,7 +128,7 @@ def _exclusion_node(exclusion: ExclusionKeys) -> Node:
         "run": Scalar(place, str(exclusion.run)),
         "reason": Scalar(place, exclusion.reason, plain=False),
     }
-    return keys_of(place, tuple(Entry(key, place, value) for key, value in values.items()))
+    return keys_of(place, tuple(KeyEntry(key, place, value) for key, value in values.items()))
 
 
 def edit_keys(
@@ -202,9 +202,9 @@ def _with_key(text: str, names: Sequence[str], spelt: str, unit: str) -> str:
     if group.entry(rest[0]) is not None:
         raise UneditableError
     pair = _in_braces(rest, spelt)
-    if group.form is Form.BRACES:
+    if group.form is ValueForm.BRACES:
         return with_member(written, group, members(group.parts, 2), pair)
-    if group.form is not Form.INDENTED or group.parts[-1].form is Form.ALIAS:
+    if group.form is not ValueForm.INDENTED or group.parts[-1].form is ValueForm.ALIAS:
         raise UneditableError
     end = written.line_end(group.parts[-1].end)
     indent = " " * written.column(group.parts[0].start)

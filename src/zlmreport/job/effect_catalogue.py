@@ -17,7 +17,7 @@ from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter, Phrase
 from zlmreport.job.formula_parts import Formula, kinds_of
 from zlmreport.job.parse import parse
 from zlmreport.job.sentences import shown
-from zlmreport.job.tree import Entry, Items, Keys, Scalar, keys_of, place_of
+from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, keys_of, place_of
 from zlmreport.job.types import JobPart, Text
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
@@ -112,7 +112,7 @@ def _items(tree: Keys, problems: list[Problem]) -> Iterator[Keys]:
             problems.append(Problem(item.place, sentence))
 
 
-def _entry(item: Keys, measurements: Mapping[str, Entry], problems: list[Problem]) -> FormulaKeys | None:
+def _entry(item: Keys, measurements: Mapping[str, KeyEntry], problems: list[Problem]) -> FormulaKeys | None:
     """Return an entry, the measurements that it names written out."""
     name = item.entries.get("name")
     within = f"effects.{name.value.text}" if name and isinstance(name.value, Scalar) else "effects"
@@ -140,8 +140,8 @@ def _entry(item: Keys, measurements: Mapping[str, Entry], problems: list[Problem
 
 
 def _told(
-    told: Keys, measurements: Mapping[str, Entry], problems: list[Problem]
-) -> Iterator[tuple[str, Entry]]:
+    told: Keys, measurements: Mapping[str, KeyEntry], problems: list[Problem]
+) -> Iterator[tuple[str, KeyEntry]]:
     """Yield what tells an effect from others, each in words."""
     for effect, entry in told.entries.items():
         value = entry.value

@@ -256,7 +256,7 @@ class DecisionRuleKeys(JobPart):
         return {"rule": value} if isinstance(value, str | int | float) else value
 
 
-class Model(JobPart):
+class AxisModelKeys(JobPart):
     """The error model of the axis."""
 
     effects: list[str | dict[str, Any]] = Field(

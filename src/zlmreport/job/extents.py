@@ -15,7 +15,7 @@ from typing import Any
 import yaml
 
 
-class Form(Enum):
+class ValueForm(Enum):
     """How a value is written."""
 
     SCALAR = "scalar"
@@ -27,20 +27,20 @@ class Form(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Extent:
+class WrittenValue:
     """A value as it is written."""
 
-    form: Form  #: How.
+    form: ValueForm  #: How.
     #: start and end: Its first character, and the one after its last; comments and blanks behind it do not
     #: belong to it.
     start: int
     end: int
-    parts: tuple[Extent, ...] = ()  #: Of a list its items, of keys each key and its value in turn.
+    parts: tuple[WrittenValue, ...] = ()  #: Of a list its items, of keys each key and its value in turn.
     text: str = ""  #: Of a single value, quotes resolved.
 
-    def entry(self, name: str) -> tuple[Extent, Extent] | None:
+    def entry(self, name: str) -> tuple[WrittenValue, WrittenValue] | None:
         """Return a key and its value, if these are keys and it is among them."""
-        if self.form not in {Form.INDENTED, Form.BRACES}:
+        if self.form not in {ValueForm.INDENTED, ValueForm.BRACES}:
             return None
         for key, value in zip(self.parts[::2], self.parts[1::2], strict=True):
             if key.text == name:
@@ -53,7 +53,7 @@ class Written:
     """A file's text, and where in it everything stands."""
 
     text: str  #: Of the file, without a byte order mark.
-    root: Extent  #: Its value.
+    root: WrittenValue  #: Its value.
     _dashes: tuple[int, ...]
     _colons: tuple[int, ...]
 
@@ -71,11 +71,11 @@ class Written:
         first = next(event for event in events if not isinstance(event, starts))
         return cls(text, _extent(first, events, text), tuple(dashes), tuple(colons))
 
-    def dash_of(self, item: Extent) -> int:
+    def dash_of(self, item: WrittenValue) -> int:
         """Return where the dash of an item stands."""
         return self._dashes[bisect_right(self._dashes, item.start) - 1]
 
-    def after_colon_of(self, key: Extent) -> int:
+    def after_colon_of(self, key: WrittenValue) -> int:
         """Return the character after the colon of a key."""
         return self._colons[bisect_left(self._colons, key.end)] + 1
 
@@ -114,15 +114,15 @@ def _index(mark: Any) -> int:
     return int(mark.index)
 
 
-def _extent(event: Any, events: Iterator[Any], text: str) -> Extent:
+def _extent(event: Any, events: Iterator[Any], text: str) -> WrittenValue:
     start = _index(event.start_mark)
     if isinstance(event, yaml.AliasEvent):
-        return Extent(Form.ALIAS, start, _index(event.end_mark))
+        return WrittenValue(ValueForm.ALIAS, start, _index(event.end_mark))
     if isinstance(event, yaml.ScalarEvent):
         end = _index(event.end_mark)
         if event.style in {"|", ">"}:  # the mark stands where the next value begins
             end = start + len(text[start:end].rstrip())
-        return Extent(Form.SCALAR, start, end, text=event.value)
+        return WrittenValue(ValueForm.SCALAR, start, end, text=event.value)
     is_list = isinstance(event, yaml.SequenceStartEvent)
     parts = []
     while not isinstance(after := next(events), yaml.SequenceEndEvent | yaml.MappingEndEvent):
@@ -133,9 +133,11 @@ def _extent(event: Any, events: Iterator[Any], text: str) -> Extent:
             text.startswith(("[", "{"), _index(event.end_mark) - 1) and _index(event.end_mark) > start
         )
         end = _index(after.end_mark) if has_braces else _end(parts, start)
-        return Extent(Form.BRACKETS if is_list else Form.BRACES, start, end, tuple(parts))
-    return Extent(Form.LINES if is_list else Form.INDENTED, start, _end(parts, start), tuple(parts))
+        return WrittenValue(ValueForm.BRACKETS if is_list else ValueForm.BRACES, start, end, tuple(parts))
+    return WrittenValue(
+        ValueForm.LINES if is_list else ValueForm.INDENTED, start, _end(parts, start), tuple(parts)
+    )
 
 
-def _end(parts: Sequence[Extent], start: int) -> int:
+def _end(parts: Sequence[WrittenValue], start: int) -> int:
     return max((part.end for part in parts), default=start)

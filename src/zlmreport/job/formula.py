@@ -103,7 +103,7 @@ class Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class FormulaName:
     """A parameter, a variable of the readings, or a logged column."""
 
     text: str
@@ -117,7 +117,7 @@ class Call:
     arguments: tuple[Tree, ...]
 
 
-Tree: TypeAlias = Number | Name | Call
+Tree: TypeAlias = Number | FormulaName | Call
 
 
 class UnitOf(NamedTuple):
@@ -193,7 +193,7 @@ def _atom(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
         raise FormulaError(f"{found!r} cannot stand there; a number, a name or a bracket is expected")
     if place + 1 < len(tokens) and tokens[place + 1] == "(":
         return _function(tokens, place, depth)
-    return (Number(CONSTANTS[found]) if found in CONSTANTS else Name(found)), place + 1
+    return (Number(CONSTANTS[found]) if found in CONSTANTS else FormulaName(found)), place + 1
 
 
 def _function(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
@@ -218,7 +218,7 @@ def _closed(tokens: list[str], place: int) -> int:
 
 def names_in(tree: Tree) -> tuple[str, ...]:
     """Return the names in a formula, each once, in their order."""
-    if isinstance(tree, Name):
+    if isinstance(tree, FormulaName):
         return (tree.text,)
     if isinstance(tree, Number):
         return ()
@@ -243,7 +243,7 @@ def in_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
     """
     if isinstance(tree, Number):
         return tree, NUMBER
-    if isinstance(tree, Name):
+    if isinstance(tree, FormulaName):
         return tree, units[tree.text].extent
     inner = [in_si(each, units) for each in tree.arguments]
     trees, extents = tuple(each for each, _ in inner), [each for _, each in inner]
@@ -287,8 +287,8 @@ def _alike(
         if value is None:
             continue
         named = trees[other]
-        scale = units[named.text].per_si if isinstance(named, Name) else 1.0
-        if value == 0 or isinstance(named, Name) or extents[other] in {TIME, TEMPERATURE}:
+        scale = units[named.text].per_si if isinstance(named, FormulaName) else 1.0
+        if value == 0 or isinstance(named, FormulaName) or extents[other] in {TIME, TEMPERATURE}:
             pair = [trees[0], trees[1]]
             pair[bare] = Number(value / scale)
             return Call(operation, tuple(pair)), extents[other]
@@ -305,7 +305,7 @@ def computed(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray
     """Return the value of a formula, an infinity or NaN where it has none."""
     if isinstance(tree, Number):
         return np.asarray(tree.value)
-    if isinstance(tree, Name):
+    if isinstance(tree, FormulaName):
         return np.asarray(values[tree.text], dtype=np.float64)
     with np.errstate(all="ignore"):
         return np.asarray(_value(tree, values), dtype=np.float64)
@@ -314,14 +314,14 @@ def computed(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray
 def _value(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray | float:
     if isinstance(tree, Number):
         return tree.value
-    if isinstance(tree, Name):
+    if isinstance(tree, FormulaName):
         return values[tree.text]
     return _OPERATIONS[tree.operation](*[_value(each, values) for each in tree.arguments])
 
 
 def substituted(tree: Tree, meanings: Mapping[str, Tree]) -> Tree:
     """Return a formula with what some of its names stand for in their places."""
-    if isinstance(tree, Name):
+    if isinstance(tree, FormulaName):
         return meanings.get(tree.text, tree)
     if isinstance(tree, Number):
         return tree
@@ -354,9 +354,9 @@ def with_rates(tree: Tree) -> Tree:
     if tree.operation != RATE:
         return Call(tree.operation, tuple(map(with_rates, tree.arguments)))
     (column,) = tree.arguments
-    if not isinstance(column, Name):
+    if not isinstance(column, FormulaName):
         raise FormulaError("a rate is that of a logged column, as in rate(axis_temperature)")
-    return Name(f"{RATE}({column.text})")
+    return FormulaName(f"{RATE}({column.text})")
 
 
 def column_of(name: str) -> str | None:
@@ -388,7 +388,7 @@ def with_waves(
         if not waves and not any(call for each in others for call in calls_in(each, {WAVE})):
             terms.append(term)
             continue
-        sizes = [each for each in others if isinstance(each, Name) and each.text in parameters]
+        sizes = [each for each in others if isinstance(each, FormulaName) and each.text in parameters]
         if len(waves) != 1 or len(sizes) != 1 or parts:
             raise FormulaError("one wave may stand in it, beside one parameter as its size: a*wave(P/L)")
         others.remove(sizes[0])
@@ -399,7 +399,7 @@ def with_waves(
         for name in parts[sizes[0].text]:
             kind, _, order = name.partition("_")
             angle = Call("*", (Number(2 * np.pi * int(order or 1)), turns))
-            terms.append((Name(name), Call("sin" if kind == "sine" else "cos", (angle,)), *others))
+            terms.append((FormulaName(name), Call("sin" if kind == "sine" else "cos", (angle,)), *others))
     return _joined("+", [_joined("*", term) for term in terms]), parts
 
 

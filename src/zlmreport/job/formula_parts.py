@@ -18,7 +18,7 @@ from zlmreport.job.formula import (
     TRAVEL,
     Extent,
     FormulaError,
-    Name,
+    FormulaName,
     Number,
     Tree,
     UnitOf,
@@ -409,7 +409,8 @@ def _linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple
     for name in parameters:
         holding = [term for term in terms if any(name in names_in(factor) for factor in term)]
         alone = all(
-            sum(name in names_in(factor) for factor in term) == 1 and Name(name) in term for term in holding
+            sum(name in names_in(factor) for factor in term) == 1 and FormulaName(name) in term
+            for term in holding
         )
         if alone and not any(_is_one_of(factor, found) for term in holding for factor in term):
             found.append(name)
@@ -424,5 +425,5 @@ def _multiplied_with(name: str, tree: Tree, linear: Sequence[str]) -> Tree:
     return simplified(substituted(tree, {each: Number(float(each == name)) for each in linear}))
 
 
-def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> TypeGuard[Name]:
-    return isinstance(factor, Name) and factor.text in names
+def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> TypeGuard[FormulaName]:
+    return isinstance(factor, FormulaName) and factor.text in names

@@ -22,10 +22,10 @@ from zlmreport.job.document_keys import (
     Output,
 )
 from zlmreport.job.evaluation_keys import (
+    AxisModelKeys,
     CaptureKeys,
     ControllerKeys,
     DecisionRuleKeys,
-    Model,
     PlanKeys,
     StandardKeys,
     UncertaintyKeys,
@@ -36,7 +36,7 @@ from zlmreport.job.measurement_keys import (
     CorrectionKeys,
     Environment,
     Instrument,
-    Machine,
+    MachineUnderTest,
     Measurement,
 )
 from zlmreport.job.types import JobPart, JobPath, Lines, Text
@@ -66,7 +66,7 @@ class JobKeys(JobPart):
     )
     laboratory: Laboratory | None = Field(None, description="Who issues the document.")
     customer: Customer | None = Field(None, description="For whom the work was done.")
-    machine: Machine = Field(default_factory=Machine, description="The machine under test.")
+    machine: MachineUnderTest = Field(default_factory=MachineUnderTest, description="The machine under test.")
     axis: AxisKeys = Field(description="The axis under test.", examples=[{"name": "X", "kind": "linear"}])
     circle: CircleKeys | None = Field(
         None,
@@ -157,7 +157,7 @@ class JobKeys(JobPart):
         description="The uncertainty of the measuring set-up, beside that of the instrument.",
         examples=[{"misalignment": 0.5, "environmental_variation": 0.6}],
     )
-    model: Model | None = Field(None, description="The error model of the axis.")
+    model: AxisModelKeys | None = Field(None, description="The error model of the axis.")
     plan: PlanKeys = Field(
         default_factory=PlanKeys,
         description="The test before it is done, for `zlmreport plan`.",

@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from zlmreport.job.extents import Extent, Form, Written
+from zlmreport.job.extents import ValueForm, Written, WrittenValue
 from zlmreport.job.tree import Items, Node, Scalar
 
 _SPACES = re.compile(r" +")
@@ -28,26 +28,26 @@ _COMMENT = re.compile(r"\A[ \t]*+(#[^\r\n]*+)?")
 _COMMA = re.compile(r"(?:\s|#[^\r\n]*+)*+(,)")
 
 
-class Member(NamedTuple):
+class ListMember(NamedTuple):
     """Where a member begins and ends: an item, or a key with its value."""
 
     start: int
     end: int
 
 
-def members(parts: Sequence[Extent], step: int = 1) -> tuple[Member, ...]:
+def members(parts: Sequence[WrittenValue], step: int = 1) -> tuple[ListMember, ...]:
     """Return where members begin and end: items, or (in steps of 2) pairs of key and value."""
     return tuple(
-        Member(first.start, last.end)
+        ListMember(first.start, last.end)
         for first, last in zip(parts[::step], parts[step - 1 :: step], strict=True)
     )
 
 
-def with_member(written: Written, outer: Extent, listed: Sequence[Member], piece: str) -> str:
+def with_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], piece: str) -> str:
     """Return the text with a member more in the brackets or braces of `outer`."""
     text, closing = written.text, outer.end - 1
     if not listed:
-        opening = text.index("[" if outer.form is Form.BRACKETS else "{", outer.start)
+        opening = text.index("[" if outer.form is ValueForm.BRACKETS else "{", outer.start)
         inner = text[opening + 1 : closing]
         return inserted(text, closing, piece + (inner if _SPACES.fullmatch(inner) else ""))
     start, end = listed[-1]
@@ -64,7 +64,7 @@ def with_member(written: Written, outer: Extent, listed: Sequence[Member], piece
     return inserted(text, line_end, f"{own_line},")
 
 
-def without_member(written: Written, outer: Extent, listed: Sequence[Member], index: int) -> str:
+def without_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
     """Return the text without one of the members in the brackets or braces of `outer`.
 
     A comment in the line of a member goes with it, if that line holds nothing else.
@@ -137,11 +137,11 @@ class ListKey:
         return f"{self.group}.{self.key}"
 
 
-def own_list(written: Written, where: ListKey) -> Extent | None:
+def own_list(written: Written, where: ListKey) -> WrittenValue | None:
     """Return the list that a file holds itself; None if it holds none."""
     group = written.root.entry(where.group)
     listed = group[1].entry(where.key) if group else None
-    is_list = listed is not None and listed[1].form in {Form.LINES, Form.BRACKETS}
+    is_list = listed is not None and listed[1].form in {ValueForm.LINES, ValueForm.BRACKETS}
     return listed[1] if listed and is_list else None
 
 
@@ -150,7 +150,7 @@ def with_item(text: str, where: ListKey, item: Node) -> str:
     written = Written.of(text)
     listed = _listed(written, where)
     quote = _quote_of(text, listed.parts[-1]) if listed.parts else _quote_of(text, written.root.parts[0])
-    if listed.form is Form.BRACKETS:
+    if listed.form is ValueForm.BRACKETS:
         return with_member(written, listed, members(listed.parts), as_text(item, quote))
     last = listed.parts[-1]
     end = written.line_end(last.end)
@@ -165,7 +165,7 @@ def with_changed_item(text: str, where: ListKey, index: int, item: Node) -> str:
     old = listed.parts[index]
     if "#" in text[old.start : old.end] or text.startswith(("&", "*"), old.start):
         raise UneditableError
-    in_lines = listed.form is Form.LINES
+    in_lines = listed.form is ValueForm.LINES
     return text[: old.start] + as_text(item, _quote_of(text, old), in_lines=in_lines) + text[old.end :]
 
 
@@ -173,7 +173,7 @@ def without_item(text: str, where: ListKey, index: int) -> str:
     """Return a text that has a list, without one of its items."""
     written = Written.of(text)
     listed = _listed(written, where)
-    if listed.form is Form.BRACKETS:
+    if listed.form is ValueForm.BRACKETS:
         return without_member(written, listed, members(listed.parts), index)
     item = listed.parts[index]
     dash = written.dash_of(item)
@@ -204,26 +204,28 @@ def with_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
     pair = f"{_quoted(where.key, quote)}: {bracketed}"
     group = root.entry(where.group)
     if group is None:
-        if root.form is Form.BRACES:
+        if root.form is ValueForm.BRACES:
             pair = f"{_quoted(where.group, quote)}: {{{pair}}}"
             return with_member(written, root, members(root.parts, 2), pair)
         return _with_last_key(written, where, items, quote)
     listed = group[1].entry(where.key)
-    if listed is None and group[1].form is Form.BRACES:
+    if listed is None and group[1].form is ValueForm.BRACES:
         return with_member(written, group[1], members(group[1].parts, 2), pair)
-    if listed is None and group[1].form is Form.INDENTED:
+    if listed is None and group[1].form is ValueForm.INDENTED:
         return _with_last_key_of(written, group[1], where, items)
-    in_braces = Form.BRACES in {root.form, group[1].form}
+    in_braces = ValueForm.BRACES in {root.form, group[1].form}
     key, value = listed or group
     indent = written.column(key.start) + _INDENT
     lines = [] if in_braces else _lines(items, indent, quote, key="" if listed else where.key)
     return _with_value(written, key, value, bracketed if listed else f"{{{pair}}}", lines)
 
 
-def _with_value(written: Written, key: Extent, value: Extent, in_line: str, lines: Sequence[str]) -> str:
+def _with_value(
+    written: Written, key: WrittenValue, value: WrittenValue, in_line: str, lines: Sequence[str]
+) -> str:
     """Return the text with a value for a key that has none: in lines of its own, if there are any."""
     text = written.text
-    if value.form is not Form.SCALAR:
+    if value.form is not ValueForm.SCALAR:
         raise UneditableError
     spelt = text[value.start : value.end]
     if spelt in {"~", "null"}:
@@ -264,25 +266,25 @@ def _quoted(text: str, quote: str) -> str:
     return json.dumps(text, ensure_ascii=False)
 
 
-def _quote_of(text: str, neighbour: Extent) -> str:
+def _quote_of(text: str, neighbour: WrittenValue) -> str:
     """Return the quotation mark that a value, or its first key, begins with; empty for none."""
     while neighbour.parts:
         neighbour = neighbour.parts[0]
     mark = text[neighbour.start : neighbour.start + 1]
-    return mark if neighbour.form is Form.SCALAR and mark in {"'", '"'} else ""
+    return mark if neighbour.form is ValueForm.SCALAR and mark in {"'", '"'} else ""
 
 
-def _listed(written: Written, where: ListKey) -> Extent:
+def _listed(written: Written, where: ListKey) -> WrittenValue:
     listed = own_list(written, where)
     if listed is None:
         raise UneditableError
     return listed
 
 
-def _with_last_key_of(written: Written, group: Extent, where: ListKey, items: Sequence[Node]) -> str:
+def _with_last_key_of(written: Written, group: WrittenValue, where: ListKey, items: Sequence[Node]) -> str:
     """Return the text with the list after all other keys of its group, which stand one a line."""
     text, last = written.text, group.parts[-1]
-    if last.form is Form.ALIAS:
+    if last.form is ValueForm.ALIAS:
         raise UneditableError
     end = written.line_end(last.end)
     lines = _lines(

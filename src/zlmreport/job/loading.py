@@ -41,7 +41,7 @@ from zlmreport.job.quantity import (
     stated_error,
     tests_contradictions,
 )
-from zlmreport.job.tree import Entry, Items, Keys, Scalar, found_at, keys_of, merged, place_of
+from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, found_at, keys_of, merged, place_of
 from zlmreport.language.formatting import plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import ErrorSymbol, error_named, for_error, letter_of
@@ -250,8 +250,8 @@ def _with_axis(tree: Keys, registry: Installed) -> Keys:
         name = _together(listed.entries)
     if not name:
         return tree
-    axis = keys_of(place, (Entry("name", place, Scalar(place, name, plain=False)),))
-    return merged(tree, keys_of(tree.place, (Entry("axis", place, axis),)))
+    axis = keys_of(place, (KeyEntry("name", place, Scalar(place, name, plain=False)),))
+    return merged(tree, keys_of(tree.place, (KeyEntry("axis", place, axis),)))
 
 
 def _with_shared_keys(tree: Keys, registry: Installed) -> Keys:

@@ -98,7 +98,7 @@ class ExclusionKeys(JobPart):
     )
 
 
-class Machine(JobPart):
+class MachineUnderTest(JobPart):
     """The machine under test."""
 
     manufacturer: Text | None = Field(None, description="Who built it.")

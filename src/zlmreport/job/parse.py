@@ -19,7 +19,7 @@ import yaml
 from yaml import MarkedYAMLError
 
 from zlmreport.errors import InputError, Place, Problem, quoted
-from zlmreport.job.tree import Entry, Items, Keys, Node, Scalar
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar
 
 #: Of a job file, in bytes.
 LARGEST = 1024 * 1024
@@ -240,7 +240,7 @@ class _Reader:
         return Items(self._place(start), tuple(items))
 
     def _keys(self, start: yaml.Event, depth: int) -> Keys:
-        entries: dict[str, Entry] = {}
+        entries: dict[str, KeyEntry] = {}
         while not isinstance(event := self._next(), yaml.MappingEndEvent):
             key = self._node(event, depth + 1)
             value = self._node(self._next(), depth + 1)
@@ -254,7 +254,7 @@ class _Reader:
             else:
                 if isinstance(value, Scalar) and value.plain and not value.text:
                     value = Scalar(key.place, "")
-                entries[key.text] = Entry(key.text, key.place, value)
+                entries[key.text] = KeyEntry(key.text, key.place, value)
         return Keys(self._place(start), MappingProxyType(entries))
 
     def _aliased(self, event: yaml.AliasEvent) -> Node:

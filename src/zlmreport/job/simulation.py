@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Place, Problem, quoted
 from zlmreport.job.choices import EffectChoice, effect_choices
 from zlmreport.job.contradictions import validate
 from zlmreport.job.document_keys import Number
-from zlmreport.job.evaluation_keys import Model
+from zlmreport.job.evaluation_keys import AxisModelKeys
 from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
 from zlmreport.job.loading import axis_in_si
@@ -131,7 +131,7 @@ class SimulationKeys(JobPart):
         examples=[{"axis_temperature": {"start": 20.4}}],
     )
     time_logged: bool = Field(default=True, description="Whether the readings carry times.")
-    model: Model | None = Field(None, description="The error model that the written job begins with.")
+    model: AxisModelKeys | None = Field(None, description="The error model that the written job begins with.")
     output: SimulationOutput = Field(default_factory=SimulationOutput, description="The files.")
 
 

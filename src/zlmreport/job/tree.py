@@ -36,7 +36,7 @@ class Items:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class KeyEntry:
     """A key with its place, and its value."""
 
     key: str
@@ -49,7 +49,7 @@ class Keys:
     """A group of keys, in the order in which they stand."""
 
     place: Place
-    entries: Mapping[str, Entry]
+    entries: Mapping[str, KeyEntry]
 
     def without(self, *keys: str) -> Keys:
         """Return the group without some of its keys."""
@@ -60,7 +60,7 @@ class Keys:
 Node: TypeAlias = Scalar | Items | Keys
 
 
-def keys_of(place: Place, entries: Iterator[Entry] | tuple[Entry, ...] = ()) -> Keys:
+def keys_of(place: Place, entries: Iterator[KeyEntry] | tuple[KeyEntry, ...] = ()) -> Keys:
     """Return a group of entries."""
     return Keys(place, MappingProxyType({entry.key: entry for entry in entries}))
 
@@ -117,7 +117,7 @@ def merged(base: Keys, own: Keys) -> Keys:
         inherited = entries.get(key)
         if inherited and isinstance(inherited.value, Keys) and isinstance(value, Keys):
             value = merged(inherited.value, value)
-        entries[key] = Entry(key, entry.place, value)
+        entries[key] = KeyEntry(key, entry.place, value)
     return Keys(own.place, MappingProxyType(entries))
 
 

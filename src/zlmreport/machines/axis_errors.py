@@ -1,7 +1,7 @@
 """Where the errors of the axes come from: jobs that measured them, certificates of this program, statements.
 
-Each becomes a `Curve`: means with their covariance. What of the uncertainty budget the readings of a test
-share is carried on as shared: along the length, at each position, between the directions.
+Each becomes an `AxisErrorCurve`: means with their covariance. What of the uncertainty budget the readings of
+a test share is carried on as shared: along the length, at each position, between the directions.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.files import demanded
 from zlmreport.job.job import Job
 from zlmreport.job.tree import Keys, Scalar
-from zlmreport.machines.curve import Curve, Means, curve_of, measured_curve
+from zlmreport.machines.curve import AxisErrorCurve, Means, curve_of, measured_curve
 from zlmreport.machines.keys import LineKeys, StatedKeys
-from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Line
+from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
 from zlmreport.machines.machine import unit_of
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.error_symbol import symbol_of_positioning
@@ -43,14 +43,14 @@ _PLACES = frozenset({"X", "Y", "Z", "tool"})
 _AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
 
 
-def line_of(at: LineKeys | None) -> Line:
+def line_of(at: LineKeys | None) -> ErrorLine:
     """Return where an error was measured."""
     if at is None:
-        return Line({})
+        return ErrorLine({})
     places = {"X": at.X, "Y": at.Y, "Z": at.Z}
     others = {axis: MILLIMETRE.to_si(place) for axis, place in places.items() if place is not None}
     tool = at.tool or (0.0, 0.0, 0.0)
-    return Line(others, (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3))
+    return ErrorLine(others, (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3))
 
 
 def error_of(job: Job) -> str:
@@ -69,13 +69,13 @@ def error_of(job: Job) -> str:
     return name
 
 
-def line_of_job(job: Job) -> Line:
+def line_of_job(job: Job) -> ErrorLine:
     """Return where the others stood while a job measured."""
     at = job.keys.measurement.at
     return line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
 
 
-def curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Curve:
+def curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> AxisErrorCurve:
     """Return the error that a job measured, with what its budget says of it.
 
     Raises `InputError` if it measured none of the 21, or a squareness error without stating its uncertainty.
@@ -96,9 +96,9 @@ def curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> 
     return single_curve(name, found[0].value, u, line_of_job(job), source)
 
 
-def single_curve(name: str, value: float, u: float, line: Line, source: str) -> Curve:
+def single_curve(name: str, value: float, u: float, line: ErrorLine, source: str) -> AxisErrorCurve:
     """Return a squareness error: one value, rad, with its standard uncertainty."""
-    return Curve(name, np.zeros(1), np.array([value]), np.eye(1) * u, line, source)
+    return AxisErrorCurve(name, np.zeros(1), np.array([value]), np.eye(1) * u, line, source)
 
 
 def shared_error(job: Job, measurements: MeasurementSet, registry: Registry) -> InstrumentError:
@@ -182,7 +182,7 @@ class _Results(_Lenient):
     uncertainty: _Uncertainty = _Uncertainty()
 
 
-def curve_of_certificate(path: Path, place: Place, opened: Opened) -> Curve:
+def curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisErrorCurve:
     """Return the error that a certificate of this program states, with its uncertainty.
 
     Raises `InputError` if it is none that can be read.
@@ -220,7 +220,9 @@ def curve_of_certificate(path: Path, place: Place, opened: Opened) -> Curve:
     return _of_positions(name, positions, found, line)
 
 
-def _of_positions(name: str, positions: tuple[_Position, ...], found: _Results, line: Line) -> Curve:
+def _of_positions(
+    name: str, positions: tuple[_Position, ...], found: _Results, line: ErrorLine
+) -> AxisErrorCurve:
     """Return the means of a table by position as a curve."""
     unit = unit_of(name)
     nodes = np.array([each.target for each in positions]) / 1e3
@@ -248,7 +250,7 @@ def _of_positions(name: str, positions: tuple[_Position, ...], found: _Results, 
     return curve_of(means, name, shared, line, found.certificate.number)
 
 
-def curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem]) -> list[Curve]:
+def curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem]) -> list[AxisErrorCurve]:
     """Return the errors that an item of the machine file states, each a value or a curve of values."""
     found = []
     own = dict(stated.model_extra or {})
@@ -269,7 +271,9 @@ def curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem])
     return found
 
 
-def _stated(name: str, value: Any, stated: StatedKeys, problems: list[Problem], node: Any) -> Curve | None:
+def _stated(
+    name: str, value: Any, stated: StatedKeys, problems: list[Problem], node: Any
+) -> AxisErrorCurve | None:
     unit, line = unit_of(name), line_of(stated.at)
     u = float(unit.to_si(stated.expanded_uncertainty)) / 2.0
     source = stated.source or "stated"
@@ -278,7 +282,7 @@ def _stated(name: str, value: Any, stated: StatedKeys, problems: list[Problem], 
         if number is None:
             problems.append(Problem(node.place, f"{name}: a number is expected, arc seconds, such as 2.5"))
             return None
-        return Curve(name, np.zeros(1), np.array([unit.to_si(number)]), np.eye(1) * u, line, source)
+        return AxisErrorCurve(name, np.zeros(1), np.array([unit.to_si(number)]), np.eye(1) * u, line, source)
     pairs = [(_number(at), _number(each)) for at, each in value.items()] if isinstance(value, Mapping) else []
     places = [at for at, _ in pairs if at is not None]
     values = [each for _, each in pairs if each is not None]
@@ -298,7 +302,7 @@ def _stated(name: str, value: Any, stated: StatedKeys, problems: list[Problem], 
         )
         return None
     own = np.eye(len(values)) * u
-    return Curve(name, np.array(places) / 1e3, unit.to_si(np.array(values)), own, line, source)
+    return AxisErrorCurve(name, np.array(places) / 1e3, unit.to_si(np.array(values)), own, line, source)
 
 
 def _number(value: Any) -> float | None:

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from zlmreport.machines.course import Circle
-from zlmreport.machines.forms import Form, form_at, forms_of, whole_form
+from zlmreport.machines.course import CircularTest
+from zlmreport.machines.forms import CircleForm, form_at, forms_of, whole_form
 from zlmreport.machines.machine import Machine
 from zlmreport.machines.study import Chosen, CircleStudy, bare_study
 from zlmreport.measurement.arrays import FloatArray
@@ -22,7 +22,7 @@ _PRICE_OF_TERM = 2.0
 
 
 def study_of(
-    machine: Machine, circles: Sequence[Circle], effects: Iterable[CircleEffect] = ()
+    machine: Machine, circles: Sequence[CircularTest], effects: Iterable[CircleEffect] = ()
 ) -> CircleStudy:
     """Return the study of circles; effects that search for a value get the one that fits best."""
     study = bare_study(machine, circles)
@@ -37,7 +37,7 @@ def study_of(
     )  # fmt: skip
 
 
-def with_effect(study: CircleStudy, effect: CircleEffect, form: Form | None = None) -> CircleStudy:
+def with_effect(study: CircleStudy, effect: CircleEffect, form: CircleForm | None = None) -> CircleStudy:
     """Return a study with one effect more, in the form that fits best or in that which is given.
 
     It comes in with all groups of its terms, unless it is one that has one at a time.
@@ -48,7 +48,7 @@ def with_effect(study: CircleStudy, effect: CircleEffect, form: Form | None = No
     return study.having(Chosen(effect, chosen, _tangents(study, effect, chosen)))
 
 
-def with_form(study: CircleStudy, effect: CircleEffect, form: Form) -> CircleStudy:
+def with_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleStudy:
     """Return a study with one effect more, in just this form."""
     return study.having(Chosen(effect, form, _tangents(study, effect, form)))
 
@@ -62,7 +62,7 @@ class _Fit:
         self._left = read - self._whitened.taken @ (self._whitened.taken.T @ read)
         self._variance = study.noise.sigma**2
 
-    def gained(self, form: Form) -> float:
+    def gained(self, form: CircleForm) -> float:
         """Return 2·ln of the likelihood ratio of a form, less the price of its terms."""
         columns = self._whitened.of(form.columns)
         matrix = self._whitened.product(columns, columns)
@@ -71,20 +71,20 @@ class _Fit:
         return ratio - _PRICE_OF_TERM * len(form.terms)
 
 
-def best_form(study: CircleStudy, effect: CircleEffect) -> Form:
+def best_form(study: CircleStudy, effect: CircleEffect) -> CircleForm:
     """Return the form of an effect that fits best, its searched values refined."""
     fit = _Fit(study)
     forms = [form for form in forms_of(effect, study.design) if form.terms]
     return refined_form(study, effect, max(forms, key=fit.gained))
 
 
-def refined_form(study: CircleStudy, effect: CircleEffect, form: Form) -> Form:
+def refined_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleForm:
     """Return a form with those searched values refined between two of the grid that may be."""
     fit = _Fit(study)
     grid = list(effect.grid(study.design.fine))
     best = form.searched
 
-    def of(searched: Searched) -> Form:
+    def of(searched: Searched) -> CircleForm:
         return form_at(effect, study.design, searched, form)
 
     for place in _refined_places(effect):
@@ -108,7 +108,7 @@ def _moved(searched: Searched, place: int, value: float) -> Searched:
 
 
 def _tangents(
-    study: CircleStudy, effect: CircleEffect, form: Form
+    study: CircleStudy, effect: CircleEffect, form: CircleForm
 ) -> tuple[tuple[SearchedParameter, FloatArray], ...]:
     """Return by how much Δr changes with each refined parameter, at the coefficients that fit."""
     places = _refined_places(effect)

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.evaluation.evaluation import Parameter
-from zlmreport.machines.course import Circle, StraightTest
+from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.design import side_by_side
-from zlmreport.machines.machine import Machine, Prediction, predict
+from zlmreport.machines.machine import Machine, TestPrediction, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
 from zlmreport.machines.residual import (
     Stretch,
@@ -46,7 +46,7 @@ class StandardNumbers:
 
 
 @dataclass(frozen=True, slots=True)
-class Compared:
+class ComparedTest:
     """A test and its prediction; (N,) of its readings.
 
     Attributes
@@ -68,8 +68,8 @@ class Compared:
         Where what is left is beyond its band.
     """
 
-    test: Circle | StraightTest
-    prediction: Prediction
+    test: CircularTest | StraightTest
+    prediction: TestPrediction
     left: FloatArray
     rms: Sizes
     of_axes: Mapping[str, float]
@@ -88,7 +88,7 @@ def compare_circles(
     circles: Sequence[MeasuredCircle],
     registry: Registry,
     study: CircleStudy | None = None,
-) -> tuple[Compared, ...]:
+) -> tuple[ComparedTest, ...]:
     """Return all circles against their prediction, and against the effects of a model if there is a study."""
     made = _made_by_effects([each.circle for each in circles], study)
     return tuple(_circle(machine, each, index, registry, made) for index, each in enumerate(circles))
@@ -100,7 +100,7 @@ def _circle(
     index: int,
     registry: Registry,
     made: Sequence[Mapping[str, FloatArray]],
-) -> Compared:
+) -> ComparedTest:
     circle, effects = measured.circle, made[index]
     prediction = predict(machine, circle.course())
     left = circle.deviation - prediction.values - sum(effects.values(), np.zeros(len(circle.angle)))
@@ -120,7 +120,7 @@ def _circle(
         )
     )
     sizes = (circle.deviation, prediction.values, left)
-    return Compared(
+    return ComparedTest(
         circle,
         prediction,
         left,
@@ -133,7 +133,7 @@ def _circle(
 
 
 def _made_by_effects(
-    circles: Sequence[Circle], study: CircleStudy | None
+    circles: Sequence[CircularTest], study: CircleStudy | None
 ) -> tuple[dict[str, FloatArray], ...]:
     """Return what each effect of a study makes of each circle, at all of its readings, m."""
     found: tuple[dict[str, FloatArray], ...] = tuple({} for _ in circles)
@@ -152,14 +152,14 @@ def _made_by_effects(
     return found
 
 
-def compare_line(machine: Machine, line: StraightTest) -> Compared:
+def compare_line(machine: Machine, line: StraightTest) -> ComparedTest:
     """Return a line against its prediction."""
     prediction = predict(machine, line.course)
     left = line.deviation - prediction.values
     shown = left - left.mean()
     standard = np.hypot(prediction.standard_uncertainty, line.standard_uncertainty)
     sizes = (line.deviation, prediction.values, left)
-    return Compared(
+    return ComparedTest(
         line,
         prediction,
         left,

@@ -19,7 +19,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.machines.design import ThinnedDesign
-from zlmreport.machines.forms import Form
+from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.noise import NoiseFound, NoiseModel, Whitened
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.null_distribution import LEVEL, NullDistribution, PValue, Scores
@@ -114,14 +114,14 @@ class Contender:
     """An effect with the form that fits best."""
 
     effect: CircleEffect
-    form: Form
+    form: CircleForm
     evidence: float
     p_value: PValue
     usual: float
 
 
 @dataclass(frozen=True, slots=True)
-class Contest:
+class CircleContest:
     """The outcome of a contest."""
 
     contenders: tuple[Contender, ...]  #: Best first.
@@ -133,10 +133,10 @@ class Contest:
 
 def contest(
     held: Held,
-    effects: Sequence[tuple[CircleEffect, tuple[Form, ...]]],
+    effects: Sequence[tuple[CircleEffect, tuple[CircleForm, ...]]],
     nameless: Sequence[Nameless],
     seed: int = 0,
-) -> Contest:
+) -> CircleContest:
     """Hold all effects and curves against what the base model leaves of the deviations."""
     model, noise, deviation = held
     random = np.random.default_rng(seed)
@@ -177,7 +177,7 @@ def contest(
     shares /= shares.sum()
     order = np.argsort(-named[:, 0], kind="stable").tolist()
     leading = int(np.argmax(curves[:, 0])) if len(curves) else None
-    return Contest(
+    return CircleContest(
         tuple(contenders[index] for index in order),
         None if leading is None else nameless[leading].shape,
         -np.inf if leading is None else float(curves[leading, 0]),

@@ -2,7 +2,7 @@
 
 A circle, a line and a diagonal are one thing: positions of the machine, the directions in which its
 axes moved, the direction in which the deviation was sensed. What only a circle has (angle, sense, radius)
-stands in `Circle`.
+stands in `CircularTest`.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class Circle:
+class CircularTest:
     """A circular test: some turns about one centre, at one radius and feed.
 
     Attributes
@@ -84,7 +84,7 @@ class Circle:
             for number in np.unique(self.run[self.sense == sense])
         ]
 
-    def of(self, kept: BoolArray | IntArray) -> Circle:
+    def of(self, kept: BoolArray | IntArray) -> CircularTest:
         """Return the circle with some of its readings."""
         own = {name: getattr(self, name)[kept] for name in ("angle", "sense", "run", "deviation", "time")}
         return replace(self, **own)

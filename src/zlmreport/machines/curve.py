@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from zlmreport.machines.kinematics import SQUARENESS, TRANSLATIONS, Line
+from zlmreport.machines.kinematics import SQUARENESS, TRANSLATIONS, ErrorLine
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.fitting.estimate import InstrumentError
@@ -22,7 +22,7 @@ _TOUCHING = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
+class AxisErrorCurve:
     """One of the 21 errors as it is known.
 
     Attributes
@@ -46,7 +46,7 @@ class Curve:
     nodes: FloatArray
     values: FloatArray
     factor: FloatArray
-    line: Line
+    line: ErrorLine
     source: str
 
     @property
@@ -111,8 +111,8 @@ class Curve:
 
 
 def measured_curve(
-    name: str, readings: MeasurementSet, instrument: InstrumentError, line: Line, source: str
-) -> Curve:
+    name: str, readings: MeasurementSet, instrument: InstrumentError, line: ErrorLine, source: str
+) -> AxisErrorCurve:
     """Return the mean deviations of a test as a curve; `curve_of` says what its covariance holds."""
     found = readings.deviations()
     count = np.sum(np.isfinite(found), axis=2)
@@ -134,7 +134,9 @@ class Means:
     squares: FloatArray  #: Sum of their squared distances from it.
 
 
-def curve_of(means: Means, name: str, instrument: InstrumentError, line: Line, source: str) -> Curve:
+def curve_of(
+    means: Means, name: str, instrument: InstrumentError, line: ErrorLine, source: str
+) -> AxisErrorCurve:
     """Return means as a curve.
 
     Their covariance holds the scatter of the repeats, pooled, and what of the instrument's uncertainty is
@@ -149,10 +151,10 @@ def curve_of(means: Means, name: str, instrument: InstrumentError, line: Line, s
     parted = np.repeat([1.0, -1.0][:sides], len(nodes))[:, np.newaxis]
     parts = [own, both, along, parted * instrument.between_directions / 2.0]
     factor = np.concatenate([each[:, np.any(each, axis=0)] for each in parts], axis=1)
-    return Curve(name, nodes, means.values.ravel(), factor, line, source)
+    return AxisErrorCurve(name, nodes, means.values.ravel(), factor, line, source)
 
 
-def without_alignment(curve: Curve) -> Curve:
+def without_alignment(curve: AxisErrorCurve) -> AxisErrorCurve:
     """Return a curve without what only says how it was set up.
 
     Of a straightness error the least-squares line: its slope is the artefact's alignment, and what the axes

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.machines.course import Circle
+from zlmreport.machines.course import CircularTest
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.effects.circle_design import CircleDesign, CircleTest
 
@@ -30,7 +30,7 @@ _COLUMNS = (
 class ThinnedDesign(CircleDesign):
     """A design of which each reading is the mean of some, neighbours in time."""
 
-    circles: tuple[Circle, ...]  #: The tests with their readings.
+    circles: tuple[CircularTest, ...]  #: The tests with their readings.
     fine: CircleDesign  #: All readings.
     order: IntArray  #: The sorted indices of all readings,
     starts: IntArray  #: where each group begins among them,
@@ -42,7 +42,7 @@ class ThinnedDesign(CircleDesign):
         return np.asarray((sums.T / self.sizes).T)
 
 
-def clear_of_reversals(circle: Circle) -> Circle:
+def clear_of_reversals(circle: CircularTest) -> CircularTest:
     """Return a circle without the readings beside the points where an axis turns.
 
     An axis runs through its lost motion within √(2B/R), some 0.7°: there nobody knows which side it is on.
@@ -52,7 +52,7 @@ def clear_of_reversals(circle: Circle) -> Circle:
     return circle.of(kept) if np.count_nonzero(kept) >= 0.8 * len(kept) else circle
 
 
-def thinned(circles: Sequence[Circle]) -> ThinnedDesign:
+def thinned(circles: Sequence[CircularTest]) -> ThinnedDesign:
     """Return the design of circles with fewer readings: means of neighbours in time."""
     fine = side_by_side(circles)
     turns = len(fine.turns)
@@ -72,7 +72,7 @@ def thinned(circles: Sequence[Circle]) -> ThinnedDesign:
     )
 
 
-def side_by_side(circles: Sequence[Circle]) -> CircleDesign:
+def side_by_side(circles: Sequence[CircularTest]) -> CircleDesign:
     """Return all readings of circles side by side; angles go on over a full turn."""
     columns: dict[str, list[Any]] = {name: [] for name in _COLUMNS}
     number = 0

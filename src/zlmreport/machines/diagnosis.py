@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from itertools import pairwise
 
 import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.machines.choosing import refined_form, with_effect, with_form
-from zlmreport.machines.contest import Contender, Contest, Held, contest, nameless_curves
-from zlmreport.machines.forms import Form, forms_of, parts_of, whole_form
+from zlmreport.machines.contest import CircleContest, Contender, Held, contest, nameless_curves
+from zlmreport.machines.forms import CircleForm, forms_of, parts_of, whole_form
 from zlmreport.machines.noise import Whitened
-from zlmreport.machines.study import CircleStudy, Estimated
+from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue
 from zlmreport.model.effects.circle_effect import CircleEffect
 
@@ -31,31 +31,23 @@ _SERIOUS = 0.01
 _MOST_EFFECTS = 6
 
 
-class Verdict(StrEnum):
-    """What became of the model."""
-
-    ADEQUATE = "adequate"
-    MISSING = "missing"
-    UNEXPLAINED = "unexplained"
-
-
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class CircleCandidate:
     """An effect that might be missing."""
 
     effect: CircleEffect
-    form: Form
+    form: CircleForm
     evidence: float
     probability: float
     p_value: PValue
-    estimates: tuple[Estimated, ...]
+    estimates: tuple[EstimatedTerm, ...]
     rms_after: float  #: m.
     is_plausible: bool
     indistinguishable_from: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class Remainder:
+class CircleRemainder:
     """What is left beside all that is named."""
 
     rms: float  #: m.
@@ -80,10 +72,10 @@ class MachineDiagnosis:
     complete: CircleStudy  #: With all that was found.
     verdict: Verdict
     p_value: PValue
-    candidates: tuple[Candidate, ...]
+    candidates: tuple[CircleCandidate, ...]
     found: tuple[str, ...]  #: What belongs in, first the one to add first; nothing that has an equal.
     steps: tuple[Step, ...]
-    remainder: Remainder | None
+    remainder: CircleRemainder | None
     not_testable: tuple[str, ...]
     catalogue: tuple[CircleEffect, ...]  #: All effects that were thought of.
     is_tied: bool  #: Whether the next effect has an equal that this plan cannot tell from it.
@@ -99,8 +91,8 @@ class _Stage:
     """The model with some effects more, and what the contest says of it."""
 
     study: CircleStudy
-    outcome: Contest
-    shown: tuple[Candidate, ...]
+    outcome: CircleContest
+    shown: tuple[CircleCandidate, ...]
     hidden: tuple[str, ...]
     gathered: float  #: Evidence of all effects that came in, less what each further one must bring.
 
@@ -110,7 +102,7 @@ class _Stage:
         return self.outcome.p_value.value <= LEVEL
 
     @property
-    def leader(self) -> Candidate | None:
+    def leader(self) -> CircleCandidate | None:
         """The first that is possible."""
         return next((each for each in self.shown if each.is_plausible), None)
 
@@ -175,7 +167,9 @@ def _stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[_Stag
         current = with_effect(current, leader.effect, leader.form)
 
 
-def _held(study: CircleStudy, catalogue: Sequence[CircleEffect], seed: int) -> tuple[Contest, list[str]]:
+def _held(
+    study: CircleStudy, catalogue: Sequence[CircleEffect], seed: int
+) -> tuple[CircleContest, list[str]]:
     """Hold all effects that are not in the model against what it leaves."""
     tried, unseen = [], []
     for effect in catalogue:
@@ -190,7 +184,7 @@ def _held(study: CircleStudy, catalogue: Sequence[CircleEffect], seed: int) -> t
     return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
 
 
-def _is_seen(form: Form, study: CircleStudy) -> bool:
+def _is_seen(form: CircleForm, study: CircleStudy) -> bool:
     """Return whether the base model leaves anything of a form."""
     if not study.base.shape[1]:
         return True
@@ -200,7 +194,7 @@ def _is_seen(form: Form, study: CircleStudy) -> bool:
     return bool(np.sum(left**2) > 1e-6 * np.sum(columns**2))
 
 
-def _candidates(study: CircleStudy, outcome: Contest) -> tuple[Candidate, ...]:
+def _candidates(study: CircleStudy, outcome: CircleContest) -> tuple[CircleCandidate, ...]:
     """Return the effects that are worth a word, best first, with their estimates and equals."""
     most = outcome.contenders[0].evidence if outcome.contenders else 0.0
     worth = [
@@ -219,17 +213,17 @@ def _candidates(study: CircleStudy, outcome: Contest) -> tuple[Candidate, ...]:
     return tuple(_with_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True))
 
 
-def _candidate(study: CircleStudy, contender: Contender, probability: float) -> Candidate:
+def _candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:
     form = refined_form(study, contender.effect, contender.form)
     after = with_form(study, contender.effect, form)
     estimates = after.estimates_of(contender.effect.identifier)
-    return Candidate(
+    return CircleCandidate(
         contender.effect, form, contender.evidence, probability, contender.p_value, estimates,
         rms_of(after), all(each.is_possible for each in estimates),
     )  # fmt: skip
 
 
-def _strangeness(candidate: Candidate) -> float:
+def _strangeness(candidate: CircleCandidate) -> float:
     """Return how far beyond the usual an effect's values are, and how much was searched for it."""
     beyond = [
         abs(each.value) / each.term.usual
@@ -239,15 +233,15 @@ def _strangeness(candidate: Candidate) -> float:
     return float(np.log(max([*beyond, 1.0]))) + len(candidate.effect.searched)
 
 
-def _curve(study: CircleStudy, candidate: Candidate) -> FloatArray:
+def _curve(study: CircleStudy, candidate: CircleCandidate) -> FloatArray:
     """Return what an effect makes of the deviations at its estimated values."""
     parts = (each.value * each.term.column for each in candidate.estimates if each.term is not None)
     return np.asarray(sum(parts, np.zeros(study.design.count)))
 
 
 def _with_equals(
-    study: CircleStudy, candidate: Candidate, curve: FloatArray, others: Sequence[Candidate]
-) -> Candidate:
+    study: CircleStudy, candidate: CircleCandidate, curve: FloatArray, others: Sequence[CircleCandidate]
+) -> CircleCandidate:
     """Return a candidate with those that the plan cannot tell from it, by columns and evidence."""
     if not candidate.is_plausible:
         return candidate
@@ -275,7 +269,7 @@ def _explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
     return float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
 
 
-def _left(study: CircleStudy, outcome: Contest) -> Remainder:
+def _left(study: CircleStudy, outcome: CircleContest) -> CircleRemainder:
     """Return what is left beside all that is named: the residual beyond its noise."""
     beyond = max(rms_of(study) ** 2 - (study.noise.sigma**2), 0.0)
-    return Remainder(float(np.sqrt(beyond)), outcome.shape or Words(en="of no shape", de="ohne Form"))
+    return CircleRemainder(float(np.sqrt(beyond)), outcome.shape or Words(en="of no shape", de="ohne Form"))

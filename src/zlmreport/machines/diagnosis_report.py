@@ -6,13 +6,14 @@ from collections.abc import Sequence
 from typing import Any
 
 from zlmreport.language import Language
-from zlmreport.machines.comparison import Compared
-from zlmreport.machines.course import Circle
-from zlmreport.machines.diagnosis import Candidate, MachineDiagnosis, Verdict, rms_of
+from zlmreport.machines.comparison import ComparedTest
+from zlmreport.machines.course import CircularTest
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, rms_of
 from zlmreport.machines.report import compared_sizes, stretch_values
-from zlmreport.machines.study import CircleStudy, Estimated
+from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.machines.subjects.findings import absent, findings, remedy, statement
 from zlmreport.machines.subjects.tests import stretch_in_words
+from zlmreport.model.diagnosis.diagnosis import Verdict
 
 SCHEMA, BUILD, CHANGE = "zlmreport/diagnosis/1", "zlmreport/build/1", "zlmreport/machine-change/1"
 _MICRO = 1e6
@@ -21,8 +22,8 @@ _MOST_FAILURES = 3
 
 def diagnosis_values(
     diagnosis: MachineDiagnosis,
-    tests: Sequence[Compared],
-    complete: Sequence[Compared],
+    tests: Sequence[ComparedTest],
+    complete: Sequence[ComparedTest],
     language: Language = Language.ENGLISH,
 ) -> dict[str, Any]:
     """Return a diagnosis as plain values.
@@ -64,7 +65,7 @@ def diagnosis_values(
                 **stretch_values(stretch, is_circle=is_circle),
             }
             for each in tests
-            for is_circle in (isinstance(each.test, Circle),)
+            for is_circle in (isinstance(each.test, CircularTest),)
             for stretch in each.fails[:_MOST_FAILURES]
         ],
         "faults": [],
@@ -99,7 +100,7 @@ def _after(diagnosis: MachineDiagnosis) -> str:
 
 
 def change_values(
-    before: CircleStudy, after: CircleStudy, tests: tuple[Sequence[Compared], Sequence[Compared]]
+    before: CircleStudy, after: CircleStudy, tests: tuple[Sequence[ComparedTest], Sequence[ComparedTest]]
 ) -> dict[str, Any]:
     """Return what a change of the model did; `tests` are those beside the model before and after it."""
     noise = after.noise.rms
@@ -138,7 +139,7 @@ def model_values(study: CircleStudy) -> dict[str, Any]:
     }
 
 
-def parameter_values(found: Estimated) -> dict[str, Any]:
+def parameter_values(found: EstimatedTerm) -> dict[str, Any]:
     """Return a parameter; without U where it was only tried at some values."""
     unit, u = found.unit, found.expanded_uncertainty
     values = {
@@ -163,7 +164,9 @@ def study_values(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
     }
 
 
-def candidate_values(candidate: Candidate, diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any]:
+def candidate_values(
+    candidate: CircleCandidate, diagnosis: MachineDiagnosis, language: Language
+) -> dict[str, Any]:
     """Return an effect that might be missing."""
     by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
     equals = [by_name[each] for each in candidate.indistinguishable_from]

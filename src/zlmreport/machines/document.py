@@ -27,8 +27,8 @@ from zlmreport.document.certificate.document import Certificate, PageWords
 from zlmreport.document.certificate.own_look import read_logo
 from zlmreport.document.certificate.statements import in_a_line
 from zlmreport.language import Words
-from zlmreport.machines.comparison import Compared, compare_circles, compare_line
-from zlmreport.machines.course import Circle
+from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
+from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
 from zlmreport.machines.diagnosis_report import diagnosis_values
 from zlmreport.machines.prediction import prediction_values
@@ -69,9 +69,9 @@ class _Material:
 
     machine: MachineFile
     diagnosis: MachineDiagnosis | None
-    by_axes: tuple[Compared, ...]
-    by_model: tuple[Compared, ...]
-    complete: tuple[Compared, ...]
+    by_axes: tuple[ComparedTest, ...]
+    by_model: tuple[ComparedTest, ...]
+    complete: tuple[ComparedTest, ...]
 
 
 def machine_document(machine: MachineFile, registry: Registry, generator: str = GENERATOR) -> MachineDocument:
@@ -188,7 +188,7 @@ def _sheet(material: _Material, say: Sayer) -> Iterator[Block]:
     """Yield all that fits on a page."""
     yield _facts(material.machine, say)
     yield from _said_first(material, say)
-    circles = [each for each in material.complete or material.by_axes if isinstance(each.test, Circle)]
+    circles = [each for each in material.complete or material.by_axes if isinstance(each.test, CircularTest)]
     yield from (Graph(tests.circle_figure(each)) for each in circles[:_ON_A_SHEET])
     yield from error_section(material.machine.machine, say, is_full=True).blocks[1:]
 
@@ -197,7 +197,7 @@ def _said_first(material: _Material, say: Sayer) -> Iterator[Block]:
     diagnosis = material.diagnosis
     if diagnosis:
         yield from findings.verdict_section(diagnosis, say).blocks
-        lines = [each for each in material.by_axes if not isinstance(each.test, Circle)]
+        lines = [each for each in material.by_axes if not isinstance(each.test, CircularTest)]
         noise = diagnosis.complete.noise.rms
         yield tests.sizes_table((*material.complete, *lines), say, noise, with_numbers=True)
     elif material.by_axes:
@@ -220,7 +220,7 @@ def _sections(material: _Material, say: Sayer) -> Iterator[Section]:
 
 
 def _test_sections(
-    by_axes: Sequence[Compared], complete: Sequence[Compared], say: Sayer
+    by_axes: Sequence[ComparedTest], complete: Sequence[ComparedTest], say: Sayer
 ) -> Iterator[Section]:
     """Yield a section for each test, a circle beside the model's effects, too."""
     with_effects = {each.name: each for each in complete}

@@ -13,7 +13,7 @@ from zlmreport.model.effects.circle_effect import CircleEffect, CircleTerm, Sear
 
 
 @dataclass(frozen=True, slots=True)
-class Form:
+class CircleForm:
     """One shape of an effect: the values of its searched parameters, and the terms that are fitted."""
 
     searched: Searched
@@ -29,32 +29,34 @@ class Form:
         """The groups of its terms."""
         return frozenset(each.group or each.name for each in self.terms)
 
-    def of_groups(self, chosen: frozenset[str]) -> Form:
+    def of_groups(self, chosen: frozenset[str]) -> CircleForm:
         """Return the form with the terms of some groups alone."""
-        return Form(self.searched, tuple(each for each in self.terms if (each.group or each.name) in chosen))
+        return CircleForm(
+            self.searched, tuple(each for each in self.terms if (each.group or each.name) in chosen)
+        )
 
 
-def whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searched) -> Form:
+def whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searched) -> CircleForm:
     """Return an effect with all of its terms that a design can show."""
     terms = effect.terms(design.fine, searched)
     thin = (replace(each, column=design.thin(each.column)) for each in terms)
-    return Form(searched, tuple(each for each in thin if np.any(each.column)))
+    return CircleForm(searched, tuple(each for each in thin if np.any(each.column)))
 
 
-def form_at(effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: Form) -> Form:
+def form_at(effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: CircleForm) -> CircleForm:
     """Return the terms of a form at other searched values."""
     by_name = {each.name: each for each in effect.terms(design.fine, searched)}
     terms = (by_name[each.name] for each in like.terms)
-    return Form(searched, tuple(replace(each, column=design.thin(each.column)) for each in terms))
+    return CircleForm(searched, tuple(replace(each, column=design.thin(each.column)) for each in terms))
 
 
-def plain_form(effect: CircleEffect, design: ThinnedDesign) -> Form:
+def plain_form(effect: CircleEffect, design: ThinnedDesign) -> CircleForm:
     """Return an effect at the first values of its searched parameters; without terms if there are none."""
     grid = effect.grid(design.fine)
-    return whole_form(effect, design, grid[0]) if grid else Form((), ())
+    return whole_form(effect, design, grid[0]) if grid else CircleForm((), ())
 
 
-def parts_of(effect: CircleEffect, whole: Form) -> tuple[Form, ...]:
+def parts_of(effect: CircleEffect, whole: CircleForm) -> tuple[CircleForm, ...]:
     """Return a form with each group of its terms by itself, and with all of them."""
     groups = sorted(whole.groups)
     sizes = {len(groups)} if effect.is_base else {1} if effect.is_single else {1, len(groups)}
@@ -65,7 +67,7 @@ def parts_of(effect: CircleEffect, whole: Form) -> tuple[Form, ...]:
     )
 
 
-def forms_of(effect: CircleEffect, design: ThinnedDesign) -> tuple[Form, ...]:
+def forms_of(effect: CircleEffect, design: ThinnedDesign) -> tuple[CircleForm, ...]:
     """Return the forms that a design can show: for each searched value, each group of terms and all."""
     return tuple(
         part

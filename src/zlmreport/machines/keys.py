@@ -7,7 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
 from zlmreport.job.document_keys import Customer, Laboratory, Number, Output, Person
-from zlmreport.job.measurement_keys import Machine as MachineNames
+from zlmreport.job.measurement_keys import MachineUnderTest as MachineNames
 from zlmreport.job.types import Date, Finite, JobPart, JobPath, NotNegative, Positive, Text
 from zlmreport.language import Language
 

@@ -75,7 +75,7 @@ ORDERS = tuple("".join(order) for order in permutations(AXES))
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class ErrorLine:
     """Where an error was measured: the others axes' positions, and the tool's offset there, m."""
 
     others: Mapping[str, float]  #: By axis; 0 for one that is not named.
@@ -83,7 +83,7 @@ class Line:
 
 
 def weights(
-    error: str, chain: Chain, line: Line, position: FloatArray, tool: FloatArray | Point = _ORIGIN
+    error: str, chain: Chain, line: ErrorLine, position: FloatArray, tool: FloatArray | Point = _ORIGIN
 ) -> FloatArray:
     """Return what one unit of an error (m or rad) makes of Δ at some positions, shape (N, 3).
 
@@ -107,7 +107,7 @@ def weights(
 
 
 def lever_arm(
-    axis: str, chain: Chain, line: Line, position: FloatArray, tool: FloatArray | Point = _ORIGIN
+    axis: str, chain: Chain, line: ErrorLine, position: FloatArray, tool: FloatArray | Point = _ORIGIN
 ) -> FloatArray:
     """Return L, the arm by which the rotations of an axis act, shape (N, 3), m."""
     arm = np.broadcast_to(np.asarray(tool, dtype=np.float64) - np.asarray(line.tool), position.shape).copy()
@@ -122,7 +122,7 @@ def deviation(
     chain: Chain,
     position: FloatArray,
     tool: FloatArray | Point = _ORIGIN,
-    lines: Mapping[str, Line] | None = None,
+    lines: Mapping[str, ErrorLine] | None = None,
 ) -> FloatArray:
     """Return Δ at some positions, shape (N, 3), m.
 
@@ -132,6 +132,6 @@ def deviation(
     """
     found = np.zeros((len(position), 3))
     for name, value in errors.items():
-        line = (lines or {}).get(name, Line({}))
+        line = (lines or {}).get(name, ErrorLine({}))
         found += weights(name, chain, line, position, tool) * np.reshape(value, (-1, 1))
     return found

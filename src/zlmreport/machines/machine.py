@@ -9,8 +9,8 @@ from types import MappingProxyType
 import numpy as np
 
 from zlmreport.machines.course import Course
-from zlmreport.machines.curve import Curve
-from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, Line, Point, weights
+from zlmreport.machines.curve import AxisErrorCurve
+from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, ErrorLine, Point, weights
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.units import ARCSECOND, MICROMETRE, Unit
 from zlmreport.model.effects.circle_design import AXES
@@ -51,16 +51,16 @@ class Machine:
 
     chain: Chain
     tool: Point  #: The tool's offset, m.
-    curves: tuple[Curve, ...]  #: What was measured or stated, in the order of `ERRORS`.
+    curves: tuple[AxisErrorCurve, ...]  #: What was measured or stated, in the order of `ERRORS`.
     unmeasured: tuple[Unmeasured, ...]  #: All others of the 21.
 
-    def curve(self, name: str) -> Curve | None:
+    def curve(self, name: str) -> AxisErrorCurve | None:
         """Return one of the errors; None if it was not measured."""
         return next((each for each in self.curves if each.name == name), None)
 
 
 @dataclass(frozen=True, slots=True)
-class Prediction:
+class TestPrediction:
     """What the axes of a machine predict along a course.
 
     Attributes
@@ -96,7 +96,7 @@ class Prediction:
         return 2.0 * self.standard_uncertainty
 
 
-def predict(machine: Machine, course: Course) -> Prediction:
+def predict(machine: Machine, course: Course) -> TestPrediction:
     """Return what the axes predict along a course, with its covariance."""
     count = len(course.position)
     tool = machine.tool if course.tool is None else course.tool
@@ -118,7 +118,7 @@ def predict(machine: Machine, course: Course) -> Prediction:
     for each in machine.unmeasured:
         # Uniform over the bound: u = bound/√3 (JCGM 100, 4.3.7); a squareness error grows with its axis.
         bound += (each.bound * _gain(each.name, machine, None, course, tool)) ** 2 / 3.0
-    return Prediction(
+    return TestPrediction(
         values,
         _compressed(np.concatenate(factors, axis=1)),
         MappingProxyType(shares),
@@ -128,10 +128,10 @@ def predict(machine: Machine, course: Course) -> Prediction:
 
 
 def _gain(
-    name: str, machine: Machine, curve: Curve | None, course: Course, tool: FloatArray | Point
+    name: str, machine: Machine, curve: AxisErrorCurve | None, course: Course, tool: FloatArray | Point
 ) -> FloatArray:
     """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
-    line = curve.line if curve else Line({})
+    line = curve.line if curve else ErrorLine({})
     moved = weights(name, machine.chain, line, course.position, tool)
     return np.asarray(np.sum(moved * course.sensing, axis=1), dtype=np.float64)
 
@@ -145,7 +145,9 @@ def _compressed(factor: FloatArray) -> FloatArray:
     return np.asarray(factor @ turn[:, kept], dtype=np.float64)
 
 
-def missing_errors(curves: Mapping[str, Curve], stated: Mapping[str, float]) -> tuple[Unmeasured, ...]:
+def missing_errors(
+    curves: Mapping[str, AxisErrorCurve], stated: Mapping[str, float]
+) -> tuple[Unmeasured, ...]:
     """Return the errors that nobody measured, each with its bound: as stated, in m or rad, or as assumed."""
     return tuple(
         Unmeasured(

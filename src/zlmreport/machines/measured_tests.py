@@ -13,7 +13,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.machines.axis_errors import error_of, line_of_job
-from zlmreport.machines.course import Circle, Course, StraightTest
+from zlmreport.machines.course import CircularTest, Course, StraightTest
 from zlmreport.machines.kinematics import SQUARENESS
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.circle import NominalCircle
@@ -30,7 +30,7 @@ _PAUSE = 5.0
 class MeasuredCircle:
     """A circle with the job that measured it."""
 
-    circle: Circle
+    circle: CircularTest
     job: Job
     readings: MeasurementSet
     kept: IntArray  #: Which of the readings the circle has: those that are not missing.
@@ -61,7 +61,7 @@ def measured_circle(
     """Return the circle that a job measured."""
     kept = np.flatnonzero(np.isfinite(measurements.deviation))
     tool = line_of_job(job).tool
-    bare = Circle(
+    bare = CircularTest(
         name,
         nominal,
         measurements.target_positions[measurements.target[kept]],
@@ -76,7 +76,7 @@ def measured_circle(
     return MeasuredCircle(circle, job, measurements, kept)
 
 
-def _reckoned(circle: Circle) -> FloatArray:
+def _reckoned(circle: CircularTest) -> FloatArray:
     """Return times by the feed, the turns in the order of their readings, one after the other."""
     time, begun = np.zeros(len(circle.angle)), 0.0
     for own in sorted(circle.turns(), key=lambda each: int(each[0])):

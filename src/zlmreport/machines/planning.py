@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.language import Language, Words
-from zlmreport.machines.course import Circle
+from zlmreport.machines.course import CircularTest
 from zlmreport.machines.design import thinned
 from zlmreport.machines.diagnosis import MachineDiagnosis
 from zlmreport.machines.forms import plain_form, whole_form
@@ -43,10 +43,10 @@ _READINGS = 360  # of a turn
 
 
 @dataclass(frozen=True, slots=True)
-class Proposal:
+class RunProposal:
     """A run that might be next."""
 
-    circle: Circle  #: As it would be run; its deviations are zero.
+    circle: CircularTest  #: As it would be run; its deviations are zero.
     what: Words
     minutes: float
     decides: float  #: Probability that it tells the effects apart.
@@ -68,7 +68,7 @@ class NextRun:
     """What is to be decided, and the runs that do, the best first."""
 
     between: tuple[CircleEffect, ...]
-    proposals: tuple[Proposal, ...]
+    proposals: tuple[RunProposal, ...]
     visible: tuple[VisibleSize, ...]
 
 
@@ -85,12 +85,12 @@ def next_run(diagnosis: MachineDiagnosis, catalogue: Sequence[CircleEffect]) -> 
     proposals = []
     for circle, what, minutes in _options(study):
         decides = _decides(diagnosis, between, circle) if between else 0.0
-        proposals.append(Proposal(circle, what, minutes, decides))
+        proposals.append(RunProposal(circle, what, minutes, decides))
     proposals.sort(key=lambda each: -(each.decides if between else 1.0) / each.minutes)
     return NextRun(between, tuple(proposals), tuple(visible_sizes(study, catalogue)))
 
 
-def _options(study: CircleStudy) -> Iterator[tuple[Circle, Words, float]]:
+def _options(study: CircleStudy) -> Iterator[tuple[CircularTest, Words, float]]:
     """Yield runs that are not there yet: the other sense, other feeds, other bars, other planes."""
     circles = study.design.circles
     last = circles[-1]
@@ -116,11 +116,11 @@ def _options(study: CircleStudy) -> Iterator[tuple[Circle, Words, float]]:
     yield _run(last), _REPEAT, _AGAIN + _minutes(last, 2)
 
 
-def _minutes(circle: Circle, turns: int) -> float:
+def _minutes(circle: CircularTest, turns: int) -> float:
     return turns * _OVERSHOOT * 2.0 * math.pi / circle.nominal.angular_speed / 60.0
 
 
-def _run(circle: Circle, senses: tuple[int, ...] = (1, -1), **changed: Any) -> Circle:
+def _run(circle: CircularTest, senses: tuple[int, ...] = (1, -1), **changed: Any) -> CircularTest:
     """Return a circle as it would be run: whole turns, a reading a degree.
 
     `changed`: Of its nominal path: feed, radius or plane.
@@ -141,7 +141,7 @@ def _run(circle: Circle, senses: tuple[int, ...] = (1, -1), **changed: Any) -> C
     )
 
 
-def _decides(diagnosis: MachineDiagnosis, between: tuple[CircleEffect, ...], circle: Circle) -> float:
+def _decides(diagnosis: MachineDiagnosis, between: tuple[CircleEffect, ...], circle: CircularTest) -> float:
     """Return the least probability, over pairs, with which a run more tells effects apart."""
     study = diagnosis.complete
     design = thinned([*study.design.circles, circle])

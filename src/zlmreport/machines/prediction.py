@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from zlmreport.machines.comparison import Compared
+from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.machine import Machine
 from zlmreport.machines.report import compared_values, diagonal_values, error_values, volume_values
 from zlmreport.machines.volume import diagonals, measured_space, volume_map
@@ -13,7 +13,7 @@ from zlmreport.machines.volume import diagonals, measured_space, volume_map
 SCHEMA = "zlmreport/prediction/1"
 
 
-def prediction_values(machine: Machine, compared: Iterable[Compared]) -> dict[str, Any]:
+def prediction_values(machine: Machine, compared: Iterable[ComparedTest]) -> dict[str, Any]:
     """Return what the axes predict of each test, of the work space and of its diagonals."""
     space = measured_space(machine)
     return {

@@ -21,8 +21,8 @@ from zlmreport.machines.axis_errors import (
     curves_of_statement,
 )
 from zlmreport.machines.choosing import study_of
-from zlmreport.machines.course import Circle, StraightTest
-from zlmreport.machines.curve import Curve, without_alignment
+from zlmreport.machines.course import CircularTest, StraightTest
+from zlmreport.machines.curve import AxisErrorCurve, without_alignment
 from zlmreport.machines.keys import MachineKeys, StatedKeys
 from zlmreport.machines.kinematics import Chain
 from zlmreport.machines.machine import Machine, missing_errors
@@ -49,7 +49,7 @@ class MachineFile:
     catalogue: tuple[CircleEffect, ...]  #: All that are installed.
 
     @property
-    def circles(self) -> tuple[Circle, ...]:
+    def circles(self) -> tuple[CircularTest, ...]:
         """The circles alone."""
         return tuple(each.circle for each in self.measured)
 
@@ -160,9 +160,9 @@ def _chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain | None
 
 def _curves(
     file: KeysFile[MachineKeys], registry: Registry, opened: Opened, problems: list[Problem]
-) -> tuple[dict[str, Curve], list[SourceFile]]:
+) -> tuple[dict[str, AxisErrorCurve], list[SourceFile]]:
     """Return the errors that the file names, by name, and the files that they came from."""
-    found: dict[str, Curve] = {}
+    found: dict[str, AxisErrorCurve] = {}
     sources: list[SourceFile] = []
     node = found_at(file.tree, ("errors",))
     items = node.items if isinstance(node, Items) else (node,) if node else ()
@@ -190,7 +190,7 @@ def _curves(
 
 def _curve_of_file(
     path: Path, place: Place, registry: Registry, opened: Opened
-) -> tuple[Curve, list[SourceFile]]:
+) -> tuple[AxisErrorCurve, list[SourceFile]]:
     if path.suffix.casefold() in _CERTIFICATES:
         return curve_of_certificate(path, place, opened), [SourceFile.of(path, demanded(path, LARGEST))]
     job = load(path, registry)

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.machines.comparison import Compared, StandardNumbers
-from zlmreport.machines.course import Circle
+from zlmreport.machines.comparison import ComparedTest, StandardNumbers
+from zlmreport.machines.course import CircularTest
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.machines.machine import Machine, unit_of
 from zlmreport.machines.residual import Stretch
@@ -53,10 +53,10 @@ def error_values(machine: Machine) -> list[dict[str, Any]]:
     return found
 
 
-def compared_values(found: Compared) -> dict[str, Any]:
+def compared_values(found: ComparedTest) -> dict[str, Any]:
     """Return a test with all its curves."""
     prediction, test = found.prediction, found.test
-    if isinstance(test, Circle):
+    if isinstance(test, CircularTest):
         nominal = test.nominal
         where: dict[str, Any] = {
             "kind": "circle",
@@ -88,7 +88,7 @@ def compared_values(found: Compared) -> dict[str, Any]:
     }
 
 
-def compared_sizes(found: Compared) -> dict[str, Any]:
+def compared_sizes(found: ComparedTest) -> dict[str, Any]:
     """Return how large a test is, without its curves."""
     return {
         "test": found.name,
@@ -98,7 +98,9 @@ def compared_sizes(found: Compared) -> dict[str, Any]:
         "numbers": [_standard_values(each) for each in found.numbers],
         "of_axes": _in_micrometres(found.of_axes),
         "of_effects": _in_micrometres(found.of_effects),
-        "fails": [stretch_values(each, is_circle=isinstance(found.test, Circle)) for each in found.fails],
+        "fails": [
+            stretch_values(each, is_circle=isinstance(found.test, CircularTest)) for each in found.fails
+        ],
         "unit": "um",
     }
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.machines.course import Circle, StraightTest
+from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
 from zlmreport.model.effects.circle_design import AXES
 
@@ -19,7 +19,7 @@ _MEDIAN_OF_NORMAL = 0.6745
 _POINTS = 50
 
 
-def centred(circle: Circle, values: FloatArray) -> FloatArray:
+def centred(circle: CircularTest, values: FloatArray) -> FloatArray:
     """Return radial deviations without the centre of each turn, and without the mean radius of the test.
 
     The mean radius stays where the bar is calibrated.
@@ -41,7 +41,7 @@ def root_mean_square(values: FloatArray) -> float:
     return float(np.sqrt(np.mean(values**2))) if len(values) else 0.0
 
 
-def scatter_within(circle: Circle, residual: FloatArray) -> float:
+def scatter_within(circle: CircularTest, residual: FloatArray) -> float:
     """Return by how much means over half a correlation length scatter, m: by how they bend at random.
 
     The second difference of three neighbours has six times their variance; its median does not see a step.
@@ -66,7 +66,7 @@ class Stretch:
     largest: float  #: The residual there, m.
 
 
-def stretches(circle: Circle, residual: FloatArray, standard: FloatArray) -> tuple[Stretch, ...]:
+def stretches(circle: CircularTest, residual: FloatArray, standard: FloatArray) -> tuple[Stretch, ...]:
     """Return where a residual is beyond twice its standard deviation for longer than a correlation length.
 
     `residual`, `standard`, (N,): m. The residual is averaged over a correlation length first; `standard` is
@@ -107,7 +107,7 @@ def _runs(beyond: BoolArray, mean: FloatArray) -> Iterator[tuple[int, int]]:
             start = index if index < len(beyond) and beyond[index] else None
 
 
-def _arc(circle: Circle, way: float, ends: tuple[float, float], mean: FloatArray) -> Stretch:
+def _arc(circle: CircularTest, way: float, ends: tuple[float, float], mean: FloatArray) -> Stretch:
     angles = np.linspace(*ends, _POINTS)
     coordinates = {}
     for axis, wave in zip(circle.axes, (np.cos(angles), np.sin(angles)), strict=True):

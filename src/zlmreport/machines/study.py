@@ -8,9 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from zlmreport.machines.course import Circle, Course
+from zlmreport.machines.course import CircularTest, Course
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
-from zlmreport.machines.forms import Form
+from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, find_noise
 from zlmreport.measurement.arrays import FloatArray
@@ -29,7 +29,7 @@ class Chosen:
     """An effect of a model in the form that it has there."""
 
     effect: CircleEffect
-    form: Form
+    form: CircleForm
     #: Refined searched parameters, each with the column by which Δr changes with it: they are uncertain, too.
     tangents: tuple[tuple[SearchedParameter, FloatArray], ...] = ()
 
@@ -40,7 +40,7 @@ class Chosen:
 
 
 @dataclass(frozen=True, slots=True)
-class Estimated:
+class EstimatedTerm:
     """A parameter of the model with its uncertainty, SI."""
 
     effect: str
@@ -161,26 +161,26 @@ class CircleStudy:
         return weights @ values, covariance + np.einsum("f,fp,fq->pq", weights, between, between)
 
     @property
-    def estimates(self) -> tuple[Estimated, ...]:
+    def estimates(self) -> tuple[EstimatedTerm, ...]:
         """The parameters with their uncertainties."""
         values, covariance = self.solution
         u = (_COVERAGE * np.sqrt(np.maximum(np.diag(covariance), 0.0))).tolist()
-        found: list[Estimated] = []
+        found: list[EstimatedTerm] = []
         place = 0
         for each in self.effects:
             name, terms = each.effect.identifier, each.form.terms
             for term in terms:
-                found.append(Estimated(name, term.name, term.unit, float(values[place]), u[place], term))
+                found.append(EstimatedTerm(name, term.name, term.unit, float(values[place]), u[place], term))
                 place += 1
             refined = {parameter.name: u[place + step] for step, (parameter, _) in enumerate(each.tangents)}
             place += len(each.tangents)
             found += [
-                Estimated(name, parameter.name, parameter.unit, value, refined.get(parameter.name))
+                EstimatedTerm(name, parameter.name, parameter.unit, value, refined.get(parameter.name))
                 for parameter, value in zip(each.effect.searched, each.form.searched, strict=True)
             ]
         return tuple(found)
 
-    def estimates_of(self, identifier: str) -> tuple[Estimated, ...]:
+    def estimates_of(self, identifier: str) -> tuple[EstimatedTerm, ...]:
         """Return those of one effect."""
         return tuple(each for each in self.estimates if each.effect == identifier)
 
@@ -204,7 +204,7 @@ class CircleStudy:
         """What is left, (N,), m."""
         return np.asarray(self.deviation - self.fitted)
 
-    def thinned_circle(self, index: int) -> Circle:
+    def thinned_circle(self, index: int) -> CircularTest:
         """Return one of the tests with its readings thinned."""
         circle, design = self.design.circles[index], self.design
         own = design.test == index
@@ -229,7 +229,7 @@ class CircleStudy:
         )
 
 
-def said_estimates(estimates: Sequence[Estimated]) -> list[Estimate]:
+def said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
     """Return the estimates of terms, as an effect is asked to say what they mean."""
     return [
         Estimate(each.name, each.unit, each.value, each.expanded_uncertainty)
@@ -238,7 +238,7 @@ def said_estimates(estimates: Sequence[Estimated]) -> list[Estimate]:
     ]
 
 
-def bare_study(machine: Machine, circles: Sequence[Circle]) -> CircleStudy:
+def bare_study(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy:
     """Return the study of circles with an empty model."""
     circles = [clear_of_reversals(each) for each in circles]
     design = thinned(circles)

@@ -11,7 +11,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.machines.kinematics import SQUARENESS, Line, weights
+from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, weights
 from zlmreport.machines.machine import Machine
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_design import AXES
@@ -147,7 +147,7 @@ def _relative(
     factor = np.concatenate(factors, axis=2)
     unknown = np.zeros(len(points))
     for each in machine.unmeasured:
-        gain = weights(each.name, machine.chain, Line({}), together, machine.tool)
+        gain = weights(each.name, machine.chain, ErrorLine({}), together, machine.tool)
         # A squareness error is one number at both places; of a curve each place has its own.
         from_there = gain[:-1] - gain[-1] if each.name in SQUARENESS else gain[:-1]
         unknown += each.bound**2 / 3.0 * np.sum(from_there**2, axis=1)

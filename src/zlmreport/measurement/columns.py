@@ -12,7 +12,7 @@ from typing import ClassVar, Protocol, TypeVar
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.collect import is_run, no_run
-from zlmreport.measurement.table import THOUSANDS, UNITS, Row, Table
+from zlmreport.measurement.table import THOUSANDS, UNITS, Row, TextTable
 from zlmreport.measurement.text_file import parse_number
 from zlmreport.measurement.units import DEGREE, Scale, Unit, unit_named
 
@@ -60,7 +60,7 @@ def folded(name: str) -> str:
     return re.sub(r"[\s_-]+", "_", name.strip().casefold())
 
 
-def decimal_sign(table: Table, indices: Sequence[int], thousands: str = "") -> DecimalSign:
+def decimal_sign(table: TextTable, indices: Sequence[int], thousands: str = "") -> DecimalSign:
     """Return the decimal sign in which the cells of some columns are written.
 
     ``12,5`` has a decimal comma; ``1,234`` may as well have a thousands separator. A point is taken for a
@@ -124,14 +124,14 @@ def without_thousands(number: str, signs: str) -> str:
 class Cells:
     """Reads the cells of a table."""
 
-    table: Table
+    table: TextTable
     sign: DecimalSign  #: Its decimal sign.
     thousands: str = ""  #: What parts groups of three digits.
     missing: frozenset[str] = frozenset()  #: What stands for a missing reading, in lower case.
     #: What was found wrong so far. A method that returns None has noted why.
     problems: list[Problem] = field(default_factory=list)
 
-    def number(self, row: Row, column: Column) -> float | None:
+    def number(self, row: Row, column: TextColumn) -> float | None:
         """Return a number, in SI if the column has a unit; NaN for an empty cell."""
         text = row.cells[column.index]
         if not text or (self.missing and text.casefold() in self.missing):
@@ -146,7 +146,7 @@ class Cells:
         """Return the decimal sign of a number: in a workbook, what is stored as a number has a point."""
         return DecimalSign.POINT if self.table.source.of_cells and "," not in text else self.sign
 
-    def _written_otherwise(self, row: Row, column: Column, complaint: str) -> float | None:
+    def _written_otherwise(self, row: Row, column: TextColumn, complaint: str) -> float | None:
         """Return a number with its unit, with thousands, or in degrees, minutes and seconds."""
         text = row.cells[column.index]
         if DEGREE.symbol in column.units and (angle := self._sexagesimal(text)) is not None:
@@ -179,11 +179,11 @@ class Cells:
             return None
         return -size if negative in {"-", "−"} else size
 
-    def demanded_number(self, row: Row, column: Column) -> float | None:
+    def demanded_number(self, row: Row, column: TextColumn) -> float | None:
         """Return a number that must be there."""
         return None if self._is_left_out(row, column) else self.number(row, column)
 
-    def run(self, row: Row, column: Column) -> float | None:
+    def run(self, row: Row, column: TextColumn) -> float | None:
         """Return the number of a run."""
         run = self.demanded_number(row, column)
         if run is None or is_run(run):
@@ -191,7 +191,7 @@ class Cells:
         self.note(row, column, no_run(run))
         return None
 
-    def word(self, row: Row, column: Column, read: Callable[[str], _T]) -> _T | None:
+    def word(self, row: Row, column: TextColumn, read: Callable[[str], _T]) -> _T | None:
         """Return what a word stands for, that must be there; `read` raises `ValueError` for another one."""
         if self._is_left_out(row, column):
             return None
@@ -201,13 +201,13 @@ class Cells:
             self.note(row, column, str(error))
             return None
 
-    def _is_left_out(self, row: Row, column: Column) -> bool:
+    def _is_left_out(self, row: Row, column: TextColumn) -> bool:
         if row.cells[column.index]:
             return False
         self.note(row, column, f"there is no {column.name}; only a reading may be missing")
         return True
 
-    def note(self, row: Row, column: Column, message: str) -> None:
+    def note(self, row: Row, column: TextColumn, message: str) -> None:
         """Note what is wrong with a cell."""
         self.problems.append(Problem(self.table.place(row, column.index), message))
 
@@ -227,7 +227,7 @@ class Heading:
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class TextColumn:
     """A column that is read."""
 
     index: int  #: Of the column, from 0.
@@ -243,7 +243,7 @@ def _never(_text: str) -> bool:
     return False
 
 
-def _headings(table: Table, is_no_unit: Callable[[str], bool]) -> tuple[Heading, ...]:
+def _headings(table: TextTable, is_no_unit: Callable[[str], bool]) -> tuple[Heading, ...]:
     """Return the names in a header, their units taken off, or taken from the row of units."""
     units = table.units.cells if table.units else ()
     return tuple(
@@ -279,7 +279,7 @@ def _with_unit_below(heading: Heading, unit: str) -> Heading:
 
 
 def read_headings(
-    table: Table, options: NamedColumns, is_no_unit: Callable[[str], bool] = _never
+    table: TextTable, options: NamedColumns, is_no_unit: Callable[[str], bool] = _never
 ) -> tuple[Heading, ...]:
     """Return the headings of the columns that are to be read; `is_no_unit` as of `heading_of`.
 
@@ -305,7 +305,9 @@ def read_headings(
     )
 
 
-def find_heading(name: str, among: Sequence[Heading], table: Table, options: NamedColumns) -> Heading | None:
+def find_heading(
+    name: str, among: Sequence[Heading], table: TextTable, options: NamedColumns
+) -> Heading | None:
     """Return the heading of a known column: the one that the job maps to it, or the one of its name.
 
     Raises `InputError` if there are several.
@@ -328,7 +330,7 @@ def find_heading(name: str, among: Sequence[Heading], table: Table, options: Nam
     return candidates[0] if candidates else None
 
 
-def missing_column(name: str, among: Sequence[Heading], table: Table, options: NamedColumns) -> Problem:
+def missing_column(name: str, among: Sequence[Heading], table: TextTable, options: NamedColumns) -> Problem:
     """Return the problem that a column is not there, with the nearest name of those that mean nothing yet."""
     known = options.column_names
     free = {folded(heading.name): heading for heading in among if folded(heading.name) not in known}
@@ -348,8 +350,8 @@ def column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
     options: NamedColumns,
     units: tuple[Mapping[str, Unit | Scale], Unit | Scale] | None,
     stated_at: Place,
-    table: Table,
-) -> Column:
+    table: TextTable,
+) -> TextColumn:
     """Return a known column with its unit: the job's, else the one in brackets, else the usual one.
 
     `units`: Those that it may have by their spellings, and the usual one; None for what has none.
@@ -358,7 +360,7 @@ def column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
     Raises `InputError` if the unit is none of the column's quantity.
     """
     if units is None:
-        return Column(heading.index, heading.text, name, None)
+        return TextColumn(heading.index, heading.text, name, None)
     stated = options.units.get(name)
     spelling = stated if stated is not None else heading.bracket
     known, usual = units
@@ -367,10 +369,10 @@ def column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
     except ValueError as error:
         place = stated_at if stated is not None else _place_of_unit(heading, table)
         raise InputError.at(place, f"column {quoted(heading.text)}: {error}") from error
-    return Column(heading.index, heading.text, name, unit, known)
+    return TextColumn(heading.index, heading.text, name, unit, known)
 
 
-def _place_of_unit(heading: Heading, table: Table) -> Place:
+def _place_of_unit(heading: Heading, table: TextTable) -> Place:
     is_above = table.units is None or not heading.bracket or heading.bracket in heading.text
     return table.place(table.header if is_above or table.units is None else table.units, heading.index)
 
@@ -380,7 +382,7 @@ def _names(among: Sequence[Heading]) -> list[str]:
     return [heading.text for heading in among if heading.text][:_MOST_NAMED]
 
 
-def _unnamed(table: Table, found: Sequence[Heading]) -> Iterator[Problem]:
+def _unnamed(table: TextTable, found: Sequence[Heading]) -> Iterator[Problem]:
     """Yield the columns that have cells and no name, or the name of another."""
     first: dict[str, Heading] = {}
     for heading in found:
@@ -401,7 +403,7 @@ def _unnamed(table: Table, found: Sequence[Heading]) -> Iterator[Problem]:
                 )
 
 
-def _not_there(table: Table, found: Sequence[Heading], options: NamedColumns) -> Iterator[Problem]:
+def _not_there(table: TextTable, found: Sequence[Heading], options: NamedColumns) -> Iterator[Problem]:
     """Yield the names that the job speaks of and the file does not have."""
     spoken = {**{name: f"columns: {{{key}: …}}" for key, name in options.columns.items()}}
     spoken |= dict.fromkeys(options.ignore, "ignore")

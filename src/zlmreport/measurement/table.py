@@ -41,7 +41,7 @@ UNITS = frozenset({each.casefold() for units in (POSITION_UNITS, TIME_UNITS) for
 }
 
 
-class TableLayout(Protocol):
+class FileTableLayout(Protocol):
     """How a table stands in its file, as a job says; `zlmreport.job.table_keys` has the keys."""
 
     @property
@@ -95,7 +95,7 @@ class Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class TextTable:
     """A table: a header and rows that have as many cells."""
 
     source: TextFile  #: The file.
@@ -109,7 +109,7 @@ class Table:
         return self.source.place(*row.spot(index)) if row.line else self.source.place()
 
 
-def read_table(text: TextFile, options: TableLayout, names_column: Callable[[str], bool]) -> Table:
+def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[[str], bool]) -> TextTable:
     """Return the cells of a table, laid out as a job says.
 
     `names_column`: Whether a header names a column that is known: decides between delimiters.
@@ -147,13 +147,15 @@ def read_table(text: TextFile, options: TableLayout, names_column: Callable[[str
         problems += wrong
         if not wrong:
             sound.append(padded)
-    table = Table(text, header, units and _padded(units, len(header.cells)), tuple(sound), tuple(problems))
+    table = TextTable(
+        text, header, units and _padded(units, len(header.cells)), tuple(sound), tuple(problems)
+    )
     if is_plain:
         _refuse_lying(table, names_column)
     return table
 
 
-def _content(text: TextFile, options: TableLayout) -> tuple[list[tuple[int, str]], str | None]:
+def _content(text: TextFile, options: FileTableLayout) -> tuple[list[tuple[int, str]], str | None]:
     """Return the lines of the table with their numbers, and the delimiter that the first one states."""
     first, last = options.lines or ((options.skip_rows or 0) + 1, None)
     content = whole_lines(text.numbered(first, last))
@@ -195,7 +197,7 @@ def whole_lines(content: Sequence[tuple[int, str]]) -> list[tuple[int, str]]:
     return joined
 
 
-def _header(rows: Sequence[Row], options: TableLayout, text: TextFile) -> tuple[Row, list[Row]]:
+def _header(rows: Sequence[Row], options: FileTableLayout, text: TextFile) -> tuple[Row, list[Row]]:
     """Return the row of names, and the rows below it."""
     if options.header:
         return Row(0, "", "", options.header), list(rows)
@@ -268,7 +270,7 @@ def _refuse_preamble(
             )
 
 
-def _refuse_lying(table: Table, names_column: Callable[[str], bool]) -> None:
+def _refuse_lying(table: TextTable, names_column: Callable[[str], bool]) -> None:
     """Refuse a table that lies on its side: names down its first column, or targets along its header."""
     first = [row.cells[0] for row in table.rows]
     down = [cell for cell in first if names_column(cell) and not _NUMBER.fullmatch(cell.lstrip("+-−"))]
@@ -283,7 +285,7 @@ def _refuse_lying(table: Table, names_column: Callable[[str], bool]) -> None:
 
 
 def _delimiter(
-    content: Sequence[tuple[int, str]], options: TableLayout, names_column: Callable[[str], bool]
+    content: Sequence[tuple[int, str]], options: FileTableLayout, names_column: Callable[[str], bool]
 ) -> str | None:
     """Return the delimiter by which a table is parted, as its header or its rows tell."""
     if options.header:

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 
 from zlmreport.errors import quoted
-from zlmreport.measurement.columns import Cells, Column
+from zlmreport.measurement.columns import Cells, TextColumn
 from zlmreport.measurement.table import Row
 from zlmreport.measurement.text_file import parse_number
 
@@ -25,7 +25,7 @@ _CLOCK = re.compile(r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,]([0-9]{1,6}))?
 _GERMAN_DAY = re.compile(r"([0-9]{1,2})\.([0-9]{1,2})\.([0-9]{4}|[0-9]{2})(?:,?\s+(.+?)(?:\s*Uhr)?)?")
 
 
-def time_reader(cells: Cells, column: Column | None) -> ReadTime:
+def time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
     """Return what reads the time of a row, NaN for an empty cell; the first time tells the kind of all."""
     if column is None:
         return lambda _row: math.nan

@@ -19,8 +19,8 @@ from zlmreport.live.capture.events import (
     ZeroLost,
 )
 from zlmreport.live.capture.journal import (
-    Entry as JournalEntry,
     History as JournalHistory,
+    JournalEntry,
     read_history as read_journal,
 )
 from zlmreport.live.capture.of_job import (

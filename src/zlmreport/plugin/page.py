@@ -5,13 +5,13 @@ from __future__ import annotations
 from zlmreport.document.figures.canvas import (
     Canvas,
     Colour,
-    Face as FontFace,
     Fill,
     Label as TextLabel,
     Run as TextRun,
     Segment,
     Stroke,
     SvgCanvas,
+    TypeFace as FontFace,
     hexadecimal as hexadecimal_colour,
 )
 from zlmreport.document.figures.draw import (

@@ -8,8 +8,8 @@ from zlmreport.job.table_keys import (
 )
 from zlmreport.measurement.columns import (
     Cells,
-    Column as TextColumn,
     Heading,
+    TextColumn,
     column_with_unit,
     decimal_sign,
     find_heading,
@@ -26,7 +26,7 @@ from zlmreport.measurement.table import (
     UNITS as UNITS_IN_TABLES,
     EnclosureError,
     Row as TextRow,
-    Table as TextTable,
+    TextTable,
     first_cell,
     is_units as holds_units,
     joined_header,

@@ -56,7 +56,14 @@ from zlmreport.job.document_keys import CertificateKeys, Customer, Laboratory, P
 from zlmreport.job.evaluation_keys import StandardKeys
 from zlmreport.job.job import Job, SourceChoice
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import AxisKeys, Environment, Instrument, Machine, Measurement, SourceKeys
+from zlmreport.job.measurement_keys import (
+    AxisKeys,
+    Environment,
+    Instrument,
+    MachineUnderTest,
+    Measurement,
+    SourceKeys,
+)
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -189,7 +196,7 @@ def _job(measurements: MeasurementSet, text: str) -> Job:
         ),
         laboratory=Laboratory(name=text, address=text, country="DE"),
         customer=Customer(name=text, address=text),
-        machine=Machine(manufacturer=text, model=text, serial=text),
+        machine=MachineUnderTest(manufacturer=text, model=text, serial=text),
         axis=AxisKeys(name=text),
         measurement=Measurement(source=SourceKeys(plugin="kit"), date=day),
         instrument=Instrument(name=text, serial=text, certificate=text, expanded_uncertainty=0.5),

@@ -21,7 +21,13 @@ from zlmreport.language import Words
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification.attached import laid_out, stated_by
 from zlmreport.verification.carrier import opened, read_file
-from zlmreport.verification.findings import Finding, Identity, Outcome, Verdict, Verification
+from zlmreport.verification.findings import (
+    CheckedStatement,
+    Identity,
+    Verification,
+    VerificationOutcome,
+    VerificationVerdict,
+)
 
 #: Beginnings of a file that tell what it is, without its first bytes of white space.
 _LONGEST_HEAD = 4000
@@ -87,20 +93,22 @@ def verify_alone(
     """
     digest = _digest(content) if made_by not in {"csv", "xlsx"} else ""
     beside = path.with_suffix(".pdf")
-    found = Verification(Identity(), Finding("signature", Verdict.OPEN, _UNSIGNED))
+    found = Verification(Identity(), CheckedStatement("signature", VerificationVerdict.OPEN, _UNSIGNED))
     if not beside.is_file():
         told = [_BY_DIGEST.given(digest=digest)] if digest else []
-        unknown = Finding(path.name, Verdict.OPEN, _NO_PDF.given(name=beside.name))
+        unknown = CheckedStatement(path.name, VerificationVerdict.OPEN, _NO_PDF.given(name=beside.name))
         return replace(found, files=(unknown,), remarks=tuple(told))
     of_pdf = verify(beside)
     remark = _BESIDE.given(name=beside.name)
-    whole = Finding(beside.name, _verdict(of_pdf), _first(of_pdf))
-    if of_pdf.outcome is Outcome.DOES_NOT_HOLD:
+    whole = CheckedStatement(beside.name, _verdict(of_pdf), _first(of_pdf))
+    if of_pdf.outcome is VerificationOutcome.DOES_NOT_HOLD:
         return replace(found, identity=of_pdf.identity, files=(whole,), remarks=(remark,))
-    own = Finding(path.name, Verdict.OPEN, _OTHER_PROGRAMS) if of_pdf.remarks else None
+    own = CheckedStatement(path.name, VerificationVerdict.OPEN, _OTHER_PROGRAMS) if of_pdf.remarks else None
     if own is None:
         again = _made_again(beside, made_by, registry)
-        own = Finding.of(path.name, "" if again == content else "is not what the PDF beside it gives")
+        own = CheckedStatement.of(
+            path.name, "" if again == content else "is not what the PDF beside it gives"
+        )
     return replace(
         found,
         identity=of_pdf.identity,
@@ -116,18 +124,18 @@ def _digest(content: bytes) -> str:
     return found.pop() if len(found) == 1 else ""
 
 
-def _verdict(found: Verification) -> Verdict:
+def _verdict(found: Verification) -> VerificationVerdict:
     return {
-        Outcome.HOLDS: Verdict.HOLDS,
-        Outcome.DOES_NOT_HOLD: Verdict.DIFFERS,
-        Outcome.UNDECIDED: Verdict.OPEN,
+        VerificationOutcome.HOLDS: VerificationVerdict.HOLDS,
+        VerificationOutcome.DOES_NOT_HOLD: VerificationVerdict.DIFFERS,
+        VerificationOutcome.UNDECIDED: VerificationVerdict.OPEN,
     }[found.outcome]
 
 
 def _first(found: Verification) -> Words | str:
     """Return the first that does not hold of a certificate."""
     findings = (*found.files, *found.pages, *found.document)
-    wanted = Verdict.DIFFERS if found.differences else Verdict.OPEN
+    wanted = VerificationVerdict.DIFFERS if found.differences else VerificationVerdict.OPEN
     return next((each.detail for each in findings if each.verdict is wanted), "")
 
 

@@ -27,7 +27,7 @@ from zlmreport.files import confined
 from zlmreport.job.types import Enclosure, enclosed
 from zlmreport.language import Language
 from zlmreport.verification.carrier import Carried, Carrier
-from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
 
 SCHEMA = "zlmreport/results/1"
 #: Results of a document on a whole machine.
@@ -71,7 +71,7 @@ class Results(_Lenient):
 
 
 @dataclass(frozen=True, slots=True)
-class Stated:
+class StatedResults:
     """A results file."""
 
     name: str  #: Of the attachment.
@@ -79,7 +79,7 @@ class Stated:
     results: Results  #: What is understood of it.
 
 
-def stated_by(carrier: Carrier) -> Stated | None:
+def stated_by(carrier: Carrier) -> StatedResults | None:
     """Return what the results file of a certificate states; None if it carries none that can be read.
 
     Raises `ValueError` if there is one, and it is no sound results file.
@@ -99,7 +99,7 @@ def stated_by(carrier: Carrier) -> Stated | None:
             raise ValueError(f"{file.name}: no JSON: {error}") from error
         if isinstance(tree, dict) and tree.get("schema") in {SCHEMA, MACHINE_RESULTS}:
             try:
-                return Stated(file.name, tree, Results.model_validate(tree))
+                return StatedResults(file.name, tree, Results.model_validate(tree))
             except ValidationError as error:
                 first = error.errors()[0]
                 where = ".".join(map(str, first["loc"]))
@@ -211,7 +211,7 @@ def compare(  # noqa: PLR0913 - what is stated, found and made again, and how mu
     same_programs: bool = True,
     compared_by_value: str = "",
     same_processor: bool = False,
-) -> tuple[Finding, ...]:
+) -> tuple[CheckedStatement, ...]:
     """Return a finding for each file that is attached, or should be.
 
     `again`: What it carries when it is made again, by name; None if it cannot be.
@@ -225,21 +225,27 @@ def compare(  # noqa: PLR0913 - what is stated, found and made again, and how mu
     for name in dict.fromkeys((*stated, *carried, *(again or {}))):
         file, source = carried.get(name), stated.get(name)
         if file is None:
-            findings.append(Finding(name, Verdict.DIFFERS, "is not attached"))
+            findings.append(CheckedStatement(name, VerificationVerdict.DIFFERS, "is not attached"))
             continue
         faults = [*_digests(file, source)]
         if again is not None:
             faults += _described(file, again.get(name))
         is_derived = again is not None and source is None and name != compared_by_value
         derived = again.get(name) if again and is_derived else None
-        verdict = Verdict.DIFFERS if faults else Verdict.HOLDS if source or again else Verdict.OPEN
+        verdict = (
+            VerificationVerdict.DIFFERS
+            if faults
+            else VerificationVerdict.HOLDS
+            if source or again
+            else VerificationVerdict.OPEN
+        )
         is_same = derived is None or file.content == derived.content
         if derived and not is_same and not same_processor:
             is_same = _are_alike(file.content, derived.content)
-        if verdict is Verdict.HOLDS and not is_same:
-            verdict = Verdict.DIFFERS if same_programs else Verdict.OPEN
+        if verdict is VerificationVerdict.HOLDS and not is_same:
+            verdict = VerificationVerdict.DIFFERS if same_programs else VerificationVerdict.OPEN
             faults = ["is not what the attached readings give"]
-        findings.append(Finding(name, verdict, "; ".join(faults)))
+        findings.append(CheckedStatement(name, verdict, "; ".join(faults)))
     return tuple(findings)
 
 
@@ -287,7 +293,7 @@ _EXTRA = "checking a digital certificate needs the extra dcc: pip install 'zlmre
 _MOST_DEFECTS = 3
 
 
-def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[Finding]:
+def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[CheckedStatement]:
     """Yield what PTB's rules and PTB's schema say of the attached digital certificates.
 
     `schema`: A folder with PTB's ``dcc.xsd`` and what it imports.
@@ -301,7 +307,9 @@ def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[F
         raise AccessError.at(place, message)
     digital = {name: each.content for name, each in carried.items() if _NAMESPACE in each.content[:1000]}
     if not digital:
-        yield Finding("digital certificate", Verdict.OPEN, "none is attached: output.formats names no dcc")
+        yield CheckedStatement(
+            "digital certificate", VerificationVerdict.OPEN, "none is attached: output.formats names no dcc"
+        )
     try:
         for name, content in digital.items():
             yield from _digital(name, content, schema / _SCHEMA)
@@ -309,17 +317,21 @@ def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[F
         raise InputError.at(place, _EXTRA) from error
 
 
-def _digital(name: str, content: bytes, schema: Path) -> Iterator[Finding]:
+def _digital(name: str, content: bytes, schema: Path) -> Iterator[CheckedStatement]:
     from lxml import etree  # noqa: PLC0415 - comes with the optional extra
 
     parser = etree.XMLParser(resolve_entities=False, no_network=True)
     try:
         certificate = etree.fromstring(content, parser)
     except etree.XMLSyntaxError as error:
-        yield Finding(name, Verdict.DIFFERS, f"is not XML: {' '.join(str(error).split())}")
+        yield CheckedStatement(
+            name, VerificationVerdict.DIFFERS, f"is not XML: {' '.join(str(error).split())}"
+        )
         return
     if certificate.getroottree().docinfo.doctype:  # its entities may be files, which who checks would read
-        yield Finding(name, Verdict.DIFFERS, "declares a document type, which no digital certificate does")
+        yield CheckedStatement(
+            name, VerificationVerdict.DIFFERS, "declares a document type, which no digital certificate does"
+        )
         return
     yield _finding(name, "PTB's rules", _broken_rules(etree.tostring(certificate, encoding="unicode")))
     rules = etree.XMLSchema(etree.parse(str(schema), parser))
@@ -339,8 +351,8 @@ def _broken_rules(text: str) -> list[str]:
     return [*(each.text for each in found.failed_assertions), *reports]
 
 
-def _finding(name: str, by: str, broken: list[str]) -> Finding:
+def _finding(name: str, by: str, broken: list[str]) -> CheckedStatement:
     if not broken:
-        return Finding(name, Verdict.HOLDS, f"valid by {by}")
+        return CheckedStatement(name, VerificationVerdict.HOLDS, f"valid by {by}")
     shown = "; ".join(" ".join(each.split()) for each in broken[:_MOST_DEFECTS])
-    return Finding(name, Verdict.DIFFERS, f"not valid by {by}: {shown}")
+    return CheckedStatement(name, VerificationVerdict.DIFFERS, f"not valid by {by}: {shown}")

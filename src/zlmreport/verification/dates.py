@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
 
 #: What a job says of the future.
 _OF_THE_FUTURE = frozenset({"due", "next_due"})
@@ -22,10 +22,12 @@ _AHEAD = Words(
 )
 
 
-def future_dates(job: Job, today: dt.date) -> tuple[Finding, ...]:
+def future_dates(job: Job, today: dt.date) -> tuple[CheckedStatement, ...]:
     """Return the dates of a job that have not come yet, as not decided."""
     return tuple(
-        Finding(key, Verdict.OPEN, _AHEAD.given(date=date.isoformat(), today=today.isoformat()))
+        CheckedStatement(
+            key, VerificationVerdict.OPEN, _AHEAD.given(date=date.isoformat(), today=today.isoformat())
+        )
         for key, date in _of_job(job)
         if date > today + _ELSEWHERE
     )

@@ -9,7 +9,7 @@ from enum import StrEnum
 from zlmreport.language import Language, Words
 
 
-class Verdict(StrEnum):
+class VerificationVerdict(StrEnum):
     """What was found of a statement; one that could not be compared is not one that holds."""
 
     HOLDS = "holds"
@@ -17,7 +17,7 @@ class Verdict(StrEnum):
     OPEN = "not compared"
 
 
-class Outcome(StrEnum):
+class VerificationOutcome(StrEnum):
     """What a verification comes to."""
 
     HOLDS = "holds"
@@ -31,17 +31,19 @@ def is_number(value: object) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class CheckedStatement:
     """A statement and its verdict."""
 
     subject: str  #: What it is about: ``page 3``, ``y-axis.csv``.
-    verdict: Verdict  #: Whether it holds.
+    verdict: VerificationVerdict  #: Whether it holds.
     detail: Words | str = ""  #: Why not, or by what.
 
     @classmethod
-    def of(cls, subject: str, difference: str) -> Finding:
+    def of(cls, subject: str, difference: str) -> CheckedStatement:
         """Return that a statement holds, or how it differs."""
-        return cls(subject, Verdict.DIFFERS if difference else Verdict.HOLDS, difference)
+        return cls(
+            subject, VerificationVerdict.DIFFERS if difference else VerificationVerdict.HOLDS, difference
+        )
 
 
 def first_of(told: Sequence[str], most: int) -> str:
@@ -51,7 +53,7 @@ def first_of(told: Sequence[str], most: int) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class ComparedValue:
     """A value of the results file beside the one that is computed again."""
 
     #: Where it stands: ``("evaluations", "iso230-2:2014", "parameters", "A", "value")``.
@@ -59,7 +61,7 @@ class Value:
     #: stated and recomputed: In the units of the results file; None where one of them is absent.
     stated: object
     recomputed: object
-    verdict: Verdict  #: Whether they agree.
+    verdict: VerificationVerdict  #: Whether they agree.
 
     @property
     def is_number(self) -> bool:
@@ -68,7 +70,7 @@ class Value:
 
 
 @dataclass(frozen=True, slots=True)
-class OwnText:
+class QuotedText:
     """A text that somebody else wrote, and that is printed as it stands.
 
     `key` is where the job states it, or what it comes from; `oddities` are what nobody can tell by looking;
@@ -98,13 +100,17 @@ class Verification:
     """All that was found of a certificate."""
 
     identity: Identity  #: Of the certificate.
-    signature: Finding  #: Of the file; open if it is not signed.
-    files: tuple[Finding, ...] = ()  #: The attached files against what the certificate states of them.
-    values: tuple[Value, ...] = ()  #: Every value of the results file against the readings, evaluated again.
-    pages: tuple[Finding, ...] = ()  #: Each page against the page as it is printed again.
+    signature: CheckedStatement  #: Of the file; open if it is not signed.
+    files: tuple[
+        CheckedStatement, ...
+    ] = ()  #: The attached files against what the certificate states of them.
+    values: tuple[
+        ComparedValue, ...
+    ] = ()  #: Every value of the results file against the readings, evaluated again.
+    pages: tuple[CheckedStatement, ...] = ()  #: Each page against the page as it is printed again.
     #: What else the file holds: metadata, bookmarks, structure with the alternative texts.
-    document: tuple[Finding, ...] = ()
-    own_words: tuple[OwnText, ...] = ()  #: Words that somebody else wrote, and that nothing computes.
+    document: tuple[CheckedStatement, ...] = ()
+    own_words: tuple[QuotedText, ...] = ()  #: Words that somebody else wrote, and that nothing computes.
     remarks: tuple[Words, ...] = field(default=())  #: What limits the comparison.
     is_signed: bool = False  #: Whether there is a signature, be it intact or not.
     is_trusted: bool = False  #: Whether it is intact, and made with a certificate that is trusted.
@@ -112,30 +118,30 @@ class Verification:
     is_time_trusted: bool = False
 
     @property
-    def outcome(self) -> Outcome:
+    def outcome(self) -> VerificationOutcome:
         """Whether all holds; what could not be compared leaves it undecided."""
         if self.differences:
-            return Outcome.DOES_NOT_HOLD
-        return Outcome.UNDECIDED if self.undecided else Outcome.HOLDS
+            return VerificationOutcome.DOES_NOT_HOLD
+        return VerificationOutcome.UNDECIDED if self.undecided else VerificationOutcome.HOLDS
 
     @property
     def holds(self) -> bool:
         """Whether everything was compared, and nothing differs."""
-        return self.outcome is Outcome.HOLDS
+        return self.outcome is VerificationOutcome.HOLDS
 
     @property
     def undecided(self) -> tuple[str, ...]:
         """The parts in which something could not be compared, such as ``("values", "pages")``."""
-        return tuple(name for name, verdicts in self._parts().items() if Verdict.OPEN in verdicts)
+        return tuple(name for name, verdicts in self._parts().items() if VerificationVerdict.OPEN in verdicts)
 
     @property
     def differences(self) -> int:
         """How many statements differ."""
-        return sum(verdicts.count(Verdict.DIFFERS) for verdicts in self._parts().values())
+        return sum(verdicts.count(VerificationVerdict.DIFFERS) for verdicts in self._parts().values())
 
-    def _parts(self) -> dict[str, list[Verdict]]:
+    def _parts(self) -> dict[str, list[VerificationVerdict]]:
         """Return the verdicts of each part; that nobody signed leaves nothing of it open."""
-        is_unsigned = self.signature.verdict is Verdict.OPEN and not self.is_signed
+        is_unsigned = self.signature.verdict is VerificationVerdict.OPEN and not self.is_signed
         findings = {"files": self.files, "pages": self.pages, "document": self.document}
         return {
             "signature": [] if is_unsigned else [self.signature.verdict],

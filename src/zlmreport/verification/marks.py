@@ -31,14 +31,14 @@ class ForeignError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Mark:
+class DrawnMark:
     """Something that is drawn."""
 
     what: tuple[Any, ...]  #: What it is: the glyph, the kind of line, the picture, and how it is coloured.
     scale: tuple[float, ...] = ()  #: Its size, or the width of its line.
     place: tuple[float, ...] = ()  #: Where it stands: x and y of each of its points, in points of the page.
 
-    def is_as(self, other: Mark) -> bool:
+    def is_as(self, other: DrawnMark) -> bool:
         """Whether the same is drawn: another place is no other mark, and another shape is."""
         return (
             self.what == other.what
@@ -46,7 +46,7 @@ class Mark:
             and _are_close(self._shape(), other._shape(), TOLERANCE)
         )
 
-    def is_where(self, other: Mark) -> bool:
+    def is_where(self, other: DrawnMark) -> bool:
         """Whether both stand at the same place."""
         return _are_close(self.place, other.place, TOLERANCE)
 
@@ -87,7 +87,7 @@ class _Pen:
     clip: str = ""
     line: _Matrix = _UNIT
     text: _Matrix = _UNIT
-    marks: list[Mark] = field(default_factory=list)
+    marks: list[DrawnMark] = field(default_factory=list)
 
     def set(self, **changed: Any) -> None:
         self.state = replace(self.state, **changed)
@@ -102,10 +102,10 @@ class _Pen:
     def mark(self, *what: Any, scale: tuple[float, ...] = (), place: tuple[float, ...] = ()) -> None:
         if len(self.marks) >= _MOST_MARKS:
             raise ForeignError("draws more than any page of a certificate")
-        self.marks.append(Mark(what, scale, place))
+        self.marks.append(DrawnMark(what, scale, place))
 
 
-def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) -> list[Mark]:
+def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) -> list[DrawnMark]:
     """Return what a page of pypdf draws.
 
     `known_fonts`: The glyphs of fonts that were met, by their digests; it is added to.

@@ -18,7 +18,7 @@ from zlmreport.job.choices import Choice, ExtensionChoice
 from zlmreport.job.job import Job
 from zlmreport.job.types import free_texts
 from zlmreport.language import Words
-from zlmreport.verification.findings import OwnText
+from zlmreport.verification.findings import QuotedText
 from zlmreport.verification.look_alikes import oddities, read_as
 
 #: The last steps of keys whose texts name installed things, files and hosts, and say nothing to a reader.
@@ -93,7 +93,7 @@ _NUMBERED = Words(
 )
 
 
-def own_texts(certificate: Certificate, job: Job) -> tuple[OwnText, ...]:
+def own_texts(certificate: Certificate, job: Job) -> tuple[QuotedText, ...]:
     """Return the words of a job that are printed as they stand, each once.
 
     A text that nobody sees the claim of, for its letters only look like it, makes that claim too.
@@ -106,25 +106,25 @@ def own_texts(certificate: Certificate, job: Job) -> tuple[OwnText, ...]:
     return _quoted(_texts(certificate, job), symbols)
 
 
-def own_texts_of(keys: BaseModel) -> tuple[OwnText, ...]:
+def own_texts_of(keys: BaseModel) -> tuple[QuotedText, ...]:
     """Return the words of a file's keys, of which no job is made."""
     return _quoted(_free(keys), set())
 
 
-def _quoted(texts: Iterable[tuple[str, str]], symbols: set[str]) -> tuple[OwnText, ...]:
+def _quoted(texts: Iterable[tuple[str, str]], symbols: set[str]) -> tuple[QuotedText, ...]:
     letters = "|".join(map(re.escape, sorted(symbols | {"U"})))
     result = re.compile(
         rf"(?<![^\W_])(?:{letters})(?:_\w+|[↑↓])?\s*(?:(?:[=:≈<>≤≥]|is|ist)\s*[+±-]?\d|\d+[.,]\d)",
         re.IGNORECASE,
     )
     found = [
-        OwnText(key, text, tuple(oddities(text)), _claim(key, text, result))
+        QuotedText(key, text, tuple(oddities(text)), _claim(key, text, result))
         for key, text in dict.fromkeys(texts)
     ]
     return tuple(each for each in found if each.key not in _OF_FILES or _says_something(each))
 
 
-def _says_something(text: OwnText) -> bool:
+def _says_something(text: QuotedText) -> bool:
     """Whether it is what somebody said, or odd: a file has a name, which says nothing else."""
     return bool(text.oddities or text.claim or text.key == "readings")
 

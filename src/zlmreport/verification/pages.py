@@ -11,10 +11,10 @@ from typing import Any
 
 from zlmreport.verification import raster, shape
 from zlmreport.verification.carrier import Carrier, guarded
-from zlmreport.verification.findings import Finding, Verdict, first_of
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, first_of
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
-from zlmreport.verification.marks import TOLERANCE, ForeignError, Mark, marks
+from zlmreport.verification.marks import TOLERANCE, DrawnMark, ForeignError, marks
 
 #: Words of a page that are compared, and differences of a page that are told.
 _MOST_WORDS = 5000
@@ -44,12 +44,12 @@ _NOT_COMPARED = shape.OF_SIGNATURES | {"/AF", "/EmbeddedFiles", "/Names", "/Page
 
 
 @dataclass(frozen=True, slots=True)
-class Compared:
+class ComparedPages:
     """What came of two documents."""
 
     #: pages and document: The findings.
-    pages: tuple[Finding, ...]
-    document: tuple[Finding, ...]
+    pages: tuple[CheckedStatement, ...]
+    document: tuple[CheckedStatement, ...]
     #: Whether some page is the same, stroke for stroke. If none is, other libraries printed the document, or
     #: every page is altered: then each mark of each page is compared.
     is_drawn_alike: bool
@@ -57,7 +57,7 @@ class Compared:
     is_same: bool = True
 
 
-def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> Compared:
+def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> ComparedPages:
     """Compare a document with the same one printed again, page by page and part by part.
 
     `is_signed` says whether it may have what belongs to a signature.
@@ -76,22 +76,22 @@ class _Comparison:
         self._is_drawn_alike = bool(set(self._pages) & set(self._pages_again))
         self._same: dict[tuple[str, str], bool] = {}
 
-    def compared(self, *, is_signed: bool) -> Compared:
+    def compared(self, *, is_signed: bool) -> ComparedPages:
         structure = shape.compare(self._prints.carrier, self._prints_again.traits, is_signed=is_signed)
         document = (structure, *self._of_document())
         pages = tuple(self._of_pages())
-        if all(each.verdict is Verdict.HOLDS for each in (*pages, *document)):
+        if all(each.verdict is VerificationVerdict.HOLDS for each in (*pages, *document)):
             pages = self._seen(pages)
-        return Compared(pages, document, self._is_drawn_alike, self._pages == self._pages_again)
+        return ComparedPages(pages, document, self._is_drawn_alike, self._pages == self._pages_again)
 
-    def _seen(self, pages: tuple[Finding, ...]) -> tuple[Finding, ...]:
+    def _seen(self, pages: tuple[CheckedStatement, ...]) -> tuple[CheckedStatement, ...]:
         """Return what is found of pages that are the same on paper, looked at as a viewer shows them."""
         is_alike = list(map(str.__eq__, self._pages, self._pages_again))
         content, again = self._prints.carrier.content, self._prints_again.carrier.content
         differing = raster.compare(content, again, is_alike)
         return tuple(differing.get(number, finding) for number, finding in enumerate(pages))
 
-    def _of_pages(self) -> Iterator[Finding]:
+    def _of_pages(self) -> Iterator[CheckedStatement]:
         """Yield a finding for each page; pages that were put in or taken out shift those that follow."""
         matched = SequenceMatcher(None, self._pages, self._pages_again, autojunk=False)
         for kind, first, end, first_again, end_again in matched.get_opcodes():
@@ -102,11 +102,13 @@ class _Comparison:
                 else:
                     yield self._altered(number, number_again)
             for number in range(first + common, end):
-                yield Finding(_page(number), Verdict.DIFFERS, "is no page of this certificate")
+                yield CheckedStatement(
+                    _page(number), VerificationVerdict.DIFFERS, "is no page of this certificate"
+                )
             for number in range(first_again + common, end_again):
-                yield Finding(_page(number), Verdict.DIFFERS, "is missing")
+                yield CheckedStatement(_page(number), VerificationVerdict.DIFFERS, "is missing")
 
-    def _drawn_with(self, number: int, number_again: int) -> Finding:
+    def _drawn_with(self, number: int, number_again: int) -> CheckedStatement:
         """Return whether a page of the same strokes is drawn with the same fonts and pictures."""
         used = self._prints.resources(number)
         again = self._prints_again.resources(number_again)
@@ -118,7 +120,7 @@ class _Comparison:
             or not self._is_same_resource(name, used[name], again[name])
         ]
         kinds = [_RESOURCES.get(kind, kind) for kind, _ in differing[:1]]
-        return Finding.of(_page(number), f"its {kinds[0]} differ" if kinds else "")
+        return CheckedStatement.of(_page(number), f"its {kinds[0]} differ" if kinds else "")
 
     def _is_same_resource(self, name: tuple[str, str], used: Any, again: Any) -> bool:
         digests = self._prints.of(used), self._prints_again.of(again)
@@ -136,29 +138,39 @@ class _Comparison:
             )
         return self._same[digests]
 
-    def _altered(self, number: int, number_again: int) -> Finding:
+    def _altered(self, number: int, number_again: int) -> CheckedStatement:
         """Return what is to be said of a page that is not the same, stroke for stroke."""
         subject = _page(number)
         if not self._prints.is_framed_like(number, self._prints_again, number_again):
-            return Finding(subject, Verdict.DIFFERS, "its size, its frame or its links differ")
+            return CheckedStatement(
+                subject, VerificationVerdict.DIFFERS, "its size, its frame or its links differ"
+            )
         try:
             drawn, drawn_again = self._prints.marks(number), self._prints_again.marks(number_again)
         except (ForeignError, ValueError, RecursionError) as error:
-            return Finding(subject, Verdict.DIFFERS, f"is drawn as no certificate is: {error}")
-        is_same = len(drawn) == len(drawn_again) and all(map(Mark.is_as, drawn, drawn_again))
-        if is_same and all(map(Mark.is_where, drawn, drawn_again)):
-            return Finding(subject, Verdict.HOLDS)
+            return CheckedStatement(
+                subject, VerificationVerdict.DIFFERS, f"is drawn as no certificate is: {error}"
+            )
+        is_same = len(drawn) == len(drawn_again) and all(map(DrawnMark.is_as, drawn, drawn_again))
+        if is_same and all(map(DrawnMark.is_where, drawn, drawn_again)):
+            return CheckedStatement(subject, VerificationVerdict.HOLDS)
         words, words_again = self._prints.words(number), self._prints_again.words(number_again)
         differences = list(_differences(words, words_again))
         if differences:
-            return Finding(subject, Verdict.DIFFERS, first_of(differences, _MOST_DIFFERENCES))
-        if is_same and not self._is_drawn_alike:
-            return Finding(
-                subject, Verdict.OPEN, "the same is drawn, but not where it is printed again: look at it"
+            return CheckedStatement(
+                subject, VerificationVerdict.DIFFERS, first_of(differences, _MOST_DIFFERENCES)
             )
-        return Finding(subject, Verdict.DIFFERS, "its words are the same, but it is drawn otherwise")
+        if is_same and not self._is_drawn_alike:
+            return CheckedStatement(
+                subject,
+                VerificationVerdict.OPEN,
+                "the same is drawn, but not where it is printed again: look at it",
+            )
+        return CheckedStatement(
+            subject, VerificationVerdict.DIFFERS, "its words are the same, but it is drawn otherwise"
+        )
 
-    def _of_document(self) -> Iterator[Finding]:
+    def _of_document(self) -> Iterator[CheckedStatement]:
         """Yield what else a document holds, part by part."""
         stated, again = self._prints.parts, self._prints_again.parts
         for key in sorted({*stated, *again}):
@@ -171,7 +183,7 @@ class _Comparison:
             else:
                 is_same = self._is_same_part(stated[key], again[key])
                 difference = "" if is_same else "is not what is printed again"
-            yield Finding.of(_PARTS.get(key, key), difference)
+            yield CheckedStatement.of(_PARTS.get(key, key), difference)
         yield from _metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
 
     def _is_same_part(self, stated: Any, again: Any) -> bool:
@@ -191,7 +203,7 @@ class Prints:
         self._reader = carrier.reader
         self._known: dict[int, str] = {}
         self._fonts: dict[str, Any] = {}
-        self._marks: dict[int, list[Mark]] = {}
+        self._marks: dict[int, list[DrawnMark]] = {}
         pages = {page.indirect_reference.idnum: number for number, page in enumerate(self._reader.pages, 1)}
         self._fingerprints = Fingerprints(pages, carrier.place)
 
@@ -228,7 +240,7 @@ class Prints:
         """How it is built."""
         return frozenset(shape.traits(self.carrier))
 
-    def marks(self, number: int) -> list[Mark]:
+    def marks(self, number: int) -> list[DrawnMark]:
         """Return what a page draws."""
         if number not in self._marks:
             self._marks[number] = marks(self._reader.pages[number], self.of, self._fonts)
@@ -291,11 +303,11 @@ def _passage(found: list[str]) -> str:
     return f"'{text if len(text) <= _LONGEST_PASSAGE else text[: _LONGEST_PASSAGE - 1] + '…'}'"
 
 
-def _metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[Finding]:
+def _metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[CheckedStatement]:
     """Yield the entries of the information dictionary; a program that saved it again may name itself."""
     for key in sorted({*stated, *again}):
         found, expected = stated.get(key), again.get(key)
         if key == "/Producer" and found is not None and _SAVED_BY.fullmatch(found):
             continue
         difference = "" if found == expected else f"{found!r} stands where {expected!r} is printed again"
-        yield Finding.of(f"metadata: {key.removeprefix('/')}", difference)
+        yield CheckedStatement.of(f"metadata: {key.removeprefix('/')}", difference)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from zlmreport.verification.findings import Finding, Verdict
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
 
 #: Dots to the inch: a digit of 7 points is 7 pixels high.
 _RESOLUTION = 96
@@ -25,7 +25,7 @@ _MILLIMETRES = 25.4 / _RESOLUTION
 _LONGEST = 40
 
 
-def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int, Finding]:
+def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int, CheckedStatement]:
     """Return what is seen otherwise, by the number of the page from 0.
 
     `is_alike`: For each page whether both draw stroke for stroke alike; otherwise marks may be off by a
@@ -33,7 +33,7 @@ def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int,
     """
     import pypdfium2  # noqa: PLC0415 - slow to load
 
-    found: dict[int, Finding] = {}
+    found: dict[int, CheckedStatement] = {}
     with pypdfium2.PdfDocument(content) as one, pypdfium2.PdfDocument(again) as other:
         for number, is_same in enumerate(is_alike):
             if number >= len(one):
@@ -42,7 +42,7 @@ def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int,
                 difference = _difference(one[number], other[number], is_alike=is_same)
             if difference:
                 detail = f"PDFium shows it otherwise: {difference}"
-                found[number] = Finding(f"page {number + 1}", Verdict.DIFFERS, detail)
+                found[number] = CheckedStatement(f"page {number + 1}", VerificationVerdict.DIFFERS, detail)
     return found
 
 

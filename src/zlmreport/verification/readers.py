@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import Finding, first_of
+from zlmreport.verification.findings import CheckedStatement, first_of
 
 _LEADS = re.compile(rb"(startxref\s+)(\d+)")
 #: Of a program of the system, in seconds and in bytes of what it prints.
@@ -63,7 +63,7 @@ class Reader:
         return not self.command or shutil.which(self.command) is not None
 
 
-def compare(carrier: Carrier, again: bytes, *, is_drawn_alike: bool) -> Finding:
+def compare(carrier: Carrier, again: bytes, *, is_drawn_alike: bool) -> CheckedStatement:
     """Return whether all readers see one and the same document.
 
     `again`: The document printed again.
@@ -72,7 +72,7 @@ def compare(carrier: Carrier, again: bytes, *, is_drawn_alike: bool) -> Finding:
     told = list(differences(carrier.content, attachments_of(carrier), len(carrier.reader.pages)))
     if is_drawn_alike and not told:
         told += list(_from_again(carrier.content, again))
-    return Finding.of(SUBJECT, first_of(told, _MOST_TOLD))
+    return CheckedStatement.of(SUBJECT, first_of(told, _MOST_TOLD))
 
 
 def attachments_of(carrier: Carrier) -> tuple[str, ...]:

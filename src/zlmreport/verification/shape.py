@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import Finding, first_of
+from zlmreport.verification.findings import CheckedStatement, first_of
 
 #: Where an entry stands, its key, and what kind of value it has.
 Trait: TypeAlias = tuple[str, str, str]
@@ -45,7 +45,7 @@ _END = re.compile(rb"startxref\s+(\d+)\s+%%EOF\s*\Z")
 _OBJECTS = re.compile(rb"\s*(xref\b|\d+\s+\d+\s+obj\b)")
 
 
-def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> Finding:
+def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> CheckedStatement:
     """Return whether a document is built of nothing but what the one printed again is built of."""
     told = [
         *_around(carrier.content),
@@ -53,7 +53,7 @@ def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> F
         *strangers(carrier.reader, is_signed=is_signed),
         *dict.fromkeys(_said(trait) for trait in traits(carrier) if trait not in known),
     ]
-    return Finding.of(_SUBJECT, first_of(told, _MOST_TOLD))
+    return CheckedStatement.of(_SUBJECT, first_of(told, _MOST_TOLD))
 
 
 def _around(content: bytes) -> Iterator[str]:

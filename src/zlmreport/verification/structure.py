@@ -9,17 +9,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from zlmreport.verification.findings import Finding
+from zlmreport.verification.findings import CheckedStatement
 
 _SUBJECT = "places of the structure"
 _MOST_NODES = 1_000_000
 
 
-def compare(reader: Any) -> Finding:
+def compare(reader: Any) -> CheckedStatement:
     """Return whether both ways lead to the same elements; elements are compared elsewhere."""
     root = reader.trailer["/Root"].get_object().get("/StructTreeRoot")
     if root is None:
-        return Finding.of(_SUBJECT, "")
+        return CheckedStatement.of(_SUBJECT, "")
     tree = root.get_object()
     places = dict(_places(tree))
     table = dict(_numbers(tree.get("/ParentTree")))
@@ -34,8 +34,10 @@ def compare(reader: Any) -> Finding:
         }
         by_elements = {place: element for place, element in places.items() if place[0] == own}
         if by_table != by_elements:
-            return Finding.of(_SUBJECT, f"those of page {number} lead to other elements than list them")
-    return Finding.of(_SUBJECT, "")
+            return CheckedStatement.of(
+                _SUBJECT, f"those of page {number} lead to other elements than list them"
+            )
+    return CheckedStatement.of(_SUBJECT, "")
 
 
 def _places(tree: Any) -> Iterator[tuple[tuple[int, int], int]]:

@@ -13,11 +13,11 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from zlmreport.verification.findings import Finding, Verdict, first_of
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, first_of
 from zlmreport.verification.tokens import (
     Indirect,
-    Name,
     OddError,
+    PdfName,
     Reference,
     Value,
     begins_object,
@@ -48,7 +48,7 @@ _WIDEST = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class TableEntry:
     """What a table says of an object.
 
     `kind` is 0 for a number that is free, 1 for an object that begins at byte `first`, 2 for one that is
@@ -64,7 +64,7 @@ class Entry:
 class _Table:
     """A table: entries by number, the dictionary at its end, where it begins and where its revision ends."""
 
-    entries: dict[int, Entry]
+    entries: dict[int, TableEntry]
     trailer: dict[bytes, Value]
     start: int
     end: int
@@ -78,14 +78,14 @@ class Scanned:
     trailer: dict[bytes, Value]
 
 
-def finding(content: bytes, *, is_signed: bool) -> Finding:
+def finding(content: bytes, *, is_signed: bool) -> CheckedStatement:
     """Return whether a file is what its tables say, byte for byte, and all of it leads somewhere."""
     try:
         scanned = scan(content, is_signed=is_signed)
     except OddError as error:
-        return Finding(_SUBJECT, Verdict.DIFFERS, str(error))
+        return CheckedStatement(_SUBJECT, VerificationVerdict.DIFFERS, str(error))
     lost = [f"nothing leads to object {number}" for number in orphans(scanned)]
-    return Finding.of(_SUBJECT, first_of(lost, _MOST_TOLD))
+    return CheckedStatement.of(_SUBJECT, first_of(lost, _MOST_TOLD))
 
 
 def scan(content: bytes, *, is_signed: bool) -> Scanned:
@@ -141,7 +141,7 @@ class _Scan:
         return table
 
     def _plain(self, at: int, start: int) -> _Table:
-        content, entries = self._content, dict[int, Entry]()
+        content, entries = self._content, dict[int, TableEntry]()
         while section := _SECTION.match(content, at):
             first, count = int(section[1]), int(section[2])
             at = section.end()
@@ -154,7 +154,7 @@ class _Scan:
                 if row is None or row.end() - at != _ENTRY_SIZE:
                     raise OddError(f"the entry of object {number} in its table is not of 20 bytes")
                 is_used = row[3] == b"n"
-                entries[number] = Entry(_PLAIN if is_used else _FREE, int(row[1]), int(row[2]))
+                entries[number] = TableEntry(_PLAIN if is_used else _FREE, int(row[1]), int(row[2]))
                 at = row.end()
         begun = _TRAILER.match(content, at)
         if begun is None:
@@ -167,7 +167,7 @@ class _Scan:
     def _of_stream(self, found: list[Indirect], at: int) -> _Table:
         last = found[-1] if found else None
         value = last.value if last else None
-        if last is None or not isinstance(value, dict) or value.get(b"Type") != Name(b"XRef"):
+        if last is None or not isinstance(value, dict) or value.get(b"Type") != PdfName(b"XRef"):
             raise OddError(f"what stands at byte {at} is no object and no table")
         entries = _packed_entries(value, self._data(last))
         return _Table(entries, value, last.start, self._end(at, last.start))
@@ -196,11 +196,11 @@ class _Scan:
         self._known |= values
         self._is_counted(table, before)
 
-    def _values(self, found: list[Indirect], table: _Table) -> tuple[dict[int, Value], dict[int, Entry]]:
+    def _values(self, found: list[Indirect], table: _Table) -> tuple[dict[int, Value], dict[int, TableEntry]]:
         """Return the objects of a revision by number, those packed in others too, and where each stands."""
-        values, places = dict[int, Value](), dict[int, Entry]()
+        values, places = dict[int, Value](), dict[int, TableEntry]()
 
-        def know(number: int, value: Value, place: Entry) -> None:
+        def know(number: int, value: Value, place: TableEntry) -> None:
             if number in values:
                 raise OddError(f"object {number} stands there twice")
             values[number], places[number] = value, place
@@ -210,11 +210,11 @@ class _Scan:
                 raise OddError(f"object {each.number} stands there in another generation")
             if _has_type(each, b"XRef") and each.start != table.start:
                 raise OddError("it has a second table of its objects")
-            know(each.number, each.value, Entry(_PLAIN, each.start, 0))
+            know(each.number, each.value, TableEntry(_PLAIN, each.start, 0))
         for each in found:
             if _has_type(each, b"ObjStm"):
                 for index, (number, value) in enumerate(self._inside(each)):
-                    know(number, value, Entry(_PACKED, each.number, index))
+                    know(number, value, TableEntry(_PACKED, each.number, index))
         return values, places
 
     def _is_counted(self, table: _Table, before: int | None) -> None:
@@ -257,7 +257,7 @@ class _Scan:
             raise OddError(f"object {holder.number} has no data")
         data = self._content[slice(*holder.stream)]
         packing = entries.get(b"Filter")
-        if packing in (Name(b"FlateDecode"), [Name(b"FlateDecode")]):
+        if packing in (PdfName(b"FlateDecode"), [PdfName(b"FlateDecode")]):
             unpacking = zlib.decompressobj()
             try:
                 data = unpacking.decompress(data, _LARGEST - self._unpacked + 1)
@@ -283,10 +283,10 @@ class _Scan:
 
 
 def _has_type(each: Indirect, name: bytes) -> bool:
-    return isinstance(each.value, dict) and each.value.get(b"Type") == Name(name)
+    return isinstance(each.value, dict) and each.value.get(b"Type") == PdfName(name)
 
 
-def _packed_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, Entry]:
+def _packed_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, TableEntry]:
     """Return the entries of a packed table."""
     widths, size = trailer.get(b"W"), trailer.get(b"Size")
     sections = trailer.get(b"Index", [0, size])
@@ -303,7 +303,7 @@ def _packed_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, Entry
     numbers = [each for each in sections if isinstance(each, int)]
     if sum(numbers[1::2]) * sum(columns) != len(data):
         raise OddError("its packed table states another number of objects than it lists")
-    entries: dict[int, Entry] = {}
+    entries: dict[int, TableEntry] = {}
     at = 0
     for first, count in zip(numbers[::2], numbers[1::2], strict=True):
         if entries and first <= max(entries):
@@ -315,7 +315,7 @@ def _packed_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, Entry
                 at += width
             if row[0] not in {_FREE, _PLAIN, _PACKED}:
                 raise OddError(f"the entry of object {number} in its table is of no known kind")
-            entries[number] = Entry(row[0], row[1], row[2])
+            entries[number] = TableEntry(row[0], row[1], row[2])
     return entries
 
 
@@ -360,5 +360,5 @@ def orphans(scanned: Scanned) -> Iterator[int]:
     for number in sorted(scanned.objects.keys() - met):
         value = scanned.objects[number]
         kind = value.get(b"Type") if isinstance(value, dict) else None
-        if value not in (None, {}, []) and kind not in {Name(b"XRef"), Name(b"ObjStm")}:
+        if value not in (None, {}, []) and kind not in {PdfName(b"XRef"), PdfName(b"ObjStm")}:
             yield number

@@ -40,14 +40,16 @@ class Reference:
 
 
 @dataclass(frozen=True, slots=True)
-class Name:
+class PdfName:
     """A name, without its solidus and without escapes."""
 
     text: bytes
 
 
 #: What an object is: numbers, truth and nothing of Python; strings as they stand in the file.
-Value: TypeAlias = "int | float | bool | bytes | Name | Reference | list[Value] | dict[bytes, Value] | None"
+Value: TypeAlias = (
+    "int | float | bool | bytes | PdfName | Reference | list[Value] | dict[bytes, Value] | None"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +89,7 @@ def read_value(content: bytes, at: int, depth: int = 0) -> tuple[Value, int]:
         end = _end_of_string(content, at)
         return content[at:end], end
     for kind, made in (
-        (_NAME, lambda found: Name(_unescaped(found[1]))),
+        (_NAME, lambda found: PdfName(_unescaped(found[1]))),
         (_REFERENCE, lambda found: Reference(int(found[1]), int(found[2]))),
         (_NUMBER, lambda found: float(found[0]) if b"." in found[0] else int(found[0])),
         (_WORD, lambda found: {b"true": True, b"false": False}.get(found[0])),
@@ -107,7 +109,7 @@ def _dictionary(content: bytes, at: int, depth: int) -> tuple[Value, int]:
     at = skip_space(content, at)
     while not content.startswith(b">>", at):
         key, at = read_value(content, at, depth)
-        if not isinstance(key, Name):
+        if not isinstance(key, PdfName):
             raise OddError(f"a key before byte {at} is no name")
         if key.text in found:
             raise OddError(f"a key before byte {at} stands twice")

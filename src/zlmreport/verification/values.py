@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Any
 
-from zlmreport.verification.findings import Value, Verdict, is_number
+from zlmreport.verification.findings import ComparedValue, VerificationVerdict, is_number
 
 #: Relative, and in units of the results file: another processor rounds the last digits otherwise.
 _TOLERANCE = 1e-9
@@ -22,7 +22,7 @@ _OF_NAME = 2
 _NAMES = ("standard", "symbol", "name", "target", "effect", "path", "requirement")
 
 
-def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value, ...]:
+def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[ComparedValue, ...]:
     """Return every value of two results files, side by side.
 
     `same_programs`: Whether both come from the same releases. Otherwise readings, parameters and limits are
@@ -34,17 +34,19 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Value
     )
 
 
-def _of_another_release(value: Value) -> Value:
+def _of_another_release(value: ComparedValue) -> ComparedValue:
     path = value.path
     while path[0] in _NAMED and len(path) > _OF_NAME:
         path = path[_OF_NAME:]
     is_kept = path[0] == "measurements" or (path[2:3] == ("parameters",) and path[-1] in _KEPT)
-    if value.verdict is Verdict.HOLDS or (value.is_number and is_kept and value.stated is not None):
+    if value.verdict is VerificationVerdict.HOLDS or (
+        value.is_number and is_kept and value.stated is not None
+    ):
         return value
-    return Value(value.path, value.stated, value.recomputed, Verdict.OPEN)
+    return ComparedValue(value.path, value.stated, value.recomputed, VerificationVerdict.OPEN)
 
 
-def _walk(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[Value]:
+def _walk(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[ComparedValue]:
     if isinstance(stated, dict) and isinstance(recomputed, dict):
         for key in dict.fromkeys((*stated, *recomputed)):
             yield from _walk(stated.get(key), recomputed.get(key), (*path, key))
@@ -54,7 +56,7 @@ def _walk(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[Value
     elif isinstance(stated, dict | list) or isinstance(recomputed, dict | list):
         yield from _on_one_side(stated, recomputed, path)
     else:
-        yield Value(path, stated, recomputed, _verdict(stated, recomputed, path))
+        yield ComparedValue(path, stated, recomputed, _verdict(stated, recomputed, path))
 
 
 def _paired(stated: list[Any], recomputed: list[Any]) -> Iterator[tuple[str, Any, Any]]:
@@ -83,12 +85,12 @@ def _name(item: Any, number: int) -> str:
     return next((f"{keys[key]}" for key in _NAMES if key in keys), str(number))
 
 
-def _on_one_side(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[Value]:
+def _on_one_side(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[ComparedValue]:
     """Yield the values of a branch that has no counterpart of its kind."""
     for leaf_path, leaf in _leaves(stated, path):
-        yield Value(leaf_path, leaf, None, Verdict.DIFFERS)
+        yield ComparedValue(leaf_path, leaf, None, VerificationVerdict.DIFFERS)
     for leaf_path, leaf in _leaves(recomputed, path):
-        yield Value(leaf_path, None, leaf, Verdict.DIFFERS)
+        yield ComparedValue(leaf_path, None, leaf, VerificationVerdict.DIFFERS)
 
 
 def _leaves(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
@@ -102,10 +104,10 @@ def _leaves(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...],
         yield path, node
 
 
-def _verdict(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Verdict:
+def _verdict(stated: Any, recomputed: Any, path: tuple[str, ...]) -> VerificationVerdict:
     if is_number(stated) and is_number(recomputed):
         tolerance = _TOLERANCE_OF_FITS if path[0] == _FITTED else _TOLERANCE
         agree = math.isclose(stated, recomputed, rel_tol=tolerance, abs_tol=tolerance)
     else:
         agree = type(stated) is type(recomputed) and stated == recomputed
-    return Verdict.HOLDS if agree else Verdict.DIFFERS
+    return VerificationVerdict.HOLDS if agree else VerificationVerdict.DIFFERS

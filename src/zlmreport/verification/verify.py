@@ -27,14 +27,20 @@ from zlmreport.verification.alone import format_of, verify_alone
 from zlmreport.verification.attached import (
     MACHINE_RESULTS,
     Results,
-    Stated,
+    StatedResults,
     digital_findings,
     laid_out,
     stated_by,
 )
 from zlmreport.verification.carrier import LARGEST, Carrier, guarded, opened, read_file, results_in
 from zlmreport.verification.dates import future_dates
-from zlmreport.verification.findings import Finding, Identity, OwnText, Verdict, Verification
+from zlmreport.verification.findings import (
+    CheckedStatement,
+    Identity,
+    QuotedText,
+    Verification,
+    VerificationVerdict,
+)
 from zlmreport.verification.own_texts import own_texts, own_texts_of
 
 #: The format of a certificate whose creator is this program.
@@ -97,8 +103,8 @@ class _Again:
     results: bytes
     is_by_its_own_renderer: bool
     has_own_look: bool
-    own_words: tuple[OwnText, ...] = ()
-    future_dates: tuple[Finding, ...] = ()
+    own_words: tuple[QuotedText, ...] = ()
+    future_dates: tuple[CheckedStatement, ...] = ()
     digest: str = ""
 
 
@@ -144,13 +150,17 @@ def verify(
     try:
         stated = stated_by(carrier)
     except ValueError as error:
-        return replace(found, files=(Finding("results file", Verdict.DIFFERS, str(error)),))
+        return replace(
+            found, files=(CheckedStatement("results file", VerificationVerdict.DIFFERS, str(error)),)
+        )
     if stated is None:
         if not carrier.creator.startswith(f"{_PROGRAM} "):
             raise InputError.at(
                 carrier.place, "is no certificate of zlmreport: it carries no results file to verify"
             )
-        lacking = Finding("results file", Verdict.DIFFERS, "is not attached; every certificate carries one")
+        lacking = CheckedStatement(
+            "results file", VerificationVerdict.DIFFERS, "is not attached; every certificate carries one"
+        )
         return replace(found, files=(lacking,))
     identity, provenance = dict(stated.results.certificate), stated.results.provenance
     found = replace(found, identity=Identity(**identity, generator=provenance.generator))
@@ -164,10 +174,12 @@ def verify(
             ended = error if isinstance(error, ZlmreportError) else _unforeseen(carrier.place, error)
             problems = layout.problems(ended)
             compared = attached.compare(sources, carrier.carried, None)
-            if all(finding.verdict is not Verdict.DIFFERS for finding in compared):
+            if all(finding.verdict is not VerificationVerdict.DIFFERS for finding in compared):
                 raise type(ended)(problems) from error
             reason = f"cannot be evaluated again: {'; '.join(map(str, problems))}"
-            return replace(found, files=(*compared, Finding("readings", Verdict.DIFFERS, reason)))
+            return replace(
+                found, files=(*compared, CheckedStatement("readings", VerificationVerdict.DIFFERS, reason))
+            )
     complete = _compared(found, carrier, stated, again)
     if dcc_schema is None:
         return complete
@@ -273,7 +285,7 @@ def _is_made(renderer: Renderer, certificate: Certificate) -> bool:
     return True
 
 
-def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Again) -> Verification:
+def _compared(found: Verification, carrier: Carrier, stated: StatedResults, again: _Again) -> Verification:
     """Return all that is found of a certificate that could be made again."""
     provenance = stated.results.provenance
     by_same_programs = again.programs == (provenance.generator, provenance.plugins)
@@ -282,7 +294,7 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
         lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
         carrier.place,
     )
-    differs = any(each.verdict is not Verdict.HOLDS for each in compared)
+    differs = any(each.verdict is not VerificationVerdict.HOLDS for each in compared)
     found = replace(
         found,
         identity=replace(found.identity, digest=again.digest),
@@ -313,7 +325,7 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
         lacking = guarded(lambda: _taken(carrier, again.prints.carrier), carrier.place)
         detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
         found = replace(_left_open(found), remarks=(_OWN_LOOK,))
-        return replace(found, document=(*found.document, Finding.of("printed numbers", detail)))
+        return replace(found, document=(*found.document, CheckedStatement.of("printed numbers", detail)))
     remarks = () if printed.is_drawn_alike else (_OTHER_LIBRARIES,)
     not_asked = readers.absent()
     if not_asked and any(each.subject == readers.SUBJECT for each in found.document):
@@ -321,12 +333,14 @@ def _compared(found: Verification, carrier: Carrier, stated: Stated, again: _Aga
     return replace(found, remarks=remarks)
 
 
-def _claims(own_words: Sequence[OwnText]) -> tuple[Finding, ...]:
+def _claims(own_words: Sequence[QuotedText]) -> tuple[CheckedStatement, ...]:
     """Return what words that somebody wrote claim, as not decided: nothing computes it."""
-    return tuple(Finding(each.key, Verdict.OPEN, each.claim) for each in own_words if each.claim)
+    return tuple(
+        CheckedStatement(each.key, VerificationVerdict.OPEN, each.claim) for each in own_words if each.claim
+    )
 
 
-def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages.Compared:
+def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages.ComparedPages:
     """Compare a document with the same one printed again: its bytes first.
 
     Nothing is interpreted where they are the same. What is not byte for byte the same is read strictly, and
@@ -335,9 +349,14 @@ def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages
     expected = again.carrier
     if carrier.content == expected.content:
         held = tuple(
-            Finding(f"page {number}", Verdict.HOLDS) for number in range(1, len(expected.reader.pages) + 1)
+            CheckedStatement(f"page {number}", VerificationVerdict.HOLDS)
+            for number in range(1, len(expected.reader.pages) + 1)
         )
-        return pages.Compared(held, (Finding("the file, byte for byte", Verdict.HOLDS),), is_drawn_alike=True)
+        return pages.ComparedPages(
+            held,
+            (CheckedStatement("the file, byte for byte", VerificationVerdict.HOLDS),),
+            is_drawn_alike=True,
+        )
     objects = table.finding(carrier.content, is_signed=is_signed)
     printed = pages.compare(carrier, again, is_signed=is_signed)
     document = (
@@ -345,7 +364,7 @@ def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages
         guarded(lambda: structure.compare(carrier.reader), carrier.place),
         *printed.document,
     )
-    if all(each.verdict is Verdict.HOLDS for each in (*printed.pages, *document)):
+    if all(each.verdict is VerificationVerdict.HOLDS for each in (*printed.pages, *document)):
         seen = guarded(
             lambda: readers.compare(carrier, expected.content, is_drawn_alike=printed.is_same), carrier.place
         )
@@ -383,8 +402,12 @@ def _named(generator: str, plugins: Mapping[str, str]) -> str:
 def _left_open(found: Verification) -> Verification:
     """Return what is found of pages that cannot be printed here as they were: what differs is not decided."""
 
-    def left_open(finding: Finding) -> Finding:
-        return replace(finding, verdict=Verdict.OPEN) if finding.verdict is Verdict.DIFFERS else finding
+    def left_open(finding: CheckedStatement) -> CheckedStatement:
+        return (
+            replace(finding, verdict=VerificationVerdict.OPEN)
+            if finding.verdict is VerificationVerdict.DIFFERS
+            else finding
+        )
 
     return replace(
         found,
@@ -393,28 +416,28 @@ def _left_open(found: Verification) -> Verification:
     )
 
 
-def _signature_finding(state: SignatureState, *, is_required: bool) -> Finding:
+def _signature_finding(state: SignatureState, *, is_required: bool) -> CheckedStatement:
     """Return what is to be said of the signatures of a PDF.
 
     `is_required` says whether it must bear an intact signature that is trusted.
     """
     verdict, detail = {
-        Integrity.INTACT: (Verdict.HOLDS, _joined([_signed(each) for each in state.signatures])),
+        Integrity.INTACT: (VerificationVerdict.HOLDS, _joined([_signed(each) for each in state.signatures])),
         Integrity.ALTERED: (
-            Verdict.DIFFERS,
+            VerificationVerdict.DIFFERS,
             Words(en="the file is signed, but {reason}", de="die Datei ist signiert, aber: {reason}").given(
                 reason=state.reason
             ),
         ),
         Integrity.UNSIGNED: (
-            Verdict.OPEN,
+            VerificationVerdict.OPEN,
             Words(
                 en="not signed: nothing tells who made the file",
                 de="nicht signiert: nichts sagt, wer die Datei hergestellt hat",
             ),
         ),
         Integrity.UNCHECKED: (
-            Verdict.OPEN,
+            VerificationVerdict.OPEN,
             Words(
                 en="signed, but the signature is not checked: {reason}",
                 de="signiert, aber die Signatur ist nicht geprüft: {reason}",
@@ -425,8 +448,8 @@ def _signature_finding(state: SignatureState, *, is_required: bool) -> Finding:
         required = Words(
             en="a signature that is trusted is required", de="eine Signatur, der vertraut wird, ist verlangt"
         )
-        return Finding(_SIGNATURE, Verdict.DIFFERS, _joined([detail, required]))
-    return Finding(_SIGNATURE, verdict, detail)
+        return CheckedStatement(_SIGNATURE, VerificationVerdict.DIFFERS, _joined([detail, required]))
+    return CheckedStatement(_SIGNATURE, verdict, detail)
 
 
 def _joined(parts: Sequence[Words]) -> Words:

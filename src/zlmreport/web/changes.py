@@ -26,7 +26,7 @@ from zlmreport.model.diagnosis.asking import lengths_asked
 from zlmreport.model.diagnosis.study import Fitted, addition, refuse_useless
 from zlmreport.web.asked import lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
-from zlmreport.web.journal import REDO, UNDO, Journal, JournalStep, entry, redoable, undoable
+from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, entry, redoable, undoable
 
 _KEY = "model.effects"
 _TABLE = "axis.compensation_table"
@@ -105,7 +105,7 @@ def change(bench: Bench, request: Request) -> None:
         step = ACTIONS[request.action](bench, loaded, request)
         step.edit.write()
         after = bench.whole(bench.loaded())
-        Journal.beside(bench.path).append(
+        BenchJournal.beside(bench.path).append(
             entry(request.action, step.subject, (content, step.edit.content), (_rms(before), _rms(after)))
         )
 
@@ -218,11 +218,11 @@ def _is_value(value: float | str) -> bool:
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, undoable(Journal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(bench, loaded, undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
 
 
 def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, redoable(Journal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(bench, loaded, redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
 
 
 def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:

@@ -34,7 +34,7 @@ _MOST = 2_000
 _NO_AXIS = Words(en="", de="")
 
 
-class State(IntEnum):
+class JobState(IntEnum):
     """How a job stands, the worst first."""
 
     FAILS = 0
@@ -48,17 +48,17 @@ class State(IntEnum):
 
 
 _WORDS = {
-    State.FAILS: Words(en="failing", de="fehlerhaft"),
-    State.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
-    State.OVERDUE: Words(en="overdue", de="überfällig"),
-    State.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
-    State.SOON: Words(en="due soon", de="bald fällig"),
-    State.FINE: Words(en="nothing to do", de="nichts zu tun"),
-    State.EARLIER: Words(en="earlier test", de="frühere Prüfung"),
-    State.WAITS: Words(en="being looked at …", de="wird angesehen …"),
+    JobState.FAILS: Words(en="failing", de="fehlerhaft"),
+    JobState.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
+    JobState.OVERDUE: Words(en="overdue", de="überfällig"),
+    JobState.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
+    JobState.SOON: Words(en="due soon", de="bald fällig"),
+    JobState.FINE: Words(en="nothing to do", de="nichts zu tun"),
+    JobState.EARLIER: Words(en="earlier test", de="frühere Prüfung"),
+    JobState.WAITS: Words(en="being looked at …", de="wird angesehen …"),
 }
 #: What the decisions of a job come to, by the name of their mark.
-_DECIDED = {"NOT_MET": State.NOT_MET, "OPEN": State.UNDECIDED}
+_DECIDED = {"NOT_MET": JobState.NOT_MET, "OPEN": JobState.UNDECIDED}
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +67,7 @@ class JobRow:
 
     key: str  #: Names it in addresses: the same as long as it lies where it lies.
     name: str  #: Relative to the folder.
-    state: State = State.WAITS
+    state: JobState = JobState.WAITS
     number: str = ""  #: Of its certificate.
     machine: str = ""
     axis: Words = _NO_AXIS  #: With its name, as pages head it.
@@ -78,15 +78,15 @@ class JobRow:
 
     def dated(self, today: dt.date, *, is_latest: bool) -> JobRow:
         """Return the job with what a day makes of it; an earlier test of an axis needs nobody."""
-        if not is_latest and self.state is not State.FAILS:
-            return replace(self, state=State.EARLIER, due=None)
-        if self.due is None or self.state < State.OVERDUE:
+        if not is_latest and self.state is not JobState.FAILS:
+            return replace(self, state=JobState.EARLIER, due=None)
+        if self.due is None or self.state < JobState.OVERDUE:
             return self
         state = self.state
         if self.due < today:
-            state = State.OVERDUE
+            state = JobState.OVERDUE
         elif self.due <= today + SOON:
-            state = min(state, State.SOON)
+            state = min(state, JobState.SOON)
         return replace(self, state=state)
 
 
@@ -183,7 +183,7 @@ def looked_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tupl
         # Which of the files will be mended nobody knows: those that are named.
         files += [Path(each.place.file) for each in error.problems]
         problems = tuple(str(each) for each in error.problems)
-        return replace(row, state=State.FAILS, problems=problems), tuple(dict.fromkeys(files))
+        return replace(row, state=JobState.FAILS, problems=problems), tuple(dict.fromkeys(files))
     try:
         Bench(path, registry).tried(job)
     except ZlmreportError as error:
@@ -209,11 +209,11 @@ def _described(row: JobRow, job: Job) -> JobRow:
     )
 
 
-def _state(evaluated: Sequence[Evaluated]) -> State:
+def _state(evaluated: Sequence[Evaluated]) -> JobState:
     """Return what the decisions on limits come to, the worst of them."""
     decisions = (one.decision for each in evaluated for one in each.evaluation.parameters)
     marks = (STATEMENTS[each.conformity][0].name for each in decisions if each is not None)
-    return min((_DECIDED.get(each, State.FINE) for each in marks), default=State.FINE)
+    return min((_DECIDED.get(each, JobState.FINE) for each in marks), default=JobState.FINE)
 
 
 def _dated(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:

@@ -49,13 +49,13 @@ class JournalStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Journal:
+class BenchJournal:
     """The record beside a job."""
 
     path: Path  #: Of the record.
 
     @classmethod
-    def beside(cls, job: Path) -> Journal:
+    def beside(cls, job: Path) -> BenchJournal:
         """Return the record of a job: ``job.yaml`` has ``job.history.jsonl``."""
         return cls(job.with_suffix(SUFFIX))
 

@@ -14,13 +14,13 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.model.diagnosis.asking import lengths_asked
 from zlmreport.model.diagnosis.diagnosis import Diagnosis
-from zlmreport.model.diagnosis.faults import Fault
+from zlmreport.model.diagnosis.faults import DataFault
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.effect import Effect
 from zlmreport.web.asked import field_values, lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import offered
-from zlmreport.web.journal import REDO, UNDO, Journal, JournalStep, redoable, undoable
+from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, redoable, undoable
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
@@ -46,7 +46,7 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     whole = bench.whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
     names = panels.naming
-    entries = Journal.beside(bench.path).entries()
+    entries = BenchJournal.beside(bench.path).entries()
     steps = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
     return {
         "stamp": loaded.stamp,
@@ -181,7 +181,7 @@ def diagnosed(
     }
 
 
-def _fault(fault: Fault, study: Study, language: Language) -> dict[str, Any]:
+def _fault(fault: DataFault, study: Study, language: Language) -> dict[str, Any]:
     """Return what looks wrong in the data, with the places of the readings of its run."""
     observed = study.observed
     of_run = observed.design.run == (-1 if fault.run is None else fault.run)

@@ -14,8 +14,8 @@ from zlmreport.document.certificate.attachments import (
     MOST_ATTACHMENTS,
     Attachment,
     Relationship,
-    Role,
     Source,
+    SourceRole,
     arranged,
     media_type,
     source_attachments,
@@ -45,7 +45,7 @@ def attachment(name: str, size: int = 0) -> Attachment:
     return Attachment(name, bytes(size), "text/plain", Relationship.SOURCE, "")
 
 
-def paths(sources: tuple[Source, ...]) -> dict[str, Role]:
+def paths(sources: tuple[Source, ...]) -> dict[str, SourceRole]:
     return {source.path: source.role for source in sources}
 
 
@@ -55,10 +55,10 @@ def test_the_job_its_readings_and_what_it_names_are_its_sources(tmp_path: Path) 
     (tmp_path / "pictures/logo.png").write_bytes(PNG)
     certificate = composed(tmp_path, "extends: ../laboratory.yaml")
     assert paths(certificate.sources) == {
-        "job.yaml": Role.JOB,
-        "../laboratory.yaml": Role.EXTENDED,
-        "six.txt": Role.READINGS,
-        "../pictures/logo.png": Role.LOGO,
+        "job.yaml": SourceRole.JOB,
+        "../laboratory.yaml": SourceRole.EXTENDED,
+        "six.txt": SourceRole.READINGS,
+        "../pictures/logo.png": SourceRole.LOGO,
     }
 
 
@@ -71,9 +71,9 @@ def test_further_tests_and_what_earlier_ones_taught_are_named_as_such(tmp_path: 
     (tmp_path / "job.yaml").write_text(f"{SOUND}model: {{sessions: [second.yaml], priors: priors.yaml}}\n")
     job = load(tmp_path / "job.yaml", REGISTRY)
     assert paths(sources(job, (), None)) == {
-        "job.yaml": Role.JOB,
-        "second.yaml": Role.SESSION,
-        "priors.yaml": Role.PRIORS,
+        "job.yaml": SourceRole.JOB,
+        "second.yaml": SourceRole.SESSION,
+        "priors.yaml": SourceRole.PRIORS,
     }
 
 
@@ -84,7 +84,7 @@ def test_a_table_of_the_axis_is_a_source(tmp_path: Path) -> None:
     (tmp_path / "jobs/job.yaml").write_text(text)
     (tmp_path / "jobs/six.txt").write_text("1 2 3 -1 -2 -3")
     certificate = pipeline.compose(load(tmp_path / "jobs/job.yaml", REGISTRY), REGISTRY)
-    assert paths(certificate.sources)["table.csv"] is Role.TABLE
+    assert paths(certificate.sources)["table.csv"] is SourceRole.TABLE
 
 
 def test_a_source_is_carried_byte_for_byte(tmp_path: Path) -> None:
@@ -156,7 +156,7 @@ def test_an_attachment_says_what_it_is(tmp_path: Path, language: Language, descr
 
 
 def test_a_source_whose_reader_kept_no_bytes_is_named_and_not_attached() -> None:
-    source = Source(Role.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
+    source = Source(SourceRole.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
     assert list(source_attachments([source], Language.ENGLISH)) == []
 
 

@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, strategies as st
 
 from document.figures.samples import pairs
-from zlmreport.document.figures.canvas import Face, Label, Run
+from zlmreport.document.figures.canvas import Label, Run, TypeFace
 from zlmreport.document.figures.dimensions import (
     HEAD,
-    Dimension,
-    Span,
+    DimensionSpan,
+    DrawnDimension,
     beside_targets,
     margin_columns,
     margin_width,
@@ -24,14 +24,14 @@ REGION = Box(0.0, 0.0, 300.0, 200.0)
 
 
 def _label(width: float = 12.0) -> Label:
-    return Label((Run("A", Face.ITALIC, 8.0, 0.0, 0.0),), width, 8.0)
+    return Label((Run("A", TypeFace.ITALIC, 8.0, 0.0, 0.0),), width, 8.0)
 
 
-def _span(low: float, high: float, at: float = 150.0) -> Span:
-    return Span(_label(), low, high, at, at)
+def _span(low: float, high: float, at: float = 150.0) -> DimensionSpan:
+    return DimensionSpan(_label(), low, high, at, at)
 
 
-def _columns(*spans: Span) -> tuple[Dimension, ...]:
+def _columns(*spans: DimensionSpan) -> tuple[DrawnDimension, ...]:
     return margin_columns(spans, 400.0, 0.0, 200.0)
 
 
@@ -74,7 +74,9 @@ def test_heads_without_room_between_the_ends_stand_outside() -> None:
     assert _span(0.0, HEAD).tail > HEAD
 
 
-def _beside(*spans: Span, marks: np.ndarray = NOTHING, lines: np.ndarray = NOTHING) -> tuple[Dimension, ...]:
+def _beside(
+    *spans: DimensionSpan, marks: np.ndarray = NOTHING, lines: np.ndarray = NOTHING
+) -> tuple[DrawnDimension, ...]:
     return beside_targets(spans, REGION, marks, lines)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from document.figures.samples import ALL, ORDINARY, both_directions, collisions, drawn, each_direction, figure
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.figure import Bar, Figure, Panel
 from zlmreport.document.figures.layout import figure_size
 from zlmreport.language import Language, same
@@ -82,9 +82,9 @@ def test_the_readings_are_named_in_german() -> None:
 def test_a_symbol_is_set_in_italics_and_subscript() -> None:
     label = drawn(figure(both_directions())).texts_of("legend")[0]
     assert [(run.text, run.face) for run in label.runs] == [
-        ("x̄", Face.ITALIC),
-        ("i", Face.ITALIC),
-        ("↑", Face.REGULAR),
+        ("x̄", TypeFace.ITALIC),
+        ("i", TypeFace.ITALIC),
+        ("↑", TypeFace.REGULAR),
     ]
     letter, index, arrow = label.runs
     assert index.size < letter.size == arrow.size
@@ -95,8 +95,11 @@ def test_a_bar_named_by_a_symbol_has_it_as_a_table_has_it() -> None:
     named = Bar(same("P_{s max}"), 80.0, same("80.0"), is_symbol=True)
     words = Bar(same("a word"), 60.0, same("60.0"))
     symbol, plain = drawn(figure(Panel(bars=(named, words)))).texts_of("tick x")
-    assert [(run.text, run.face) for run in symbol.runs] == [("P", Face.ITALIC), ("s max", Face.REGULAR)]
-    assert [(run.text, run.face) for run in plain.runs] == [("a word", Face.REGULAR)]
+    assert [(run.text, run.face) for run in symbol.runs] == [
+        ("P", TypeFace.ITALIC),
+        ("s max", TypeFace.REGULAR),
+    ]
+    assert [(run.text, run.face) for run in plain.runs] == [("a word", TypeFace.REGULAR)]
 
 
 def test_the_runs_of_a_symbol_follow_one_another_without_overlap() -> None:

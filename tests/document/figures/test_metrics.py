@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from matplotlib.ft2font import FT2Font, LoadFlags
 
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import advance, font_file, has_letter, mark_offset
 
 
-@pytest.mark.parametrize("face", Face)
+@pytest.mark.parametrize("face", TypeFace)
 @pytest.mark.parametrize(
     "text",
     [
@@ -21,7 +21,7 @@ from zlmreport.document.figures.metrics import advance, font_file, has_letter, m
         "P. 11 (A/V)",
     ],
 )
-def test_a_text_is_as_wide_as_a_library_that_sets_it_says(text: str, face: Face) -> None:
+def test_a_text_is_as_wide_as_a_library_that_sets_it_says(text: str, face: TypeFace) -> None:
     font = FT2Font(str(font_file(face)))
     font.set_size(1000.0, 72)
     font.set_text(text, 0.0, flags=LoadFlags.NO_HINTING)
@@ -30,17 +30,17 @@ def test_a_text_is_as_wide_as_a_library_that_sets_it_says(text: str, face: Face)
 
 
 def test_a_bar_stands_over_the_middle_of_its_letter() -> None:
-    right, above = mark_offset("x", "\N{COMBINING MACRON}", Face.REGULAR)
+    right, above = mark_offset("x", "\N{COMBINING MACRON}", TypeFace.REGULAR)
     assert above == 0.0  # over a small letter the bar is drawn where its own glyph has it
-    assert right == pytest.approx(advance("x", Face.REGULAR) / 2, abs=0.02)
-    assert mark_offset("B", "\N{COMBINING MACRON}", Face.REGULAR)[1] > 0.1
+    assert right == pytest.approx(advance("x", TypeFace.REGULAR) / 2, abs=0.02)
+    assert mark_offset("B", "\N{COMBINING MACRON}", TypeFace.REGULAR)[1] > 0.1
 
 
 def test_a_mark_without_a_place_is_told() -> None:
     with pytest.raises(LookupError, match=r"U\+0304"):
-        mark_offset("↑", "\N{COMBINING MACRON}", Face.REGULAR)
+        mark_offset("↑", "\N{COMBINING MACRON}", TypeFace.REGULAR)
 
 
 def test_letters_that_the_typeface_lacks_are_known() -> None:
-    assert all(has_letter(letter, Face.REGULAR) for letter in "Aµ↑½✓Ωя")
-    assert not any(has_letter(letter, Face.REGULAR) for letter in "中🙂ש")
+    assert all(has_letter(letter, TypeFace.REGULAR) for letter in "Aµ↑½✓Ωя")
+    assert not any(has_letter(letter, TypeFace.REGULAR) for letter in "中🙂ש")

@@ -13,7 +13,7 @@ from weasyprint import CSS, HTML
 from weasyprint.text.fonts import FontConfiguration
 
 from document.figures.samples import ALL, ORDINARY, Recording, drawn
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.figure import Figure
 from zlmreport.document.figures.metrics import font_file
 from zlmreport.language import Language
@@ -28,7 +28,11 @@ Typeset = Callable[..., bytes]
 def typeset() -> Typeset:
     """Return what makes a PDF document of figures, in the bundled faces."""
     fonts = FontConfiguration()
-    looks = {Face.REGULAR: (400, "normal"), Face.ITALIC: (400, "italic"), Face.SEMIBOLD: (600, "normal")}
+    looks = {
+        TypeFace.REGULAR: (400, "normal"),
+        TypeFace.ITALIC: (400, "italic"),
+        TypeFace.SEMIBOLD: (600, "normal"),
+    }
     faces = "".join(
         f'@font-face {{ font-family: "{FAMILY}"; src: url({font_file(face).as_uri()});'
         f" font-weight: {weight}; font-style: {style} }}"

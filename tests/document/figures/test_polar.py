@@ -7,7 +7,7 @@ from zlmreport.document.figures.draw import legend_shapes, sketch, to_svg
 from zlmreport.document.figures.figure import Curve, Figure, Level, Panel, Role
 from zlmreport.document.figures.layout import figure_size, lay_out
 from zlmreport.document.figures.polar import on_circle, polar_grid, square
-from zlmreport.document.figures.shapes import Box, Marks
+from zlmreport.document.figures.shapes import Box, PointMarks
 from zlmreport.language import Language, same
 from zlmreport.language.formatting import DecimalSign
 
@@ -109,7 +109,7 @@ def test_an_entry_of_its_legend_has_no_mark():
         [
             each
             for each in legend_shapes(lay_out(shown, Language.ENGLISH).panels[0])
-            if isinstance(each, Marks)
+            if isinstance(each, PointMarks)
         ]
         for shown in (about, over)
     ]

@@ -8,13 +8,13 @@ from io import BytesIO
 import pytest
 from fontTools.ttLib import TTFont, woff2
 
-from zlmreport.document.typesetting.resources import FACES, FAMILY, Face, font, font_faces, style_sheet
+from zlmreport.document.typesetting.resources import FACES, FAMILY, FontFace, font, font_faces, style_sheet
 
 SHEETS = ("certificate", "paged", "screen", "A4", "Letter", "overview")
 
 
 @pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)
-def test_the_packed_font_is_the_font(face: Face) -> None:
+def test_the_packed_font_is_the_font(face: FontFace) -> None:
     unpacked = BytesIO()
     woff2.decompress(BytesIO(font(f"{face.stem}.woff2")), unpacked)
     original = TTFont(BytesIO(font(f"{face.stem}.ttf")))
@@ -26,7 +26,7 @@ def test_the_packed_font_is_the_font(face: Face) -> None:
 
 @pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)
 def test_all_figures_and_the_signs_between_them_are_of_the_widths_that_the_style_sheet_counts_on(
-    face: Face,
+    face: FontFace,
 ) -> None:
     loaded = TTFont(BytesIO(font(f"{face.stem}.ttf")))
     glyphs = loaded.getBestCmap()
@@ -39,7 +39,7 @@ def test_all_figures_and_the_signs_between_them_are_of_the_widths_that_the_style
 
 @pytest.mark.parametrize("face", FACES, ids=lambda face: face.stem)
 @pytest.mark.parametrize("character", "↑↓µ−×·±≤≥″°∑√|Δα½²\N{COMBINING MACRON}✓×–—…")
-def test_the_typeface_has_what_standards_print(face: Face, character: str) -> None:
+def test_the_typeface_has_what_standards_print(face: FontFace, character: str) -> None:
     assert ord(character) in TTFont(BytesIO(font(f"{face.stem}.ttf"))).getBestCmap()
 
 

@@ -14,7 +14,7 @@ from live.capture.moves import SETTINGS, Axis, following, happened, kinds, liste
 from live.capture.wandering import trial
 from zlmreport.live.capture.events import Mean, Presumed, Recorded, Unclear
 from zlmreport.live.capture.motion import Programme, Route
-from zlmreport.live.capture.place import Place, Stop, _Guess, _merged
+from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill, _Guess, _merged
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method
@@ -129,14 +129,16 @@ PROGRAMME = Programme(listed(targets=TARGETS[::2], runs=2), SETTINGS)
 UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
 
 
-def placed(taken: int = 0) -> Place:
-    return Place(PROGRAMME, SETTINGS, taken, last=None)
+def placed(taken: int = 0) -> PlaceInProgram:
+    return PlaceInProgram(PROGRAMME, SETTINGS, taken, last=None)
 
 
-def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> Stop:
+def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> TargetStandstill:
     """Return a stop at the target of a visit, counted from 1."""
     visit = PROGRAMME.visits[number - 1]
-    return Stop(visit.target, heading, heading, visit.position, Mean(0.0, 0.0, 100, 0, time, 3.0, {}))
+    return TargetStandstill(
+        visit.target, heading, heading, visit.position, Mean(0.0, 0.0, 100, 0, time, 3.0, {})
+    )
 
 
 def test_explanations_that_end_alike_weigh_together() -> None:
@@ -154,7 +156,7 @@ def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> 
 
 
 def test_of_visits_that_went_unseen_many_are_less_likely_than_few() -> None:
-    place = Place(Programme(listed(targets=TARGETS), SETTINGS), SETTINGS, 0)
+    place = PlaceInProgram(Programme(listed(targets=TARGETS), SETTINGS), SETTINGS, 0)
     weights = [place._by_route(_Guess(0, 0.0, 0.0, 0, 0), index, []) for index in (1, 2, 3)]
     assert weights[2] < weights[1] < weights[0] == 0.0
 
@@ -205,7 +207,7 @@ def test_an_axis_goes_on_to_the_same_target_and_only_a_little() -> None:
 
 
 def test_a_program_that_ran_on_unwatched_did_so_from_the_last_visit_that_was_read() -> None:
-    told, ran_on = Place(PROGRAMME, SETTINGS, 2, last=5.0)._guesses
+    told, ran_on = PlaceInProgram(PROGRAMME, SETTINGS, 2, last=5.0)._guesses
     assert (told.place, told.is_told) == (1, True)
     assert (ran_on.place, ran_on.is_told, ran_on.time, ran_on.weight) == (1, False, 5.0, -7.0)
 

@@ -11,7 +11,7 @@ from zlmreport.live.emulation.emulator import MovingAxis, Scene
 from zlmreport.live.ports.clock import ArrivalClock, SampleClock
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
-from zlmreport_plugins.instruments.umd.lines import MODELS, Model, UmdEmulator
+from zlmreport_plugins.instruments.umd.lines import MODELS, UmdEmulator, UmdModel
 
 _LENGTH = 316e-9
 
@@ -33,7 +33,7 @@ def test_after_a_restart_the_clock_does_not_go_back() -> None:
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.identifier)
 @pytest.mark.parametrize("seed", range(3))
 def test_a_busy_computer_changes_neither_the_values_nor_the_times_of_a_display(
-    model: Model, seed: int
+    model: UmdModel, seed: int
 ) -> None:
     def read(looks: list[float]) -> list[LiveReading]:
         display = UmdEmulator(model, Scene(MovingAxis((0.0, 0.01), dwell=0.5)), _LENGTH)

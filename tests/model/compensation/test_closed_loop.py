@@ -14,7 +14,7 @@ from zlmreport.cli import main
 from zlmreport.errors import Place
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.compensation.basis import Basis
+from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
 from zlmreport.model.compensation.curve import ErrorCurve, table_of
 
@@ -71,7 +71,7 @@ def test_a_second_test_between_the_targets_is_held_against_all_that_is_known() -
     targets = np.linspace(0, 0.3, 5)
     none, between = np.zeros((2, 5)), targets[:-1] + 0.04
     before = curve(targets, 1.0)
-    basis = Basis(before, wave, none, (), None, lambda _: wave)
+    basis = TableBasis(before, wave, none, (), None, lambda _: wave)
     rows = np.linspace(0, 0.3, 61)
     table = table_of(wave(rows), rows, axis, "TEST", place)
     assert confirm(basis, curve(between, 0.0), table, place).verdict is ConfirmationVerdict.HELD

@@ -9,9 +9,9 @@ from zlmreport.errors import Place
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
 from zlmreport.language import same
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.compensation.basis import Basis, Part, Scatter
+from zlmreport.model.compensation.basis import DeviationPart, ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
-from zlmreport.model.compensation.forecast import Expected, forecast
+from zlmreport.model.compensation.forecast import ExpectedFigure, forecast
 
 RUNS, SINGLE = 4, 2e-6
 #: u of a mean.
@@ -21,19 +21,21 @@ TARGETS = np.array([0.0, 0.1, 0.3])
 HIGH = 2.2414
 
 
-def mean_range(*parts: Part, budget: Budget | None = None, single: float = SINGLE) -> Expected:
+def mean_range(*parts: DeviationPart, budget: Budget | None = None, single: float = SINGLE) -> ExpectedFigure:
     """Return M of a second test in one direction, where a table leaves nothing that is known."""
     none = np.zeros((2, len(parts[0].directions)))
     targets = TARGETS[: none.shape[1]]
     curve = ErrorCurve(targets, none[0], none[1], np.full_like(none, single), RUNS, is_bidirectional=False)
-    scatter = Scatter(single, 0.0, 1_000_000)
-    basis = Basis(curve, lambda at: np.zeros((2, len(at))), none, parts, scatter, lambda _: np.zeros_like)
+    scatter = ReadingScatter(single, 0.0, 1_000_000)
+    basis = TableBasis(
+        curve, lambda at: np.zeros((2, len(at))), none, parts, scatter, lambda _: np.zeros_like
+    )
     table = CompensationTable(Axis("X"), "T", targets, none[0], none[0], Place("test"))
     return forecast(basis, table, table, None, budget).second_test["M"]
 
 
-def known_by_means(targets: int) -> Part:
-    return Part(np.eye(targets), 1.0)
+def known_by_means(targets: int) -> DeviationPart:
+    return DeviationPart(np.eye(targets), 1.0)
 
 
 def test_a_table_of_means_leaves_their_scatter_and_the_second_test_adds_as_much() -> None:
@@ -44,7 +46,7 @@ def test_a_table_of_means_leaves_their_scatter_and_the_second_test_adds_as_much(
 def test_what_a_model_and_its_residuals_both_describe_is_counted_once() -> None:
     # residuals far beyond their scatter are believed whole: then means and model know the same
     slope = (TARGETS - TARGETS.mean()) / np.linalg.norm(TARGETS - TARGETS.mean())
-    found = mean_range(Part(slope[:, np.newaxis], 1.0))
+    found = mean_range(DeviationPart(slope[:, np.newaxis], 1.0))
     by_means = mean_range(known_by_means(3))
     assert (found.low, found.high) == pytest.approx((by_means.low, by_means.high), rel=0.06)
 
@@ -52,9 +54,9 @@ def test_what_a_model_and_its_residuals_both_describe_is_counted_once() -> None:
 def test_residuals_no_larger_than_their_scatter_leave_the_scatter_of_the_model() -> None:
     # of two means along their difference alone: the offset is no error of the model's
     apart = np.array([[1.0], [-1.0]]) / np.sqrt(2)
-    found = mean_range(Part(apart, 0.0))
+    found = mean_range(DeviationPart(apart, 0.0))
     assert found.high == pytest.approx(HIGH * np.sqrt(2 * 2) * OWN, rel=0.05)
-    alike = mean_range(Part(np.abs(apart), 0.0))
+    alike = mean_range(DeviationPart(np.abs(apart), 0.0))
     assert alike.high == pytest.approx(HIGH * np.sqrt(2) * OWN, rel=0.05)  # the second test's scatter alone
 
 

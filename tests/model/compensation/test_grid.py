@@ -7,7 +7,7 @@ import pytest
 
 from zlmreport.errors import Place
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.compensation.basis import Basis, Scatter
+from zlmreport.model.compensation.basis import ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import ErrorCurve
 from zlmreport.model.compensation.making import Grid, GridReason, grid_of
 
@@ -21,15 +21,15 @@ def bow(at: FloatArray) -> FloatArray:
     return np.stack([BEND / 2 * at * (0.3 - at)] * 2)
 
 
-def known_by(single: float, **of_waves: object) -> Basis:
+def known_by(single: float, **of_waves: object) -> TableBasis:
     """Return a basis whose smooth part is the bow, from five readings a mean that scatter by so much, m."""
     forward, reverse = bow(UNEVEN)
     curve = ErrorCurve(UNEVEN, forward, reverse, np.full((2, 8), single), 5, is_bidirectional=True)
-    scatter = Scatter(single, 0.0, 60) if single else None
-    return Basis(curve, bow, bow(UNEVEN), (), scatter, lambda _: bow, **of_waves)
+    scatter = ReadingScatter(single, 0.0, 60) if single else None
+    return TableBasis(curve, bow, bow(UNEVEN), (), scatter, lambda _: bow, **of_waves)
 
 
-def chosen(basis: Basis, **control: object) -> Grid:
+def chosen(basis: TableBasis, **control: object) -> Grid:
     return grid_of(basis, PLACE, **control)
 
 

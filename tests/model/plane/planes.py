@@ -11,7 +11,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.fitting.estimate import InstrumentError
-from zlmreport.model.plane.surface import Line, Surface, side_by_side, surface
+from zlmreport.model.plane.surface import Surface, SurfaceLine, side_by_side, surface
 
 DESIGN = linear_test(targets=9, runs=4, axis=Axis("X", travel=(0.0, 1.0)))
 LINES = (0.1, 0.25, 0.3, 0.45, 0.5)
@@ -29,7 +29,7 @@ def truth(along: FloatArray, across: FloatArray, approach: float | FloatArray) -
 
 def measured(
     seed: int = 1, *, sigma: float = SIGMA, lines: Sequence[float] = LINES, interaction: float = 0.0
-) -> list[Line]:
+) -> list[SurfaceLine]:
     """Return the lines of a plane whose slope may change from line to line, m/m²."""
     random = np.random.default_rng(seed)
     found = []
@@ -37,12 +37,12 @@ def measured(
         deviation = truth(DESIGN.position, np.full_like(DESIGN.position, across), DESIGN.direction)
         deviation = deviation + interaction * DESIGN.position * across
         deviation = deviation + sigma * random.standard_normal(len(deviation))
-        found.append(Line(across, observations(DESIGN, deviation)))
+        found.append(SurfaceLine(across, observations(DESIGN, deviation)))
     return found
 
 
 def fitted(
-    lines: Sequence[Line], approach: Approach = Approach.POSITIVE, instrument: InstrumentError = QUIET
+    lines: Sequence[SurfaceLine], approach: Approach = Approach.POSITIVE, instrument: InstrumentError = QUIET
 ) -> Surface:
     """Return the surface through lines."""
     return surface(side_by_side(lines, approach, "Y"), instrument)

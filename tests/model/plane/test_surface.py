@@ -15,7 +15,7 @@ from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.noise import NoiseSource, noise_parts
-from zlmreport.model.plane.surface import Line, Surface, coefficient_names, side_by_side
+from zlmreport.model.plane.surface import Surface, SurfaceLine, coefficient_names, side_by_side
 
 INSTRUMENT = InstrumentError(0.5e-6)
 #: Where nobody measured: P and R, m.
@@ -87,7 +87,7 @@ def test_expanded_uncertainty_holds_where_every_run_is_displaced() -> None:
     for seed in range(40):
         random = np.random.default_rng([seed, 5])
         lines = [
-            Line(
+            SurfaceLine(
                 line.across, replace(line.observed, deviation=line.observed.deviation + shift[DESIGN.run - 1])
             )
             for line in measured(seed)
@@ -163,10 +163,10 @@ def test_a_single_line_is_no_plane() -> None:
 
 def test_too_few_readings_are_refused() -> None:
     lines = [
-        Line(line.across, line.observed.without(np.flatnonzero(DESIGN.run > 1)))
+        SurfaceLine(line.across, line.observed.without(np.flatnonzero(DESIGN.run > 1)))
         for line in measured(lines=(0.1, 0.2))
     ]
-    few = [Line(line.across, line.observed.without(np.arange(2, 16))) for line in lines]
+    few = [SurfaceLine(line.across, line.observed.without(np.arange(2, 16))) for line in lines]
     with pytest.raises(ModelError, match="do not determine the"):
         fitted(few)
 
@@ -175,7 +175,7 @@ def test_a_reading_that_stands_off_is_set_aside() -> None:
     lines = measured()
     spoilt = lines[2].observed.deviation.copy()
     spoilt[17] += 40e-6
-    lines[2] = Line(lines[2].across, replace(lines[2].observed, deviation=spoilt))
+    lines[2] = SurfaceLine(lines[2].across, replace(lines[2].observed, deviation=spoilt))
     assert lines[2].aside().tolist() == [17]
     surface = fitted(lines, Approach(int(DESIGN.direction[17])))
     assert len(surface.fit.deviation) == len(LINES) * len(DESIGN.position) // 2 - 1
@@ -191,15 +191,17 @@ def test_a_line_that_is_measured_again_shares_its_points_and_no_runs() -> None:
 
 
 def test_single_runs_make_a_plane_without_a_noise_floor() -> None:
-    lines = [Line(line.across, line.observed.without(np.flatnonzero(DESIGN.run > 1))) for line in measured()]
+    lines = [
+        SurfaceLine(line.across, line.observed.without(np.flatnonzero(DESIGN.run > 1))) for line in measured()
+    ]
     surface = fitted(lines)
     assert surface.error.noise_rms is None
     assert np.all(np.isfinite(surface.predict(BETWEEN).expanded_uncertainty))
 
 
-def _with_one_displaced(lines: list[Line]) -> list[Line]:
+def _with_one_displaced(lines: list[SurfaceLine]) -> list[SurfaceLine]:
     third = lines[2].observed
-    displaced = Line(lines[2].across, replace(third, deviation=third.deviation + 2e-6))
+    displaced = SurfaceLine(lines[2].across, replace(third, deviation=third.deviation + 2e-6))
     return [*lines[:2], displaced, *lines[3:]]
 
 

@@ -20,7 +20,7 @@ from zlmreport.model.planning.changes import within_travel
 from zlmreport.model.planning.deciding import deciding_experiment, deciding_text, experiment_values
 from zlmreport.model.planning.experiment import Experiment
 from zlmreport.model.planning.methods import Method, half_way
-from zlmreport.model.planning.plan import Expected, Pause, Plan, propose
+from zlmreport.model.planning.plan import ExpectedTest, Pause, Plan, propose
 from zlmreport.model.planning.planned_test import model_of
 from zlmreport.model.planning.programs import motion_of
 from zlmreport.model.planning.visibility import expected_design, planned_visits
@@ -65,7 +65,7 @@ def test_who_follows_the_advice_learns_the_truth(truth: str) -> None:
     found = _experiment("scale-error,scale-expansion", COOL)
     assert found.plan is not None
     job = planned_job(COOL)
-    design = expected_design(job.axis, found.plan, Expected(1e-6, 0.01))
+    design = expected_design(job.axis, found.plan, ExpectedTest(1e-6, 0.01))
     columns = EFFECTS[truth].columns(design, np.empty(0))
     deviation = 3e-6 * columns[:, 0] / np.std(columns[:, 0]) + noise(design, 5, 1e-6)
     model = model_of(job, INSTALLED).without("scale-error")
@@ -160,8 +160,8 @@ def test_pause_lies_between_the_halves_of_the_runs() -> None:
     plan = Plan(np.array([0.1, 0.3]), runs=3, pause=Pause(600.0, 3.0, "axis_temperature"))
     visits = planned_visits(plan)
     assert [visit.run for visit in visits[half_way(visits) :]] == [2] * 4 + [3] * 4
-    design = expected_design(planned_job().axis, plan, Expected(1e-6, 0.0))
-    without = expected_design(planned_job().axis, Plan(plan.targets, runs=3), Expected(1e-6, 0.0))
+    design = expected_design(planned_job().axis, plan, ExpectedTest(1e-6, 0.0))
+    without = expected_design(planned_job().axis, Plan(plan.targets, runs=3), ExpectedTest(1e-6, 0.0))
     np.testing.assert_allclose(design.time - without.time, [0.0] * 4 + [600.0] * 8)
     change = design.conditions["axis_temperature"] - without.conditions["axis_temperature"]
     np.testing.assert_allclose(change, [0.0] * 4 + [3.0] * 8)

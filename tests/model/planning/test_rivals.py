@@ -18,13 +18,13 @@ from zlmreport.model.fitting.noise import NoiseSource, noise_parts
 from zlmreport.model.planning.deciding import deciding_job, experiment_values, question_of
 from zlmreport.model.planning.experiment import Experiment, next_experiment
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Expected, Pause, Plan
+from zlmreport.model.planning.plan import ExpectedTest, Pause, Plan
 from zlmreport.model.planning.rivals import Question, Rival
 from zlmreport.model.planning.visibility import expected_design
 
 SLOPE, SIGMA = 10e-6, 0.5e-6
 PLAN = Plan(np.linspace(0.03, 0.57, 10), Method.PENDULUM, runs=3)
-EXPECTED = Expected(SIGMA, 0.02)
+EXPECTED = ExpectedTest(SIGMA, 0.02)
 WARMER = replace(PLAN, after=Pause(3600.0, 3.0, "axis_temperature"))
 TIED = ("scale-error", "scale-expansion")
 

@@ -9,7 +9,7 @@ import pytest
 
 from model.simulation.files import SOUND, described, mistakes, with_line
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.simulation.description import Course, Noise
+from zlmreport.model.simulation.description import ConditionCourse, SimulatedNoise
 
 
 def test_sound_file_has_no_mistake(tmp_path: Path) -> None:
@@ -48,8 +48,10 @@ def test_effects_have_their_values_in_metres(tmp_path: Path) -> None:
 
 def test_noise_and_conditions_become_si(tmp_path: Path) -> None:
     description = described(SOUND, tmp_path)
-    assert description.noise == Noise(reading=0.5e-6, resolution=0.1 / 1e6)
-    assert description.conditions == {"axis_temperature": Course(293.65, 295.15, 600.0, sensor_noise=0.01)}
+    assert description.noise == SimulatedNoise(reading=0.5e-6, resolution=0.1 / 1e6)
+    assert description.conditions == {
+        "axis_temperature": ConditionCourse(293.65, 295.15, 600.0, sensor_noise=0.01)
+    }
 
 
 def test_pressure_and_humidity_are_given_as_in_measurement_files(tmp_path: Path) -> None:
@@ -57,13 +59,13 @@ def test_pressure_and_humidity_are_given_as_in_measurement_files(tmp_path: Path)
         "conditions: {air_pressure: {start: 1010, swing: 2}, relative_humidity: {start: 45, resolution: 1}}"
     )
     conditions = described(with_line(12, line), tmp_path).conditions
-    assert conditions["air_pressure"] == Course(101_000.0, swing=200.0)
-    assert conditions["relative_humidity"] == Course(0.45, resolution=0.01)
+    assert conditions["air_pressure"] == ConditionCourse(101_000.0, swing=200.0)
+    assert conditions["relative_humidity"] == ConditionCourse(0.45, resolution=0.01)
 
 
 def test_another_condition_is_taken_as_it_is(tmp_path: Path) -> None:
     conditions = described(with_line(12, "conditions: {oil_level: {start: 7}}"), tmp_path).conditions
-    assert conditions == {"oil_level": Course(7.0)}
+    assert conditions == {"oil_level": ConditionCourse(7.0)}
 
 
 def test_rotary_axis_is_in_degrees_and_arc_seconds(tmp_path: Path) -> None:

@@ -9,11 +9,11 @@ import pytest
 
 from model.simulation.describing import described, hidden
 from zlmreport.model.planning.methods import Method, path, visits
-from zlmreport.model.simulation.description import Course, Description, Noise
+from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import EmulatedMachine, StartedMachine, emulated_machine, simulate
 
 LEAD = 3.0
-NOISY = Noise(reading=0.5e-6, drift=0.2e-6, outlier_share=0.1, outlier_size=5e-6)
+NOISY = SimulatedNoise(reading=0.5e-6, drift=0.2e-6, outlier_share=0.1, outlier_size=5e-6)
 EFFECTS = (hidden("offset", offset=2e-6), hidden("backlash", lost_motion=-4e-6))
 
 
@@ -82,7 +82,7 @@ def test_it_moves_at_the_feed() -> None:
 
 
 def test_conditions_follow_their_course() -> None:
-    course = Course(293.15, 295.15, sensor_noise=1.0, resolution=0.5, is_logged=False)
+    course = ConditionCourse(293.15, 295.15, sensor_noise=1.0, resolution=0.5, is_logged=False)
     machine = emulated_machine(replace(_erring(), conditions={"air_temperature": course}), LEAD)
     first, last = machine.leaves[0], machine.leaves[-1]
     times = [0.0, first, (first + last) / 2, last, last + 100]

@@ -15,7 +15,7 @@ from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.simulation.description import Course, Description, Noise
+from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import deviation_by, simulate
 
 SIGMA = 0.5e-6
@@ -30,8 +30,8 @@ def _described(identifier: str) -> Description:
     drawn = drawn_rotary_test if identifier in ROTARY_ONLY else drawn_linear_test
     found = drawn(random, Method.LINEAR)
     axis = replace(found.axis, scale_element=0.25, pole_pitch=0.024)
-    conditions = {**found.conditions, "material_temperature": Course(293.0, 296.0)}
-    return replace(found, axis=axis, conditions=conditions, noise=Noise(reading=SIGMA))
+    conditions = {**found.conditions, "material_temperature": ConditionCourse(293.0, 296.0)}
+    return replace(found, axis=axis, conditions=conditions, noise=SimulatedNoise(reading=SIGMA))
 
 
 def _solved(

@@ -11,7 +11,7 @@ from plugins.instruments.lines import plugged_in, readings_of
 from zlmreport.errors import AccessError
 from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.live.ports.reading import Fault
-from zlmreport_plugins.instruments.ids3010 import Answer, Ids3010, Ids3010Emulator, answer_to, question
+from zlmreport_plugins.instruments.ids3010 import Ids3010, Ids3010Emulator, IdsAnswer, answer_to, question
 
 EXCHANGE = questions_and_answers()
 
@@ -25,14 +25,14 @@ def test_questions_are_those_that_are_published(asked: bytes, answered: bytes) -
 @pytest.mark.parametrize(
     ("number", "expected"),
     [
-        (1, Answer(1, 0, (12345678901,))),
-        (2, Answer(2, 0, (12345678901, 0, 0))),
-        (3, Answer(3, 0, ("measurement running",))),
-        (5, Answer(5, 0, (20.13,))),
-        (9, Answer(9, error="Method not found", is_unknown=True)),
+        (1, IdsAnswer(1, 0, (12345678901,))),
+        (2, IdsAnswer(2, 0, (12345678901, 0, 0))),
+        (3, IdsAnswer(3, 0, ("measurement running",))),
+        (5, IdsAnswer(5, 0, (20.13,))),
+        (9, IdsAnswer(9, error="Method not found", is_unknown=True)),
     ],
 )
-def test_published_answers_are_understood(number: int, expected: Answer) -> None:
+def test_published_answers_are_understood(number: int, expected: IdsAnswer) -> None:
     arrived = b"".join(answered for _, answered in EXCHANGE)
     assert answer_to(number, arrived) == expected
 

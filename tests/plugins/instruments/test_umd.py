@@ -14,7 +14,7 @@ from zlmreport.live.ports.dialogue import WrongDeviceError
 from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.measurement.refractive_index import index_change
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, cycle_length
-from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, Frame, UmdEmulator, frame_in
+from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, UmdEmulator, UmdFrame, frame_in
 
 UMD = {model.identifier: model for model in MODELS}
 #: λ/2 in standard air, m.
@@ -46,14 +46,14 @@ def _spoilt(data: bytes, line: int, old: bytes, new: bytes) -> bytes:
 
 
 def test_a_line_of_one_axis_is_read_field_by_field() -> None:
-    assert frame_in(b"3932 3530 10173 402 45 49 0 0") == Frame(
+    assert frame_in(b"3932 3530 10173 402 45 49 0 0") == UmdFrame(
         3932, (AxisCounts(3530, 10173, 402, 45),), 49, 0, 0
     )
 
 
 def test_a_line_of_three_axes_is_read_field_by_field() -> None:
     frame = frame_in(b"2400 2401 10 1 5 7 8 100000 2402 20 2 6 2403 -30 -3 -4")
-    assert frame == Frame(
+    assert frame == UmdFrame(
         2400,
         (AxisCounts(2401, 10, 1, 5), AxisCounts(2402, 20, 2, 6), AxisCounts(2403, -30, -3, -4)),
         7,

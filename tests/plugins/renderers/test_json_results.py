@@ -17,7 +17,7 @@ from jsonschema import Draft202012Validator
 from document.typesetting import samples
 from evaluation.uncertainty.budgets import contribution
 from model.hidden_effect import example_diagnosis
-from zlmreport.document.certificate.attachments import Role, Source
+from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, NoBudget
@@ -341,7 +341,7 @@ def violations(value: Any) -> set[str]:
 
 def test_every_file_that_it_was_made_from_is_named_with_its_role_path_and_digest() -> None:
     file = SourceFile.of(Path("shared/laboratory.yaml"), b"laboratory: {}\n")
-    source = Source(Role.EXTENDED, "laboratory.yaml", "../shared/laboratory.yaml", file)
+    source = Source(SourceRole.EXTENDED, "laboratory.yaml", "../shared/laboratory.yaml", file)
     certificate = replace(samples.certificate(standards=0), sources=(source,))
     assert render(certificate)["provenance"]["sources"] == [
         {

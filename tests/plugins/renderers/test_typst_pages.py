@@ -12,7 +12,7 @@ from plugins.renderers.pdf_pages import page_of, texts
 from plugins.renderers.typst_pages import read, sample
 from zlmreport.document.blocks import Align, Column, Facts, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import advance
 from zlmreport.language import Language
 
@@ -29,7 +29,7 @@ def _ends(reader: PdfReader) -> float:
     places = []
 
     def visit(text: str, _cm: object, matrix: list[float], _font: object, size: float) -> None:
-        widest = max(advance(line, Face.REGULAR) for line in text.strip().split("\n"))
+        widest = max(advance(line, TypeFace.REGULAR) for line in text.strip().split("\n"))
         places.append(matrix[4] + abs(matrix[0]) * size * widest)
 
     for page in reader.pages:

@@ -35,10 +35,10 @@ from zlmreport_plugins.instruments.umd.lines import (
     MODELS,
     AxisCounts,
     Counting,
-    Frame,
     LowSpeed,
-    Model,
     UmdEmulator,
+    UmdFrame,
+    UmdModel,
     frame_in,
 )
 
@@ -73,14 +73,14 @@ class UmdDecoder:
     sample was taken, too, by the rate that the display announces.
     """
 
-    def __init__(self, model: Model, setup: Setup) -> None:
+    def __init__(self, model: UmdModel, setup: Setup) -> None:
         self.understood = 0  #: How many lines were lines of a µMD.
         self._model = model
         self._setup = setup
         self._lines = WholeLines()
         self._low_speed = LowSpeed(model, setup.temperatures)
         self._counting: Counting | None = None
-        self._before: Frame | None = None
+        self._before: UmdFrame | None = None
         self._accepted: int | None = None
         self._void = 0
         self._links = _LINKS - 1
@@ -120,7 +120,7 @@ class UmdDecoder:
             )
         return low_speed.counting()
 
-    def _reading(self, frame: Frame, counting: Counting, now: float) -> LiveReading:
+    def _reading(self, frame: UmdFrame, counting: Counting, now: float) -> LiveReading:
         """Return what a line says: (DISP − phase)/mult · λ/2 / fold; NaN for one that is not believed."""
         before = self._before
         index = self._setup.axis
@@ -160,7 +160,7 @@ class UmdDecoder:
             conditions=self._low_speed.conditions,
         )
 
-    def _follows(self, before: Frame, frame: Frame, counting: Counting) -> bool:
+    def _follows(self, before: UmdFrame, frame: UmdFrame, counting: Counting) -> bool:
         index = self._setup.axis
         if frame.sequence != before.sequence + 1 or index >= len(before.axes):
             return False
@@ -233,7 +233,7 @@ class Umd:
     µMD1 counts REF − MEAS and µMD2 MEAS − REF: the key `sign` sets right which way is up.
     """
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: UmdModel) -> None:
         self.identifier = model.identifier
         self.title = Words(
             en="Laser interferometer display {name}", de="Laserinterferometer-Anzeige {name}"

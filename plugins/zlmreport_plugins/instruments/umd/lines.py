@@ -17,7 +17,7 @@ from zlmreport.plugin.instrument import NO_CONDITIONS, Scene, Trouble, index_cha
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class UmdModel:
     """A display."""
 
     identifier: str  #: As jobs name it.
@@ -32,9 +32,9 @@ class Model:
 
 
 MODELS = (
-    Model("umd0", "µMD0", 115_200, 256, announces_counting=True, interpolation=0),
-    Model("umd1", "µMD1", 115_200, 32, announces_counting=False, interpolation=0),
-    Model("umd2", "µMD2", 2_000_000, 32, announces_counting=True, interpolation=2),
+    UmdModel("umd0", "µMD0", 115_200, 256, announces_counting=True, interpolation=0),
+    UmdModel("umd1", "µMD1", 115_200, 32, announces_counting=False, interpolation=0),
+    UmdModel("umd2", "µMD2", 2_000_000, 32, announces_counting=True, interpolation=2),
 )
 
 
@@ -64,7 +64,7 @@ class AxisCounts(NamedTuple):
     phase: int  #: PHASE, the fraction of a count, or a flag that it was not found.
 
 
-class Frame(NamedTuple):
+class UmdFrame(NamedTuple):
     """A line."""
 
     reference: int  #: REF, cycles of the laser's reference in the sample; 0 of a homodyne instrument.
@@ -75,7 +75,7 @@ class Frame(NamedTuple):
     data: int
 
 
-def frame_in(line: bytes) -> Frame | None:
+def frame_in(line: bytes) -> UmdFrame | None:
     """Return what a line without its end says; None if it is none, such as a banner or debug text (``!``)."""
     if not _DIGITS.fullmatch(line):  # or a number might be written in a way that only Python takes for one
         return None
@@ -89,7 +89,7 @@ def frame_in(line: bytes) -> Frame | None:
     axes: tuple[AxisCounts, ...] = (AxisCounts(*numbers[1:5]),)
     if len(numbers) > 8:
         axes += (AxisCounts(*numbers[8:12]), AxisCounts(*numbers[12:]))
-    return Frame(numbers[0], axes, *numbers[5:8])
+    return UmdFrame(numbers[0], axes, *numbers[5:8])
 
 
 _ABSENT = -1
@@ -122,7 +122,7 @@ class LowSpeed:
     `temperatures`: The names of what its two temperature sensors measure.
     """
 
-    def __init__(self, model: Model, temperatures: tuple[str, str]) -> None:
+    def __init__(self, model: UmdModel, temperatures: tuple[str, str]) -> None:
         self._model = model
         self._names: Mapping[int, str] = {
             Code.TEMPERATURE_1: temperatures[0],
@@ -135,7 +135,7 @@ class LowSpeed:
         self._lines = 0
         self.conditions: Mapping[str, float] = NO_CONDITIONS
 
-    def hear(self, frame: Frame) -> None:
+    def hear(self, frame: UmdFrame) -> None:
         """Take note of what a line says."""
         self._lines += 1
         code, data = frame.code, frame.data
@@ -272,7 +272,7 @@ class UmdEmulator:
     `length`: Displacement for an optical cycle in standard air, m.
     """
 
-    def __init__(self, model: Model, scene: Scene, length: float) -> None:
+    def __init__(self, model: UmdModel, scene: Scene, length: float) -> None:
         self._model = model
         self._manner = _MANNERS[model.identifier]
         self._scene = scene

@@ -58,7 +58,7 @@ _SERIAL = Words(en="Serial number", de="Seriennummer")
 
 
 @dataclass(frozen=True, slots=True)
-class Writer:
+class AdministrativeWriter:
     """Writes texts in the language of one certificate."""
 
     language: Language  #: Of the certificate, the only one of its DCC.
@@ -74,13 +74,13 @@ class Writer:
         return dcc(element, self.content(words))
 
 
-def software(certificate: Certificate, writer: Writer) -> ET.Element:
+def software(certificate: Certificate, writer: AdministrativeWriter) -> ET.Element:
     """Return the program; its release with the letter that PTB's rules ask for."""
     name, _, release = certificate.generator.partition(" ")
     return dcc("software", writer.named("name", name), dcc("release", f"v{release or '0'}"))
 
 
-def serial_number(value: str, writer: Writer) -> ET.Element:
+def serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
     """Return the identification by which a manufacturer tells one piece from another."""
     return dcc(
         "identification",
@@ -99,7 +99,7 @@ def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
     missing = list(_missing(job))
     if missing:
         raise InputError(missing)
-    writer = Writer(certificate.language)
+    writer = AdministrativeWriter(certificate.language)
     keys = job.keys
     assert keys.laboratory is not None  # noqa: S101 - what is missing was refused above
     assert keys.customer is not None  # noqa: S101 - likewise
@@ -172,12 +172,12 @@ def _digest(certificate: Certificate) -> ET.Element | None:
             "identification",
             dcc("issuer", "calibrationLaboratory"),
             dcc("value", certificate.digest),
-            Writer(certificate.language).named("name", DIGEST),
+            AdministrativeWriter(certificate.language).named("name", DIGEST),
         ),
     )
 
 
-def _item(job: Job, writer: Writer) -> ET.Element:
+def _item(job: Job, writer: AdministrativeWriter) -> ET.Element:
     machine = job.keys.machine
     of = {"axis": job.axis.name, "machine": machine.type}
     name = (_AXIS_OF if machine.type else _AXIS).given(**of)
@@ -200,7 +200,7 @@ def _item(job: Job, writer: Writer) -> ET.Element:
 
 
 def _contact(
-    element: str, party: Laboratory | Customer, writer: Writer, country: str | None = None
+    element: str, party: Laboratory | Customer, writer: AdministrativeWriter, country: str | None = None
 ) -> ET.Element:
     """Return a party with its address line by line: the job does not tell a street from a town."""
     lines = [dcc("further", writer.content(line)) for line in address_lines(party.address) or ("–",)]
@@ -208,7 +208,7 @@ def _contact(
     return dcc(element, writer.named("name", party.name), location)
 
 
-def _persons(job: Job, writer: Writer) -> ET.Element | None:
+def _persons(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
     person = job.keys.certificate.authorised_by
     if person is None:
         return None
@@ -249,7 +249,7 @@ _REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
 _CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
 
 
-def equipment(job: Job, writer: Writer) -> ET.Element | None:
+def equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
     """Return the measuring instrument with its calibration certificate; None where none is stated."""
     instrument = job.keys.instrument
     if instrument is None:
@@ -266,7 +266,7 @@ def equipment(job: Job, writer: Writer) -> ET.Element | None:
     )
 
 
-def state(when: str, work: str | None, writer: Writer) -> ET.Element | None:
+def state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Element | None:
     """Return whether the axis was measured before or after an adjustment or repair; None without one.
 
     `when`: ``before`` or ``after``.
@@ -282,7 +282,7 @@ def state(when: str, work: str | None, writer: Writer) -> ET.Element | None:
     )
 
 
-def influences(job: Job, writer: Writer) -> Iterator[ET.Element]:
+def influences(job: Job, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the conditions that the job states."""
     environment = job.keys.environment
     if environment is None:
@@ -304,7 +304,7 @@ def influences(job: Job, writer: Writer) -> Iterator[ET.Element]:
 
 
 def _condition(
-    name: Words, stated: ET.Element, writer: Writer, kind: str = "", remark: Words | None = None
+    name: Words, stated: ET.Element, writer: AdministrativeWriter, kind: str = "", remark: Words | None = None
 ) -> ET.Element:
     return dcc(
         "influenceCondition",

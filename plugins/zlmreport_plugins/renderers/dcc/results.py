@@ -29,7 +29,13 @@ from zlmreport.plugin.renderer import (
     changes,
 )
 from zlmreport.plugin.standard import Conformity
-from zlmreport_plugins.renderers.dcc.administrative import Writer, equipment, influences, software, state
+from zlmreport_plugins.renderers.dcc.administrative import (
+    AdministrativeWriter,
+    equipment,
+    influences,
+    software,
+    state,
+)
 from zlmreport_plugins.renderers.dcc.elements import (
     CONDITION,
     DEVIATION,
@@ -162,7 +168,7 @@ def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
 
 def _of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[ET.Element]:
     """Yield the results of one measurement; `named` is what its document calls it."""
-    writer, before = Writer(certificate.language), job.as_found
+    writer, before = AdministrativeWriter(certificate.language), job.as_found
     work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
     after = state("after", work, writer)
     tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, named)]
@@ -187,7 +193,7 @@ def _of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[
 
 
 def _readings_alone(
-    test: _Test, line: MeasurementSet, certificate: Certificate, writer: Writer
+    test: _Test, line: MeasurementSet, certificate: Certificate, writer: AdministrativeWriter
 ) -> ET.Element:
     """Return a measured line that no standard evaluates but together with others."""
     return dcc(
@@ -202,12 +208,14 @@ def _readings_alone(
     )
 
 
-def _result_of_readings(test: _Test, line: MeasurementSet, writer: Writer) -> ET.Element:
+def _result_of_readings(test: _Test, line: MeasurementSet, writer: AdministrativeWriter) -> ET.Element:
     named = {"id": f"{TEST}{test.name}"} if test.name else {}
     return _result(_READINGS, _readings(line, writer), writer, refType=READINGS, **named)
 
 
-def _measurement_result(index: int, test: _Test, certificate: Certificate, writer: Writer) -> ET.Element:
+def _measurement_result(
+    index: int, test: _Test, certificate: Certificate, writer: AdministrativeWriter
+) -> ET.Element:
     """Return the results by one standard; the first of a test has its readings, too.
 
     Readings stay out where the customer agreed to a document without them; what is evaluated of several lines
@@ -242,7 +250,7 @@ def _measurement_result(index: int, test: _Test, certificate: Certificate, write
     )
 
 
-def _used_methods(evaluations: Iterable[Evaluation], writer: Writer) -> ET.Element:
+def _used_methods(evaluations: Iterable[Evaluation], writer: AdministrativeWriter) -> ET.Element:
     """Return the standards and methods by which something was measured."""
     return dcc(
         "usedMethods",
@@ -263,11 +271,13 @@ def _reference(test: _Test, measurements: MeasurementSet) -> dict[str, str]:
     return {"refId": " ".join(f"{TEST}{each}" for each in names)} if all(names) else {}
 
 
-def _result(name: Words, of: Iterable[ET.Element], writer: Writer, **kind: str) -> ET.Element:
+def _result(name: Words, of: Iterable[ET.Element], writer: AdministrativeWriter, **kind: str) -> ET.Element:
     return dcc("result", writer.named("name", name), dcc("data", dcc("list", *of)), **kind)
 
 
-def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Writer) -> ET.Element:
+def _parameter(
+    parameter: EvaluatedParameter, evaluation: Evaluation, writer: AdministrativeWriter
+) -> ET.Element:
     axis_unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
     unit = unit_of(axis_unit)
     uncertainty = parameter.expanded_uncertainty
@@ -288,7 +298,7 @@ def _parameter(parameter: EvaluatedParameter, evaluation: Evaluation, writer: Wr
     )
 
 
-def _changes(before: Evaluation, after: Evaluation, writer: Writer) -> Iterator[ET.Element]:
+def _changes(before: Evaluation, after: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield by how much each parameter changed, with its U where both are known."""
     usual = after.measurements.axis.deviation_unit
     for each in changes(before, after):
@@ -307,7 +317,9 @@ def _changes(before: Evaluation, after: Evaluation, writer: Writer) -> Iterator[
             )
 
 
-def _interval(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) -> ET.Element | None:
+def _interval(
+    parameter: EvaluatedParameter, axis_unit: Unit, writer: AdministrativeWriter
+) -> ET.Element | None:
     """Return where another test of the axis would find a parameter; None where that is not known."""
     if parameter.axis_interval is None:
         return None
@@ -324,7 +336,9 @@ def _interval(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) ->
     )
 
 
-def _conformity(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) -> ET.Element | None:
+def _conformity(
+    parameter: EvaluatedParameter, axis_unit: Unit, writer: AdministrativeWriter
+) -> ET.Element | None:
     """Return what is stated of a parameter's limit, with the limits; None where it has none."""
     decision, limit = parameter.decision, parameter.limit
     if decision is None or limit is None:
@@ -340,7 +354,9 @@ def _conformity(parameter: EvaluatedParameter, axis_unit: Unit, writer: Writer) 
     )
 
 
-def _limits(decision: Decision, limit: float, axis_unit: Unit, writer: Writer) -> Iterator[ET.Element]:
+def _limits(
+    decision: Decision, limit: float, axis_unit: Unit, writer: AdministrativeWriter
+) -> Iterator[ET.Element]:
     unit = unit_of(axis_unit)
     yield quantity(writer.named("name", _LIMIT), real(axis_unit.from_si(limit), unit))
     accepted = decision.acceptance_limit
@@ -350,7 +366,7 @@ def _limits(decision: Decision, limit: float, axis_unit: Unit, writer: Writer) -
         yield quantity(writer.named("name", _RISK), real(decision.risk, ONE))
 
 
-def _positions(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
+def _positions(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the columns by target position that the test defines."""
     axis = evaluation.measurements.axis
     targets = axis.position_unit.from_si(evaluation.measurements.target_positions).tolist()
@@ -391,7 +407,7 @@ def _columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, FloatA
         yield column.quantity.name, column.values, None
 
 
-def _findings(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
+def _findings(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the requirements of the standard: met, not met, open."""
     for finding in evaluation.findings:
         found = _FOUND.given(requirement=finding.requirement, found=finding.found)
@@ -402,7 +418,7 @@ def _findings(evaluation: Evaluation, writer: Writer) -> Iterator[ET.Element]:
         )
 
 
-def _budget(test: _Test, writer: Writer) -> Iterator[ET.Element]:
+def _budget(test: _Test, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the contributions to the uncertainty of a test; what they leave out is among the statements."""
     budget = test.budget
     if not isinstance(budget, Budget) or budget.tests:  # each line has its own
@@ -424,7 +440,7 @@ def _budget(test: _Test, writer: Writer) -> Iterator[ET.Element]:
     )
 
 
-def _readings(measurements: MeasurementSet, writer: Writer) -> Iterator[ET.Element]:
+def _readings(measurements: MeasurementSet, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the readings as columns; direction is 1 and −1, and NaN stands for what is missing.
 
     Of a test with an artefact, kinds beside that of the deviation say how it is to be understood.

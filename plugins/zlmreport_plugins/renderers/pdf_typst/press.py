@@ -26,7 +26,7 @@ _TEMPLATES = "zlmreport_templates"
 _UNKNOWN = date(1970, 1, 1)
 
 
-class Press:
+class TypstPress:
     """Prints documents, one at a time."""
 
     def __init__(self) -> None:
@@ -106,6 +106,6 @@ def _stream(number: int, kind: bytes, content: bytes) -> bytes:
 
 
 @cache
-def press() -> Press:
+def press() -> TypstPress:
     """Return the press of this process."""
-    return Press()
+    return TypstPress()

@@ -49,7 +49,7 @@ from zlmreport_plugins.sources.circle_csv.rows import (
 )
 from zlmreport_plugins.sources.circle_csv.turns import (
     TURN,
-    Turn,
+    CircleTurn,
     common_angles,
     evaluated,
     one_after_another,
@@ -205,7 +205,7 @@ def _first(problems: Sequence[Problem]) -> list[Problem]:
 
 def _turns(
     rows: Sequence[CircleRow], layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions
-) -> list[Turn]:
+) -> list[CircleTurn]:
     """Return the turns of a table in the order in which they begin."""
     found: dict[tuple[Approach, int], list[CircleRow]] = {}
     for row in rows:
@@ -224,11 +224,11 @@ def _turns(
             for index, column in enumerate(layout.conditions)
         }
         deviation = np.array([row.value for row in own]) - nominal
-        turns.append(Turn(way, run, angle, deviation, time, conditions, [row.place for row in own]))
+        turns.append(CircleTurn(way, run, angle, deviation, time, conditions, [row.place for row in own]))
     return turns
 
 
-def _wrong_turns(turns: Sequence[Turn]) -> Iterator[Problem]:
+def _wrong_turns(turns: Sequence[CircleTurn]) -> Iterator[Problem]:
     for turn in turns:
         place, name = turn.places[0], _NAMES[turn.sense]
         if len(turn.angle) < _FEWEST:
@@ -252,7 +252,7 @@ _NAMES = {Approach.POSITIVE: "ccw", Approach.NEGATIVE: "cw"}
 
 
 def _evaluated(
-    turns: Sequence[Turn], circle: NominalCircle, options: CircleCsvOptions
+    turns: Sequence[CircleTurn], circle: NominalCircle, options: CircleCsvOptions
 ) -> tuple[list[Reading], Averaging | None, tuple[Words, ...]]:
     """Return the readings that are evaluated, what was averaged, and what is to be said of both."""
     stated = [math.radians(arc) if arc is not None else None for arc in (options.feed_in, options.feed_out)]
@@ -292,7 +292,7 @@ def _evaluated(
     return readings, averaging, tuple(remarks)
 
 
-def _as_they_are(turn: Turn, shared: FloatArray) -> Iterator[Reading]:
+def _as_they_are(turn: CircleTurn, shared: FloatArray) -> Iterator[Reading]:
     """Yield the readings of a turn at the angles that all turns share."""
     own = np.mod(turn.angle, TURN)
     distance = np.abs(own[:, np.newaxis] - np.append(shared, shared[0] + TURN)[np.newaxis, :])

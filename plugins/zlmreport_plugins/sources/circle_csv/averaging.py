@@ -14,7 +14,7 @@ import numpy as np
 
 from zlmreport.plugin import FloatArray, IntArray
 from zlmreport.plugin.source import Averaging
-from zlmreport_plugins.sources.circle_csv.turns import TURN, Turn
+from zlmreport_plugins.sources.circle_csv.turns import TURN, CircleTurn
 
 #: Numbers of arcs of a turn, of which the largest is taken that leaves none without a reading.
 _ARCS = (3600, 1800, 1440, 1200, 900, 720, 600, 480, 360, 240, 180, 120, 90, 72, 60, 36, 24, 12, 8)
@@ -32,7 +32,7 @@ _FINER = 8
 class Averaged:
     """A turn of averages over arcs."""
 
-    turn: Turn  #: What it was made of.
+    turn: CircleTurn  #: What it was made of.
     angle: FloatArray  #: (m,): middles of the arcs, rad in [0, 2π), in the order in which they were passed.
     deviation: FloatArray  #: (m,): m.
     time: FloatArray  #: (m,): s; NaN where not logged.
@@ -40,7 +40,7 @@ class Averaged:
     central: IntArray  #: (m,): Index of the reading in the middle of each arc.
 
 
-def arcs_of(turns: Sequence[Turn]) -> int:
+def arcs_of(turns: Sequence[CircleTurn]) -> int:
     """Return into how many arcs a turn may be cut so that each has a reading of every turn."""
     for number in _ARCS:
         covered = _covered(turns, number)
@@ -49,7 +49,7 @@ def arcs_of(turns: Sequence[Turn]) -> int:
     return _ARCS[-1]
 
 
-def averaged(turns: Sequence[Turn], number: int) -> tuple[Averaged, ...]:
+def averaged(turns: Sequence[CircleTurn], number: int) -> tuple[Averaged, ...]:
     """Return the averages of turns over arcs that all of them cover whole, at so many arcs a turn."""
     covered = _covered(turns, number)
     return tuple(_of_turn(turn, number, covered) for turn in turns)
@@ -74,12 +74,12 @@ def looked_at(turns: Sequence[Averaged], angular_speed: float) -> Averaging:
     )
 
 
-def _arc(turn: Turn, number: int) -> IntArray:
+def _arc(turn: CircleTurn, number: int) -> IntArray:
     """Return in which arc each reading lies, counted from angle 0; arcs begin where the axes turn round."""
     return np.floor(np.mod(turn.angle, TURN) / TURN * number + 1e-9).astype(np.int64) % number
 
 
-def _covered(turns: Sequence[Turn], number: int) -> IntArray:
+def _covered(turns: Sequence[CircleTurn], number: int) -> IntArray:
     """Return the arcs that every turn covers whole: all of a full turn, of others those between its ends."""
     found = np.arange(number)
     width = TURN / number
@@ -100,7 +100,7 @@ def _harmonics(angle: FloatArray) -> FloatArray:
     return np.concatenate([np.ones((len(angle), 1)), np.cos(phases), np.sin(phases)], axis=1)
 
 
-def _of_turn(turn: Turn, number: int, covered: IntArray) -> Averaged:
+def _of_turn(turn: CircleTurn, number: int, covered: IntArray) -> Averaged:
     """Average one turn.
 
     The readings of an arc do not lie about its middle evenly: what changes slowly along the path is taken off
@@ -161,7 +161,7 @@ def _left_out(found: Averaged) -> FloatArray:
     return (turn.deviation - path)[inside]
 
 
-def _strongest(turn: Turn, left: FloatArray, angular_speed: float) -> tuple[float, float]:
+def _strongest(turn: CircleTurn, left: FloatArray, angular_speed: float) -> tuple[float, float]:
     """Return amplitude and frequency of the strongest line, m and Hz; zeros where it may be chance."""
     count = len(left)
     if count < _FEWEST:

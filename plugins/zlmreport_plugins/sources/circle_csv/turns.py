@@ -16,7 +16,7 @@ _CLOSES = 0.5
 
 
 @dataclass(frozen=True, slots=True)
-class Turn:
+class CircleTurn:
     """Readings of one turn in one sense, in the order of time."""
 
     sense: Approach  #: + counter-clockwise.
@@ -42,7 +42,7 @@ class Turn:
         """The usual way from reading to reading, rad."""
         return float(np.median(np.abs(np.diff(self.angle))))
 
-    def of(self, chosen: BoolArray) -> Turn:
+    def of(self, chosen: BoolArray) -> CircleTurn:
         """Return some of its readings."""
         return replace(
             self,
@@ -54,7 +54,9 @@ class Turn:
         )
 
 
-def evaluated(turn: Turn, feed_in: float | None, feed_out: float | None) -> tuple[Turn, float, float]:
+def evaluated(
+    turn: CircleTurn, feed_in: float | None, feed_out: float | None
+) -> tuple[CircleTurn, float, float]:
     """Return the part of a turn that is evaluated, at most one round, and the arcs before and behind it, rad.
 
     `feed_in`, `feed_out`: As the job states them, rad; None where it does not: then one of them follows from
@@ -74,9 +76,9 @@ def evaluated(turn: Turn, feed_in: float | None, feed_out: float | None) -> tupl
     return turn.of((way >= before - slack) & (way <= last + slack)), before, behind
 
 
-def one_after_another(turns: Sequence[Turn]) -> tuple[list[Turn], bool]:
+def one_after_another(turns: Sequence[CircleTurn]) -> tuple[list[CircleTurn], bool]:
     """Return turns whose times go on where those of each begin anew, and whether any did."""
-    found: list[Turn] = []
+    found: list[CircleTurn] = []
     shift, is_shifted, last = 0.0, False, -math.inf
     for turn in turns:
         times = turn.time[np.isfinite(turn.time)]
@@ -87,7 +89,7 @@ def one_after_another(turns: Sequence[Turn]) -> tuple[list[Turn], bool]:
     return found, is_shifted
 
 
-def common_angles(turns: Sequence[Turn], most: int) -> FloatArray | None:
+def common_angles(turns: Sequence[CircleTurn], most: int) -> FloatArray | None:
     """Return the angles that all turns share, rad in [0, 2π), rising; None where they have their own.
 
     They share them if each has half of all at least; a reading that one of them lacks is then missing.
@@ -101,7 +103,7 @@ def common_angles(turns: Sequence[Turn], most: int) -> FloatArray | None:
     return np.asarray(distinct)
 
 
-def strays(turn: Turn) -> Iterator[str]:
+def strays(turn: CircleTurn) -> Iterator[str]:
     """Yield what is wrong with the angles of a turn: they go the other way, or to and fro."""
     steps = float(turn.sense) * np.diff(turn.angle)
     if not np.count_nonzero(steps):

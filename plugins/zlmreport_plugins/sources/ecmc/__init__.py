@@ -58,16 +58,16 @@ Key: TypeAlias = tuple[str, tuple[int, ...]]
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class EcmcEntry:
     """What stands behind a key, and where."""
 
     place: Place
     value: str
 
 
-def entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, Entry]:
+def entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEntry]:
     """Return the entries of a log that are read; what is wrong with a line is added to the problems."""
-    found: dict[Key, Entry] = {}
+    found: dict[Key, EcmcEntry] = {}
     for number, line in enumerate(text.lines, 1):
         content = line.partition("#")[0]
         if not content.strip() or (number == 1 and _is_glued(line)):
@@ -86,7 +86,7 @@ def entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, Entry]:
             )
         elif key[0] not in _NOT_READ:
             column = len(name) + 1 + len(value) - len(value.lstrip()) + 1
-            found[key] = Entry(text.place(number, column), value.strip())
+            found[key] = EcmcEntry(text.place(number, column), value.strip())
     return found
 
 
@@ -139,7 +139,7 @@ class Log:
     """A log."""
 
     file: Place  #: For what has no line of its own.
-    entries: Mapping[Key, Entry]  #: By key.
+    entries: Mapping[Key, EcmcEntry]  #: By key.
     problems: list[Problem]  #: What is wrong with them; reading adds to it.
 
     def readings(self, unit: Unit, forward: Approach) -> Iterator[Reading]:
@@ -271,7 +271,7 @@ class Ecmc:
         return collect_readings(readings, context.axis, provenance, place=text.place(), problems=problems)
 
 
-def _unit(found: Mapping[Key, Entry], context: SourceContext) -> Unit:
+def _unit(found: Mapping[Key, EcmcEntry], context: SourceContext) -> Unit:
     """Return the unit of all positions; raise InputError if it is none of the axis."""
     entry = found.get((UNIT, ()))
     try:

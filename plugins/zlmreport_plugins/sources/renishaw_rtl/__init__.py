@@ -39,9 +39,9 @@ from zlmreport.plugin.source import (
 )
 from zlmreport_plugins.sources.renishaw_rtl.contents import (
     Deviation,
-    Entry,
     Pass,
-    Section,
+    RtlEntry,
+    RtlSection,
     deviations,
     passes,
     sections,
@@ -78,7 +78,7 @@ _TEXTS = {
 }
 
 
-def remarks(sections: Mapping[str, Section], problems: list[Problem]) -> Iterator[Words]:
+def remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) -> Iterator[Words]:
     """Yield what the file says; a value that is no number is added to the problems."""
     for name, introduction in _TEXTS.items():
         if name in sections:
@@ -97,7 +97,7 @@ def remarks(sections: Mapping[str, Section], problems: list[Problem]) -> Iterato
                     yield remark
 
 
-def _recorded(entry: Entry) -> Words | None:
+def _recorded(entry: RtlEntry) -> Words | None:
     """Return what was recorded at the start and at the end of the test; None if there was no sensor."""
     if entry.key in _NOT_SAID:
         return None
@@ -200,7 +200,7 @@ class RenishawRtl:
         )
 
 
-def _kind(text: TextFile, parts: Mapping[str, Section], context: SourceContext) -> str:
+def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContext) -> str:
     """Return the kind of file, rtl or rta, which must be that of the axis."""
     own = next(kind for kind, axis_kind in _KINDS.items() if axis_kind is context.axis.kind)
     kind, place = _told_kind(text, parts) or (own, text.place())
@@ -216,7 +216,7 @@ def _kind(text: TextFile, parts: Mapping[str, Section], context: SourceContext) 
     return kind
 
 
-def _told_kind(text: TextFile, parts: Mapping[str, Section]) -> tuple[str, Place] | None:
+def _told_kind(text: TextFile, parts: Mapping[str, RtlSection]) -> tuple[str, Place] | None:
     """Return the kind that the file's header or else its suffix tells, and where."""
     entry = parts["HEADER"].value("filetype") if "HEADER" in parts else None
     if entry and entry.value:
@@ -238,7 +238,7 @@ def _unit_remark(options: RenishawRtlOptions, unit: Unit, kind: str) -> Words:
     return (_UNIT_STATED if options.deviation_unit else _UNIT_TAKEN).given(unit=unit.symbol, kind=kind)
 
 
-def _cut_off(parts: Mapping[str, Section], found: Sequence[Deviation]) -> Iterator[Problem]:
+def _cut_off(parts: Mapping[str, RtlSection], found: Sequence[Deviation]) -> Iterator[Problem]:
     """Yield the problem that the file has not as many runs as it announces."""
     stated = stated_count(parts["RUNS"], "runcount") if "RUNS" in parts else None
     runs = len({deviation.run for deviation in found})

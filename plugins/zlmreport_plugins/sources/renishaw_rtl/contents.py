@@ -16,7 +16,7 @@ _HEAD = re.compile(r"([A-Z][A-Z0-9 -]*)::")
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class RtlLine:
     """A line of a file."""
 
     place: Place  #: Of its first character.
@@ -32,52 +32,52 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class RtlEntry:
     """A key of a section with what stands behind it."""
 
     name: str  #: As the file writes it.
     key: str  #: The name without case, blanks and hyphens.
     value: str  #: The rest of the line.
-    line: Line
+    line: RtlLine
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class RtlSection:
     """A section: its head, and its lines that are not blank."""
 
-    head: Line
-    lines: tuple[Line, ...]
+    head: RtlLine
+    lines: tuple[RtlLine, ...]
 
-    def entries(self) -> Iterator[Entry]:
+    def entries(self) -> Iterator[RtlEntry]:
         """Yield the lines of the form ``key : value``."""
         for line in self.lines:
             entry = as_entry(line)
             if entry:
                 yield entry
 
-    def value(self, key: str) -> Entry | None:
+    def value(self, key: str) -> RtlEntry | None:
         """Return the entry of a key, written so; None if there is none."""
         return next((entry for entry in self.entries() if entry.key == key), None)
 
 
-def as_entry(line: Line) -> Entry | None:
+def as_entry(line: RtlLine) -> RtlEntry | None:
     """Return a line of the form ``key : value`` taken apart; None if it is of another form."""
     name, colon, value = line.text.partition(":")
     if not colon:
         return None
-    return Entry(name.strip(), re.sub(r"[\s-]+", "", name).casefold(), value.strip(), line)
+    return RtlEntry(name.strip(), re.sub(r"[\s-]+", "", name).casefold(), value.strip(), line)
 
 
-def sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, Section]:
+def sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, RtlSection]:
     """Return the sections of a file by the words of their heads.
 
     Raises `InputError` if it has no sections, a section twice, or lacks one that is demanded.
     """
-    heads: dict[str, Line] = {}
-    lines: dict[str, list[Line]] = {}
+    heads: dict[str, RtlLine] = {}
+    lines: dict[str, list[RtlLine]] = {}
     name = None
     for number, content in enumerate(text.lines, 1):
-        line = Line(text.place(number, 1), content)
+        line = RtlLine(text.place(number, 1), content)
         head = _HEAD.fullmatch(content.strip())
         if head:
             name = head[1].strip()
@@ -98,13 +98,13 @@ def sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, Section]
             Problem(text.place(), f"has no section {section}::; {did_you_mean(section, sorted(heads))}")
             for section in missing
         )
-    return {name: Section(head, tuple(lines[name])) for name, head in heads.items()}
+    return {name: RtlSection(head, tuple(lines[name])) for name, head in heads.items()}
 
 
 _COUNT = re.compile(r"[0-9]{1,9}")
 
 
-def target_positions(section: Section) -> tuple[float, ...]:
+def target_positions(section: RtlSection) -> tuple[float, ...]:
     """Return the target positions in the order of their numbers, as the file gives them (mm or degrees).
 
     They begin behind ``Targets :`` and wrap; the next key ends them.
@@ -136,7 +136,7 @@ def target_positions(section: Section) -> tuple[float, ...]:
     return tuple(positions)
 
 
-def stated_count(section: Section, key: str) -> tuple[int, Line] | None:
+def stated_count(section: RtlSection, key: str) -> tuple[int, RtlLine] | None:
     """Return a number of things that a section states, and where; None if it states none.
 
     Raises `InputError` if what it states is no number.
@@ -149,7 +149,7 @@ def stated_count(section: Section, key: str) -> tuple[int, Line] | None:
     return int(entry.value), entry.line
 
 
-def _miscounted(section: Section, begin: Line, found: int) -> list[Problem]:
+def _miscounted(section: RtlSection, begin: RtlLine, found: int) -> list[Problem]:
     stated = stated_count(section, "targetcount")
     if stated and stated[0] != found:
         message = f"the file announces {stated[0]} targets and lists {found}; was it cut off?"
@@ -187,7 +187,7 @@ class Pass:
         return next(iter(self.deviations.values()))[0].place
 
 
-def deviations(section: Section, targets: Sequence[float], problems: list[Problem]) -> list[Deviation]:
+def deviations(section: RtlSection, targets: Sequence[float], problems: list[Problem]) -> list[Deviation]:
     """Return the deviation lines of a section; what is wrong with a line is added to the problems."""
     found = (
         _deviation(line, len(targets), problems)
@@ -221,7 +221,7 @@ def passes(found: Sequence[Deviation], targets: Sequence[float], problems: list[
         yield Pass(approach, cycles[approach], by_target)
 
 
-def _deviation(line: Line, targets: int, problems: list[Problem]) -> Deviation | None:
+def _deviation(line: RtlLine, targets: int, problems: list[Problem]) -> Deviation | None:
     words = line.words()
     if len(words) != 3:
         shown = quoted(line.text.strip())

@@ -79,7 +79,7 @@ class Attachment:
     description: str
 
 
-class Role(Enum):
+class SourceRole(Enum):
     """What a source is to the job: its key in the results file, and its name."""
 
     JOB = ("job", Words(en="Job", de="Auftrag"))
@@ -113,7 +113,7 @@ class Source:
         Its digest and bytes.
     """
 
-    role: Role
+    role: SourceRole
     name: str
     path: str
     file: SourceFile
@@ -123,23 +123,23 @@ def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -
     """Return every file that a certificate is made from, the job file first."""
     trees = (job.tree, *(part.tree for part in job.parts))
     stated = frozenset(each.text for tree in trees for each in scalars(tree))
-    found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
+    found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
 
-    def add(role: Role, file: SourceFile) -> None:
+    def add(role: SourceRole, file: SourceFile) -> None:
         found.setdefault((_path(file, job, stated), file.sha256), (role, file))
 
-    known: dict[SourceFile, Role] = {}
+    known: dict[SourceFile, SourceRole] = {}
     for part in job.parts:
-        known |= dict.fromkeys((file for each in part.sessions for file in each.files), Role.SESSION)
-        known |= dict.fromkeys(part.files[-1:] if part.priors else (), Role.PRIORS)
-        known |= dict.fromkeys(part.axis.files, Role.TABLE)
-    known |= {each.files[0]: Role.TEST for each in job.measurements.values()}
+        known |= dict.fromkeys((file for each in part.sessions for file in each.files), SourceRole.SESSION)
+        known |= dict.fromkeys(part.files[-1:] if part.priors else (), SourceRole.PRIORS)
+        known |= dict.fromkeys(part.axis.files, SourceRole.TABLE)
+    known |= {each.files[0]: SourceRole.TEST for each in job.measurements.values()}
     for number, file in enumerate(job.files):
-        add(known.get(file, Role.EXTENDED) if number else Role.JOB, file)
+        add(known.get(file, SourceRole.EXTENDED) if number else SourceRole.JOB, file)
     for file in readings:
-        add(Role.READINGS, file)
+        add(SourceRole.READINGS, file)
     if logo:
-        add(Role.LOGO, logo)
+        add(SourceRole.LOGO, logo)
     return _named(found, job.keys.certificate.number)
 
 
@@ -148,15 +148,17 @@ def sources_of(files: Sequence[SourceFile], number: str) -> tuple[Source, ...]:
 
     `number`: Of the document.
     """
-    found: dict[tuple[str, str], tuple[Role, SourceFile]] = {}
+    found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
     first = files[0].path
     for file in files:
         path = path_from_job(file.path, first) if first and file.path else None
-        found.setdefault((path or file.name, file.sha256), (Role.TEST if found else Role.JOB, file))
+        found.setdefault(
+            (path or file.name, file.sha256), (SourceRole.TEST if found else SourceRole.JOB, file)
+        )
     return _named(found, number)
 
 
-def _named(found: Mapping[tuple[str, str], tuple[Role, SourceFile]], number: str) -> tuple[Source, ...]:
+def _named(found: Mapping[tuple[str, str], tuple[SourceRole, SourceFile]], number: str) -> tuple[Source, ...]:
     """Return files, by path and digest, each with a name of its own."""
     taken: set[str] = set()
     return tuple(

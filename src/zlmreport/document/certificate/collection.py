@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conformity, cover, origin, statements, uncertainty
-from zlmreport.document.certificate.attachments import Role, sources
+from zlmreport.document.certificate.attachments import SourceRole, sources
 from zlmreport.document.certificate.circumstances import Fact, date, stated_facts
 from zlmreport.document.certificate.conditions import MACHINE_KINDS
 from zlmreport.document.certificate.digest import DIGEST, digest_of
@@ -56,8 +56,8 @@ def collected(
     as_found = tuple(each for part in parts.values() for each in part.evaluations_as_found)
     digest = digest_of(certificate.number, (*evaluations, *as_found))
     files = [each for part in parts.values() for each in part.sources]
-    logo = next((each.file for each in files if each.role is Role.LOGO), None)
-    made_from = sources(job, [each.file for each in files if each.role is Role.READINGS], logo)
+    logo = next((each.file for each in files if each.role is SourceRole.LOGO), None)
+    made_from = sources(job, [each.file for each in files if each.role is SourceRole.READINGS], logo)
     budget = joined_budget({name: part.budget for name, part in parts.items() if part.budget})
     machine = keys.machine.type or writer.say(_THE_MACHINE)
     subject = writer.say(

@@ -32,7 +32,7 @@ from zlmreport.document.blocks import (
     text_of,
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import advance
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
@@ -229,7 +229,7 @@ def _longest_word(text: str) -> float:
 def width_of(text: str) -> float:
     """Return how wide a text is in the regular face, in em."""
     ours = "".join(each for each in text if each < _FIRST_FULL_WIDTH_CHARACTER)
-    return advance(ours, Face.REGULAR) + _FULL * (len(text) - len(ours))
+    return advance(ours, TypeFace.REGULAR) + _FULL * (len(text) - len(ours))
 
 
 #: A block, or facts that follow each other.

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Block, Column, Facts, Paragraph, RowGroup, Section, Table
-from zlmreport.document.certificate.attachments import Role, Source
+from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.document.certificate.measured_lines import said_of_each
 from zlmreport.language import Words
 
@@ -144,7 +144,7 @@ def _files_of(
         Column("Bytes", align=Align.RIGHT),
         Column("SHA-256"),
     )
-    readings = [source for source in sources if source.role is Role.READINGS]
+    readings = [source for source in sources if source.role is SourceRole.READINGS]
     groups = [
         RowGroup(
             tuple(_row(source) for source in readings if source.file in line.provenance.files),

@@ -12,7 +12,7 @@ from string import ascii_letters, digits, punctuation
 from typing import TYPE_CHECKING
 
 from zlmreport.document.certificate.document import Look, Typeface
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import advance
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean, quoted
 from zlmreport.files import demanded, reason
@@ -49,15 +49,15 @@ def read_look(job: Job) -> Look:
     typeface = None
     if style.typeface:
         place = job.place_of("certificate.style.typeface")
-        regular, figure, sign = _font(style.typeface.regular, Face.REGULAR, place)
-        semibold, _, _ = _font(style.typeface.semibold, Face.SEMIBOLD, place)
+        regular, figure, sign = _font(style.typeface.regular, TypeFace.REGULAR, place)
+        semibold, _, _ = _font(style.typeface.semibold, TypeFace.SEMIBOLD, place)
         typeface = Typeface(regular, semibold, figure, sign)
     folder = style.templates
     templates = _templates(folder, job.place_of("certificate.style.templates")) if folder else ()
     return Look(style.accent, style.logo, typeface, templates)
 
 
-def _font(path: Path, face: Face, place: Place) -> tuple[bytes, float, float]:
+def _font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float]:
     """Return a font that takes as much room as a bundled face, and widths of a figure and a decimal sign.
 
     Its em is made another, so that neither its figures nor its words are wider, and its lines not higher.

@@ -19,7 +19,7 @@ Segment: TypeAlias = tuple[str, tuple[float, ...]]
 _FONT = "'IBM Plex Sans', sans-serif"
 
 
-class Face(Enum):
+class TypeFace(Enum):
     """A face of the bundled typeface; the value is the stem of its file."""
 
     REGULAR = "IBMPlexSans-Regular"
@@ -59,7 +59,7 @@ class Run:
     """
 
     text: str
-    face: Face
+    face: TypeFace
     size: float
     x: float
     y: float
@@ -122,9 +122,9 @@ class Canvas(Protocol):
 
 
 _FACES = {
-    Face.REGULAR: "",
-    Face.ITALIC: ' font-style="italic"',
-    Face.SEMIBOLD: ' font-weight="600"',
+    TypeFace.REGULAR: "",
+    TypeFace.ITALIC: ' font-style="italic"',
+    TypeFace.SEMIBOLD: ' font-weight="600"',
 }
 
 

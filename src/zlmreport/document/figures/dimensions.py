@@ -41,7 +41,7 @@ _COST_OF_OVERLAP = 1000.0
 
 
 @dataclass(frozen=True, slots=True)
-class Span:
+class DimensionSpan:
     """What a dimension measures, in points."""
 
     label: Label  #: Its symbol.
@@ -72,13 +72,13 @@ class Span:
 
 
 @dataclass(frozen=True, slots=True)
-class Dimension:
+class DrawnDimension:
     """A span, where its dimension line stands, and its label.
 
     `is_among_lines` tells whether the label stands on lines, which must then fade behind it.
     """
 
-    span: Span
+    span: DimensionSpan
     x: float
     label: PlacedLabel
     is_among_lines: bool = False
@@ -97,10 +97,10 @@ class Dimension:
         return self.line_box, self.label.box
 
 
-def _dimension(span: Span, x: float, side: float, height: float) -> Dimension:
+def _dimension(span: DimensionSpan, x: float, side: float, height: float) -> DrawnDimension:
     """Return the dimension with its label on a side of it (−1: left), its middle at a height."""
     label_x = x + _LABEL_GAP if side > 0 else x - _LABEL_GAP - span.label.width
-    return Dimension(span, x, PlacedLabel(span.label, label_x, height - span.label.rise))
+    return DrawnDimension(span, x, PlacedLabel(span.label, label_x, height - span.label.rise))
 
 
 def margin_width(labels: Iterable[Label]) -> float:
@@ -110,15 +110,15 @@ def margin_width(labels: Iterable[Label]) -> float:
 
 
 def margin_columns(
-    spans: Sequence[Span], start: float, floor: float, ceiling: float
-) -> tuple[Dimension, ...]:
+    spans: Sequence[DimensionSpan], start: float, floor: float, ceiling: float
+) -> tuple[DrawnDimension, ...]:
     """Return the dimensions in successive columns to the right of `start`, the shortest first.
 
     So no dimension line is crossed by the extension line of a shorter one inside it; labels give way to
     the extension lines that pass on to the columns further out.
     """
     ordered = sorted(spans, key=lambda span: span.length)
-    placed: list[Dimension] = []
+    placed: list[DrawnDimension] = []
     x = start
     for number, span in enumerate(ordered):
         passing = [end for other in ordered[number + 1 :] for end in (other.low, other.high)]
@@ -127,7 +127,7 @@ def margin_columns(
     return tuple(placed)
 
 
-def _free_height(span: Span, passing: Sequence[float], floor: float, ceiling: float) -> float:
+def _free_height(span: DimensionSpan, passing: Sequence[float], floor: float, ceiling: float) -> float:
     """Return the height nearest to the middle of the span at which nothing passes its label."""
     half = span.label.height / 2 + _PASSING_GAP
     beside = [end + side * half for end in passing for side in (-1.0, 1.0)]
@@ -142,14 +142,14 @@ def _free_height(span: Span, passing: Sequence[float], floor: float, ceiling: fl
 
 
 def beside_targets(
-    spans: Sequence[Span], region: Box, marks: FloatArray, lines: FloatArray
-) -> tuple[Dimension, ...]:
+    spans: Sequence[DimensionSpan], region: Box, marks: FloatArray, lines: FloatArray
+) -> tuple[DrawnDimension, ...]:
     """Return the dimensions beside their targets, where they cover least and never one another.
 
     `marks`, `lines`, (N, 2): Points that a dimension should not cover, and points along lines that its label
         should not.
     """
-    placed: list[Dimension] = []
+    placed: list[DrawnDimension] = []
     for span in sorted(spans, key=lambda span: -span.length):
         taken = [box for other in placed for box in other.boxes]
         best = _cheapest(_candidates(span), region, taken, marks, lines)
@@ -158,7 +158,7 @@ def beside_targets(
     return tuple(placed)
 
 
-def _candidates(span: Span) -> list[Dimension]:
+def _candidates(span: DimensionSpan) -> list[DrawnDimension]:
     half = span.label.height / 2
     heights = (
         span.middle,
@@ -174,8 +174,12 @@ def _candidates(span: Span) -> list[Dimension]:
 
 
 def _cheapest(
-    candidates: Sequence[Dimension], region: Box, taken: Sequence[Box], marks: FloatArray, lines: FloatArray
-) -> Dimension:
+    candidates: Sequence[DrawnDimension],
+    region: Box,
+    taken: Sequence[Box],
+    marks: FloatArray,
+    lines: FloatArray,
+) -> DrawnDimension:
     boxes = [one.boxes for one in candidates]
     line_boxes, label_boxes = zip(*boxes, strict=True)
     covered = zip(
@@ -188,7 +192,9 @@ def _cheapest(
     return candidates[costs.index(min(costs))]
 
 
-def _cost(dimension: Dimension, region: Box, taken: Sequence[Box], on_lines: int, on_marks: int) -> float:
+def _cost(
+    dimension: DrawnDimension, region: Box, taken: Sequence[Box], on_lines: int, on_marks: int
+) -> float:
     line, label = dimension.boxes
     is_off_middle = label.bottom + label.top != 2 * dimension.span.middle
     return (

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from zlmreport.document.figures.canvas import Canvas, Fill, Run, Segment, Stroke, SvgCanvas
-from zlmreport.document.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, Dimension
+from zlmreport.document.figures.dimensions import GAP, HEAD, HEAD_HALF_WIDTH, OVERSHOOT, DrawnDimension
 from zlmreport.document.figures.figure import Band, Bar, Curve, Figure, Readings, Role
 from zlmreport.document.figures.layout import (
     TICK_GAP,
@@ -54,10 +54,10 @@ from zlmreport.document.figures.shapes import (
     Box,
     Frame,
     Lettering,
-    Mark,
-    Marks,
     Outline,
     PlacedLabel,
+    PointMarks,
+    PointShape,
     RoleStyle,
     Shape,
     area,
@@ -146,17 +146,19 @@ def _about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape]:
 
 def curve_marks(
     kind: str, style: RoleStyle, points: FloatArray, frame: Frame | None = None
-) -> Iterator[Marks]:
+) -> Iterator[PointMarks]:
     """Return the marks of a curve, where its role has marks."""
     if style.mark is not None:
         size, fill = MARK_SIZES[style.mark], Fill(style.stroke.colour)
-        yield Marks(kind, points, style.mark, size, RIM, fill, frame)
+        yield PointMarks(kind, points, style.mark, size, RIM, fill, frame)
 
 
-def reading_marks(kind: str, readings: Readings, points: FloatArray, frame: Frame | None = None) -> Marks:
+def reading_marks(
+    kind: str, readings: Readings, points: FloatArray, frame: Frame | None = None
+) -> PointMarks:
     """Return the marks of single readings."""
     mark, stroke = READINGS[readings.approach]
-    return Marks(kind, points, mark, READING_SIZE, stroke, frame=frame)
+    return PointMarks(kind, points, mark, READING_SIZE, stroke, frame=frame)
 
 
 def _grid(frame: Frame) -> Iterator[Shape]:
@@ -280,7 +282,7 @@ def _extensions(layout: PanelLayout) -> Iterator[Shape]:
         yield lines("extension", parts, EXTENSION)
 
 
-def _dimension(kind: str, dimension: Dimension) -> Iterator[Shape]:
+def _dimension(kind: str, dimension: DrawnDimension) -> Iterator[Shape]:
     span, x = dimension.span, dimension.x
     if span.length > 0:
         yield lines(kind, [[(x, span.low - span.tail), (x, span.high + span.tail)]], DIMENSION)
@@ -345,7 +347,7 @@ def draw(figure: Figure, language: Language, canvas: Canvas) -> None:
         match shape:
             case Outline():
                 pen.outline(shape)
-            case Marks():
+            case PointMarks():
                 pen.marks(shape)
             case Lettering():
                 pen.lettering(shape)
@@ -384,7 +386,7 @@ class _Pen:
         if segments:
             self._canvas.outline(outline.kind, segments, outline.stroke, outline.fill)
 
-    def marks(self, marks: Marks) -> None:
+    def marks(self, marks: PointMarks) -> None:
         """Draw all marks as one outline of many parts."""
         places = self._places(marks.points, marks.frame)
         places = places[np.isfinite(places).all(axis=1)]
@@ -451,4 +453,4 @@ def _circle() -> list[Segment]:
     return [("M", (0.5, 0.0)), *curves, ("Z", ())]
 
 
-_SHAPES = {Mark.UP: _triangle(1.0), Mark.DOWN: _triangle(-1.0), Mark.DISC: _circle()}
+_SHAPES = {PointShape.UP: _triangle(1.0), PointShape.DOWN: _triangle(-1.0), PointShape.DISC: _circle()}

@@ -21,7 +21,7 @@ from zlmreport.document.figures.panel_layout import (
     lay_out_panel,
     level_width,
 )
-from zlmreport.document.figures.scale import Scale, category_scale, position_scale, value_scales
+from zlmreport.document.figures.scale import AxisScale, category_scale, position_scale, value_scales
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Frame, PlacedLabel
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import plain
@@ -201,7 +201,7 @@ def _boxes_in_a_row(first: Box, distance: float, legends: list[LegendLayout]) ->
     return [Box(first.left + shift, first.bottom, first.right + shift, top) for shift in shifts]
 
 
-def _x_scale(figure: Figure, language: Language, width: float) -> Scale:
+def _x_scale(figure: Figure, language: Language, width: float) -> AxisScale:
     """Return the scale along the lower edge: of categories where there are bars, else of positions."""
     bars = [bar for panel in figure.panels for bar in panel.bars]
     labels = [bar.label.in_language(language) for bar in bars]
@@ -216,7 +216,7 @@ def _x_scale(figure: Figure, language: Language, width: float) -> Scale:
     )
 
 
-def _y_scales(figure: Figure, language: Language, height: float) -> tuple[Scale, ...]:
+def _y_scales(figure: Figure, language: Language, height: float) -> tuple[AxisScale, ...]:
     room = _VALUE_ROOM / (height - 2 * _VALUE_ROOM)
     most = int(height / _LEAST_TICK_DISTANCE)
     values = [_values(panel) for panel in figure.panels]

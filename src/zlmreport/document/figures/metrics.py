@@ -13,25 +13,25 @@ from unicodedata import normalize
 
 import uharfbuzz
 
-from zlmreport.document.figures.canvas import Face, Label, Run
+from zlmreport.document.figures.canvas import Label, Run, TypeFace
 from zlmreport.language.formatting import Span, spans
 
 
 @cache
-def font_file(face: Face) -> Path:
+def font_file(face: TypeFace) -> Path:
     """Return the path of a face's file: fonts of the system are never used."""
     return Path(str(files("zlmreport_templates").joinpath("fonts", f"{face.value}.ttf")))
 
 
 @lru_cache(maxsize=4096)
-def advance(text: str, face: Face) -> float:
+def advance(text: str, face: TypeFace) -> float:
     """Return how far a text of size 1 moves the pen."""
     glyphs = _shaped(normalize("NFC", text), face).glyph_positions or ()  # none of an empty text
     units = sum(each.x_advance for each in glyphs)
     return float(units / _font(face).face.upem)
 
 
-def mark_offset(letter: str, mark: str, face: Face) -> tuple[float, float]:
+def mark_offset(letter: str, mark: str, face: TypeFace) -> tuple[float, float]:
     """Return how far right of a letter's pen, and above it, that of a mark on it stands, at size 1."""
     of_letter, on_letter = _shaped(letter + mark, face).glyph_positions
     _, unplaced = _shaped(letter + mark, face, mark=False).glyph_positions
@@ -41,17 +41,17 @@ def mark_offset(letter: str, mark: str, face: Face) -> tuple[float, float]:
     return (of_letter.x_advance + on_letter.x_offset) / em, on_letter.y_offset / em
 
 
-def has_letter(letter: str, face: Face) -> bool:
+def has_letter(letter: str, face: TypeFace) -> bool:
     """Return whether a face has a shape for a letter."""
     return _font(face).get_nominal_glyph(ord(letter)) is not None
 
 
 @cache
-def _font(face: Face) -> Any:
+def _font(face: TypeFace) -> Any:
     return uharfbuzz.Font(uharfbuzz.Face(uharfbuzz.Blob.from_file_path(str(font_file(face)))))
 
 
-def _shaped(text: str, face: Face, **features: bool) -> Any:
+def _shaped(text: str, face: TypeFace, **features: bool) -> Any:
     """Return the glyphs of a text in the order of the line: mixed directions have no place on a graph."""
     buffer = uharfbuzz.Buffer()
     buffer.add_str(text)
@@ -66,7 +66,7 @@ _SUBSCRIPT_SIZE = 0.72
 _SUBSCRIPT_DROP = 0.2
 
 
-def plain_label(text: str, size: float, face: Face = Face.REGULAR) -> Label:
+def plain_label(text: str, size: float, face: TypeFace = TypeFace.REGULAR) -> Label:
     """Return a line of words or a number."""
     return Label((Run(text, face, size, 0.0, 0.0),), size * advance(text, face), size)
 
@@ -84,7 +84,7 @@ def symbol_label(notation: str, size: float) -> Label:
 
 
 def _run(span: Span, size: float, start: float) -> Run:
-    face = Face.ITALIC if span.italic else Face.REGULAR
+    face = TypeFace.ITALIC if span.italic else TypeFace.REGULAR
     if span.subscript:
         return Run(span.text, face, size * _SUBSCRIPT_SIZE, start, size * _SUBSCRIPT_DROP)
     return Run(span.text, face, size, start, 0.0)

@@ -20,7 +20,7 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.text import Annotation
 
-from zlmreport.document.figures.canvas import Face
+from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.draw import legend_shapes, panel_shapes
 from zlmreport.document.figures.figure import Figure
 from zlmreport.document.figures.layout import axis_title, figure_size, lay_out_alone
@@ -30,9 +30,9 @@ from zlmreport.document.figures.shapes import (
     TICK_TEXT_SIZE,
     Frame,
     Lettering,
-    Mark,
-    Marks,
     Outline,
+    PointMarks,
+    PointShape,
     Shape,
 )
 from zlmreport.language import Language
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 #: What the axes draw themselves.
 _OF_AXES = frozenset({"frame", "tick", "tick x", "tick y"})
-_MARKERS = {Mark.UP: "^", Mark.DOWN: "v", Mark.DISC: "o"}
+_MARKERS = {PointShape.UP: "^", PointShape.DOWN: "v", PointShape.DISC: "o"}
 _POINTS_PER_INCH = 72
 
 
@@ -81,7 +81,7 @@ def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> N
     layout = lay_out_alone(figure, number, language, *size)
     is_lowest = number == len(figure.panels) - 1
     _set_scales(layout.frame, axes, size, is_lowest=is_lowest, is_polar=layout.panel.is_polar)
-    font = _font(Face.REGULAR, TEXT_SIZE)
+    font = _font(TypeFace.REGULAR, TEXT_SIZE)
     axes.set_ylabel(axis_title(*figure.value_axis(figure.panels[number]), language), fontproperties=font)
     if is_lowest:
         axes.set_xlabel(axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
@@ -106,7 +106,7 @@ def _set_scales(
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_bounds(frame.x_scale.lower, frame.x_scale.upper)
     axes.spines["left"].set_bounds(frame.y_scale.lower, frame.y_scale.upper)
-    font = _font(Face.REGULAR, TICK_TEXT_SIZE)
+    font = _font(TypeFace.REGULAR, TICK_TEXT_SIZE)
     axes.set_xticks(frame.x_scale.ticks, frame.x_scale.labels, fontproperties=font)
     axes.set_xticks(frame.x_scale.marks, minor=True)
     axes.set_yticks(frame.y_scale.ticks, frame.y_scale.labels, fontproperties=font)
@@ -122,7 +122,7 @@ def _artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
             return [
                 PathPatch(Path.make_compound_path(*paths), **_look(shape), capstyle="butt", joinstyle="miter")
             ]
-        case Marks():
+        case PointMarks():
             points = shape.points if shape.frame else frame.values(shape.points)
             rim = {"mew": shape.stroke.width, "mec": shape.stroke.colour} if shape.stroke else {"mew": 0.0}
             inside = shape.fill.colour if shape.fill else "none"
@@ -155,5 +155,5 @@ def _look(outline: Outline) -> dict[str, object]:
     return {"facecolor": inside, "edgecolor": stroke.colour, "linewidth": stroke.width, "linestyle": dashes}
 
 
-def _font(face: Face, size: float) -> FontProperties:
+def _font(face: TypeFace, size: float) -> FontProperties:
     return FontProperties(fname=str(font_file(face)), size=size)

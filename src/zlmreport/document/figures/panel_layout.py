@@ -11,11 +11,11 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.document.figures.canvas import Face, Label
+from zlmreport.document.figures.canvas import Label, TypeFace
 from zlmreport.document.figures.dimensions import (
     GAP,
-    Dimension,
-    Span,
+    DimensionSpan,
+    DrawnDimension,
     beside_targets,
     margin_columns,
     margin_width,
@@ -45,8 +45,8 @@ class PanelLayout:
     frame: Frame  #: The area of its values.
     legend: LegendLayout  #: Above the frame.
     #: brackets and arrows: Dimension lines in the margin, and beside targets.
-    brackets: tuple[Dimension, ...]
-    arrows: tuple[Dimension, ...]
+    brackets: tuple[DrawnDimension, ...]
+    arrows: tuple[DrawnDimension, ...]
     #: Each level with its height at the frame, and its label.
     levels: tuple[tuple[Level, float, PlacedLabel], ...]
     bar_values: tuple[PlacedLabel, ...]  #: What is written at the end of each bar.
@@ -98,13 +98,13 @@ def level_width(panel: Panel) -> float:
     return _LEVEL_GAP + max(widths) if widths else 0.0
 
 
-def _span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float) -> Span:
+def _span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float) -> DimensionSpan:
     ends = [
         (frame.y_point(one.low), frame.x_point(low_at)),
         (frame.y_point(one.high), frame.x_point(high_at)),
     ]
     (low, low_from), (high, high_from) = sorted(ends)
-    return Span(symbol_label(one.notation, TEXT_SIZE), low, high, low_from, high_from)
+    return DimensionSpan(symbol_label(one.notation, TEXT_SIZE), low, high, low_from, high_from)
 
 
 def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel], ...]:
@@ -149,7 +149,7 @@ def _marks(panel: Panel, frame: Frame) -> FloatArray:
     return np.concatenate([np.empty((0, 2)), *points])
 
 
-def _lines(panel: Panel, frame: Frame, brackets: Sequence[Dimension]) -> FloatArray:
+def _lines(panel: Panel, frame: Frame, brackets: Sequence[DrawnDimension]) -> FloatArray:
     """Return points along all lines inside the frame, those that lead to the brackets among them."""
     lines = [frame.points(curve.x, curve.y) for curve in panel.curves]
     for band in panel.bands:
@@ -225,7 +225,7 @@ def lay_out_legend(panel: Panel, language: Language, width: float) -> LegendLayo
     heading = None
     x, row = 0.0, 0
     if panel.heading is not None:
-        heading = plain_label(panel.heading.in_language(language), TEXT_SIZE, Face.SEMIBOLD)
+        heading = plain_label(panel.heading.in_language(language), TEXT_SIZE, TypeFace.SEMIBOLD)
         x = heading.width + _HEADING_GAP
     places = []
     for entry in entries:

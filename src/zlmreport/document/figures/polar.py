@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.document.figures.canvas import Fill
 from zlmreport.document.figures.figure import Curve, Panel
 from zlmreport.document.figures.metrics import plain_label
-from zlmreport.document.figures.scale import Scale, extremes, round_ticks, widened, with_zero
+from zlmreport.document.figures.scale import AxisScale, extremes, round_ticks, widened, with_zero
 from zlmreport.document.figures.shapes import (
     EXTENSION,
     GRID,
@@ -28,10 +28,10 @@ from zlmreport.document.figures.shapes import (
     Box,
     Frame,
     Lettering,
-    Mark,
-    Marks,
     Outline,
     PlacedLabel,
+    PointMarks,
+    PointShape,
     Shape,
     lines,
 )
@@ -77,10 +77,10 @@ class PolarGrid:
         return radius * np.cos(radians), radius * np.sin(radians)
 
     @property
-    def scale(self) -> Scale:
+    def scale(self) -> AxisScale:
         """Either axis of the square in which the panel is drawn."""
         reach = _ROOM * (self.ticks[-1] - self.base)
-        return Scale(-reach, reach, (), ())
+        return AxisScale(-reach, reach, (), ())
 
 
 def polar_grid(panel: Panel, sign: DecimalSign) -> PolarGrid:
@@ -151,7 +151,9 @@ def direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Sha
     if panel.directions:
         angles = np.array([angle for angle, _ in panel.directions])
         points = np.column_stack(grid.around(angles, np.zeros_like(angles)))
-        yield Marks("direction", points, Mark.DISC, MARK_SIZES[Mark.DISC], RIM, Fill(INK), frame)
+        yield PointMarks(
+            "direction", points, PointShape.DISC, MARK_SIZES[PointShape.DISC], RIM, Fill(INK), frame
+        )
 
 
 def _circle(kind: str, grid: PolarGrid, value: float, frame: Frame) -> Outline:

@@ -26,7 +26,7 @@ _FEWEST_TICKS = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Scale:
+class AxisScale:
     """One axis."""
 
     #: lower and upper: Its ends.
@@ -79,7 +79,7 @@ def round_ticks(lower: float, upper: float, most: int) -> tuple[tuple[float, ...
 
 def value_scales(
     panels: Sequence[FloatArray], part: float, most: int, sign: DecimalSign, *, alike: bool = True
-) -> tuple[Scale, ...]:
+) -> tuple[AxisScale, ...]:
     """Return the axes of deviations, one for each panel, each about its own values.
 
     Beyond the outermost values a part of the span is left free.
@@ -97,7 +97,7 @@ def value_scales(
         steps = next(
             n for n in itertools.count(most) if len(round_ticks(lower, upper, n)[0]) >= _FEWEST_TICKS
         )
-        scales.append(Scale(lower, upper, *_labelled_ticks(lower, upper, steps, sign)))
+        scales.append(AxisScale(lower, upper, *_labelled_ticks(lower, upper, steps, sign)))
     return tuple(scales)
 
 
@@ -117,7 +117,7 @@ def position_scale(  # noqa: PLR0913 - what an axis follows from
     width_of: Callable[[str], float],
     *,
     of_a_turn: bool = False,
-) -> Scale:
+) -> AxisScale:
     """Return the axis of positions.
 
     Labels stand at the targets where they fit and are written whole, else at round positions, and small
@@ -142,22 +142,22 @@ def position_scale(  # noqa: PLR0913 - what an axis follows from
         labels = tuple(fixed_number(position, decimals, sign) for position in positions)
         whole = np.allclose(positions, np.round(positions, decimals), rtol=1e-9, atol=1e-9)
         if positions and whole and fit(positions, labels):
-            return Scale(lower, upper, positions, labels)
+            return AxisScale(lower, upper, positions, labels)
     most = int(width / _LEAST_ROUND_DISTANCE)
     marks = positions if len(positions) <= _MOST_MARKED_TARGETS else ()
     for step in _PARTS_OF_A_TURN if of_a_turn else ():
         ticks = tuple(step * n for n in range(math.ceil(lower / step), math.floor(upper / step) + 1))
         labels = tuple(fixed_number(tick, 0, sign) for tick in ticks)
         if 1 < len(ticks) <= most and fit(ticks, labels):
-            return Scale(lower, upper, ticks, labels, marks)
+            return AxisScale(lower, upper, ticks, labels, marks)
     ticks, labels = _labelled_ticks(lower, upper, most, sign)
     while most > 1 and not fit(ticks, labels):
         most -= 1
         ticks, labels = _labelled_ticks(lower, upper, most, sign)
-    return Scale(lower, upper, ticks, labels, marks)
+    return AxisScale(lower, upper, ticks, labels, marks)
 
 
-def category_scale(names: Sequence[str], width: float, width_of: Callable[[str], float]) -> Scale:
+def category_scale(names: Sequence[str], width: float, width_of: Callable[[str], float]) -> AxisScale:
     """Return the axis of things that stand side by side, the first at 0, the next at 1.
 
     Names that do not fit are parted into two lines at a hyphen; where even that is too long for one of them,
@@ -171,7 +171,7 @@ def category_scale(names: Sequence[str], width: float, width_of: Callable[[str],
     labels = [name if width_of(name) <= room else _in_two_lines(name) for name in names]
     if any(width_of(line) > room for label in labels for line in label.split("\n")):
         labels = [str(index) for index in range(number)]
-    return Scale(-0.5, max(number, 1) - 0.5, tuple(map(float, range(number))), tuple(labels))
+    return AxisScale(-0.5, max(number, 1) - 0.5, tuple(map(float, range(number))), tuple(labels))
 
 
 def _in_two_lines(name: str) -> str:

@@ -16,7 +16,7 @@ import numpy as np
 
 from zlmreport.document.figures.canvas import Colour, Fill, Label, Stroke
 from zlmreport.document.figures.figure import Role
-from zlmreport.document.figures.scale import Scale
+from zlmreport.document.figures.scale import AxisScale
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 
@@ -53,7 +53,7 @@ READING_SIZE = 3.0
 GROUND = Fill(WHITE, 0.8)
 
 
-class Mark(Enum):
+class PointShape(Enum):
     """The shape of a point."""
 
     UP = "triangle, up"
@@ -66,21 +66,21 @@ class RoleStyle:
     """The look of a curve or a band."""
 
     stroke: Stroke  #: Of the curve, or of both limits of a band.
-    mark: Mark | None  #: At each target; None for a bare line.
+    mark: PointShape | None  #: At each target; None for a bare line.
     tint: Fill  #: Of a band's inside.
 
 
 def _style(
-    colour: Colour, width: float, dashes: tuple[float, ...], mark: Mark | None, tint: float
+    colour: Colour, width: float, dashes: tuple[float, ...], mark: PointShape | None, tint: float
 ) -> RoleStyle:
     return RoleStyle(Stroke(colour, width, dashes), mark, Fill(colour, tint))
 
 
 #: How a curve of each role is drawn.
 ROLES = {
-    Role.MEAN_POSITIVE: _style(_BLUE, 1.1, (), Mark.UP, 0.11),
-    Role.MEAN_NEGATIVE: _style(_VERMILION, 1.1, (5.0, 1.6), Mark.DOWN, 0.11),
-    Role.MEAN_BIDIRECTIONAL: _style(_BLACK, 1.1, (8.0, 1.6, 1.6, 1.6), Mark.DISC, 0.11),
+    Role.MEAN_POSITIVE: _style(_BLUE, 1.1, (), PointShape.UP, 0.11),
+    Role.MEAN_NEGATIVE: _style(_VERMILION, 1.1, (5.0, 1.6), PointShape.DOWN, 0.11),
+    Role.MEAN_BIDIRECTIONAL: _style(_BLACK, 1.1, (8.0, 1.6, 1.6, 1.6), PointShape.DISC, 0.11),
     Role.LIMIT_POSITIVE: _style(_BLUE, 0.7, (2.6, 1.4), None, 0.12),
     Role.LIMIT_NEGATIVE: _style(_VERMILION, 0.7, (0.9, 1.3), None, 0.12),
     Role.SPREAD: _style(_GREEN, 0.7, (), None, 0.12),
@@ -100,11 +100,11 @@ ROLES = {
     Role.CHANNEL_5: _style(_VIOLET, 1.0, (3.0, 1.2), None, 0.06),
     Role.CHANNEL_6: _style(_GREY, 1.0, (12.0, 1.6, 1.2, 1.4, 1.2, 1.6), None, 0.06),
 }
-MARK_SIZES = {Mark.UP: 4.6, Mark.DOWN: 4.6, Mark.DISC: 3.8}
+MARK_SIZES = {PointShape.UP: 4.6, PointShape.DOWN: 4.6, PointShape.DISC: 3.8}
 
 READINGS = {
-    Approach.POSITIVE: (Mark.UP, Stroke((0.35, 0.6, 0.76), 0.45)),
-    Approach.NEGATIVE: (Mark.DOWN, Stroke((0.88, 0.56, 0.34), 0.45)),
+    Approach.POSITIVE: (PointShape.UP, Stroke((0.35, 0.6, 0.76), 0.45)),
+    Approach.NEGATIVE: (PointShape.DOWN, Stroke((0.88, 0.56, 0.34), 0.45)),
 }
 
 
@@ -186,8 +186,8 @@ class Frame:
     """The area of a panel in which values are drawn, and the two scales along its edges."""
 
     box: Box
-    x_scale: Scale
-    y_scale: Scale
+    x_scale: AxisScale
+    y_scale: AxisScale
 
     @property
     def x_factor(self) -> float:
@@ -239,7 +239,7 @@ class Outline:
 
 
 @dataclass(frozen=True, slots=True)
-class Marks:
+class PointMarks:
     """A mark at each of some points, shape (N, 2); of a filled mark the stroke is the rim.
 
     `size` is its width in points, `frame` as in an outline.
@@ -247,7 +247,7 @@ class Marks:
 
     kind: str
     points: FloatArray
-    mark: Mark
+    mark: PointShape
     size: float
     stroke: Stroke | None
     fill: Fill | None = None
@@ -263,7 +263,7 @@ class Lettering:
     colour: Colour
 
 
-Shape: TypeAlias = Outline | Marks | Lettering
+Shape: TypeAlias = Outline | PointMarks | Lettering
 
 
 def lines(kind: str, parts: Sequence[Sequence[tuple[float, float]]], stroke: Stroke) -> Outline:

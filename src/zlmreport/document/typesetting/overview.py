@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from markupsafe import Markup
 
-from zlmreport.document.typesetting.resources import PACKAGE, Face, font, font_faces, style_sheet
+from zlmreport.document.typesetting.resources import PACKAGE, FontFace, font, font_faces, style_sheet
 
 
 def drawing(image: str) -> Markup:
@@ -31,7 +31,7 @@ def overview_script() -> Markup:
     return Markup(f"//<![CDATA[\n{text}//]]>\n")  # noqa: S704 (our own script)
 
 
-def _embedded(face: Face) -> str:
+def _embedded(face: FontFace) -> str:
     return f"data:font/woff2;base64,{b64encode(font(f'{face.stem}.woff2')).decode('ascii')}"
 
 

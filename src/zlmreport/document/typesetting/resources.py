@@ -29,7 +29,7 @@ FAMILY = "IBM Plex Sans"
 
 
 @dataclass(frozen=True, slots=True)
-class Face:
+class FontFace:
     """A face of the bundled typeface: the stem of its files, and what style sheets call it."""
 
     stem: str
@@ -39,9 +39,9 @@ class Face:
 
 #: The faces of the bundled typeface.
 FACES = (
-    Face("IBMPlexSans-Regular", "normal", 400),
-    Face("IBMPlexSans-Italic", "italic", 400),
-    Face("IBMPlexSans-SemiBold", "normal", 600),
+    FontFace("IBMPlexSans-Regular", "normal", 400),
+    FontFace("IBMPlexSans-Italic", "italic", 400),
+    FontFace("IBMPlexSans-SemiBold", "normal", 600),
 )
 
 
@@ -60,7 +60,7 @@ def style_sheet(*names: str, accent: str = _ACCENT) -> str:
     return "\n".join(sheets).replace(_ACCENT, accent)
 
 
-def font_faces(address: Callable[[Face], str]) -> str:
+def font_faces(address: Callable[[FontFace], str]) -> str:
     """Return the rules that bring in the typeface; `address` says where each face is found."""
     return "\n".join(
         f'@font-face {{ font-family: "{FAMILY}"; font-style: {face.style}; font-weight: {face.weight}; '

@@ -41,7 +41,7 @@ from zlmreport.live.capture.events import (
     ZeroLost,
 )
 from zlmreport.live.capture.motion import Programme, Route
-from zlmreport.live.capture.place import WORTH_SAYING, Place, Stop
+from zlmreport.live.capture.place import WORTH_SAYING, PlaceInProgram, TargetStandstill
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.standstill import FROM_RUN, Pace, Track, Window, expected_deviation
 from zlmreport.live.capture.visits import FASTEST, ListedVisit, Settings
@@ -76,7 +76,7 @@ class Stay:
     ahead: Mean | None = None
 
     @classmethod
-    def at(cls, index: int, since: float | None, window: Window, stop: Stop) -> Stay:
+    def at(cls, index: int, since: float | None, window: Window, stop: TargetStandstill) -> Stay:
         """Begin with the reading that was taken."""
         stay = cls(index, since, stop.mean.time, 0.0, 0.0, 0.0)
         stay.stand(window, stop.mean, stop.position - stop.mean.value)
@@ -140,7 +140,7 @@ class Follower:
         self._lost = 0
         self._unchanged_since: float | None = None
         self._is_frozen = False
-        self._doubted: tuple[Stop, int] | None = None
+        self._doubted: tuple[TargetStandstill, int] | None = None
         self._crept: tuple[float, float] | None = None
         self._crept_last = (0.0, 0.0)
         self._pace = Pace()
@@ -154,7 +154,7 @@ class Follower:
         self._begin_here(last)
         if progress.question is not None:
             asked = progress.question
-            stop = Stop(asked.target, asked.approach, asked.approach, asked.position, asked.mean)
+            stop = TargetStandstill(asked.target, asked.approach, asked.approach, asked.position, asked.mean)
             doubted = asked.candidates[0][0] if asked.expected is not None else None
             if doubted is None:
                 self._place.undecided.append(stop)
@@ -194,7 +194,7 @@ class Follower:
     def _begin_here(self, last: float | None = None) -> None:
         """Begin with the visit that is next, from wherever the axis is: the program starts there."""
         self._route = Route(self._settings.tolerance)
-        self._place = Place(self._programme, self._settings, self.progress.taken, last)
+        self._place = PlaceInProgram(self._programme, self._settings, self.progress.taken, last)
         self._place.left_out = self.progress.skipped
         self._passed = 0
         self._look_ahead()
@@ -438,7 +438,7 @@ class Follower:
     def _stood_later(self, stay: Stay, mean: Mean, zero: float) -> Iterator[Event]:
         """Take a later standstill of a visit in, which the axis has not left since the one before."""
         visit = self.progress.visits[stay.index]
-        stop = Stop(visit.target, visit.approach, visit.approach, mean.value + zero, mean)
+        stop = TargetStandstill(visit.target, visit.approach, visit.approach, mean.value + zero, mean)
         yield from self._taken(stay.index, stop, None)
         stay.stand(self._window, mean, zero)
 
@@ -504,7 +504,7 @@ class Follower:
             if target == progress.next.target:
                 yield WrongDirection(progress.next, None)
             return
-        stop = Stop(target, heading, approach, mean.value + zero, mean)
+        stop = TargetStandstill(target, heading, approach, mean.value + zero, mean)
         if progress.must_check:
             if approach is None:
                 return
@@ -525,7 +525,7 @@ class Follower:
                 yield Presumed(self.progress.visits[index], share)
             yield from self._filed(stop, index)
 
-    def _filed(self, stop: Stop, index: int | None, late: float | None = None) -> Iterator[Event]:
+    def _filed(self, stop: TargetStandstill, index: int | None, late: float | None = None) -> Iterator[Event]:
         if index is None:
             yield self._out_of_turn(stop)
         elif self.progress.visits[index].number in self.progress.skipped:
@@ -540,7 +540,7 @@ class Follower:
                 yield from self._not_taken()
             yield from self._taken(index, stop, late)
 
-    def _is_plausible(self, index: int, stop: Stop) -> bool:
+    def _is_plausible(self, index: int, stop: TargetStandstill) -> bool:
         """Tell whether a reading is near enough to those before, and to the plan."""
         visit = self.progress.visits[index]
         expected, limit = expected_deviation(visit, self.progress.read, self._settings)
@@ -610,7 +610,7 @@ class Follower:
             return DatumMoved(earlier.visit, difference, self.progress.rest_of_part)
         return DatumHolds(earlier.visit, difference)
 
-    def _taken(self, index: int, stop: Stop, late: float | None) -> Iterator[Event]:
+    def _taken(self, index: int, stop: TargetStandstill, late: float | None) -> Iterator[Event]:
         progress = self.progress
         self._passed = 0
         since = self._inside_since
@@ -654,7 +654,7 @@ class Follower:
                 yield Closed(difference, abs(difference) <= settings.motion)
             yield Finished()
 
-    def _is_worse(self, index: int, stop: Stop) -> bool:
+    def _is_worse(self, index: int, stop: TargetStandstill) -> bool:
         """Tell whether a visit has a reading that is better than a later one.
 
         A control that corrects its position goes less far, in either direction. Who goes further has left: a
@@ -669,7 +669,7 @@ class Follower:
         further = abs(stop.position - visit.position - expected) - abs(earlier.deviation - expected)
         return further > 0 and abs(stop.position - earlier.position) > FROM_RUN * self._settings.stability
 
-    def _out_of_turn(self, stop: Stop) -> Event:
+    def _out_of_turn(self, stop: TargetStandstill) -> Event:
         """Name a standstill at which nothing may be taken."""
         following = self.progress.next
         if stop.target == following.target or stop.heading is None:

@@ -35,7 +35,7 @@ _UNSOUND = (KeyError, TypeError, ValueError, IndexError, RecursionError, Overflo
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class JournalEntry:
     """An event in a journal.
 
     Attributes
@@ -72,7 +72,7 @@ class History:
     """
 
     header: Header
-    entries: tuple[Entry, ...]
+    entries: tuple[JournalEntry, ...]
     last_sum: str
     sound: int
     file: SourceFile
@@ -174,13 +174,13 @@ def _unsealed(line: bytes, before: str) -> tuple[Record, str] | None:
     return (record, own) if isinstance(record, dict) else None
 
 
-def _understood(records: list[Record], place: str) -> tuple[Header, tuple[Entry, ...]]:
+def _understood(records: list[Record], place: str) -> tuple[Header, tuple[JournalEntry, ...]]:
     line = 1
     try:
         header = Header.from_record(records[0])
         entries = []
         for line, record in enumerate(records[1:], start=2):
-            entries.append(Entry(line, finite(record["elapsed"]), from_record(record, header.visits)))
+            entries.append(JournalEntry(line, finite(record["elapsed"]), from_record(record, header.visits)))
         line = next(
             (later.line for earlier, later in pairwise(entries) if later.elapsed < earlier.elapsed), 0
         )

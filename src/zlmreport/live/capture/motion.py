@@ -57,7 +57,7 @@ class Route:
         self.heading = heading
 
 
-class Turn(NamedTuple):
+class TurningPoint(NamedTuple):
     """A turning point of a program, m or rad, and the target beyond which it lies, if it does."""
 
     position: float
@@ -71,7 +71,7 @@ class Programme:
         self.visits = tuple(visits)
         first = self.visits[0]
         self.start = first.position - first.approach * first.travelled
-        self._turns: list[Turn] = []
+        self._turns: list[TurningPoint] = []
         self._turns_before: list[int] = []
         self._corner_before: list[float] = []
         here, heading, beyond = self.start, first.approach, None
@@ -79,7 +79,7 @@ class Programme:
             for corner in self._corners(here, visit):
                 self._corner_before[len(self._turns_before) :] = [here]
                 if (corner - here) * heading < 0:
-                    self._turns.append(Turn(here, beyond))
+                    self._turns.append(TurningPoint(here, beyond))
                     heading = Approach(-heading)
                 here, beyond = corner, None if corner == visit.position else visit.position
             self._turns_before.append(len(self._turns))
@@ -103,7 +103,7 @@ class Programme:
             return self._at[target, approach]
         return sorted(self._at[target, Approach.POSITIVE] + self._at[target, Approach.NEGATIVE])
 
-    def turns(self, here: int, there: int) -> Sequence[Turn]:
+    def turns(self, here: int, there: int) -> Sequence[TurningPoint]:
         """Return the turning points from one visit to a later one; from the start for −1."""
         return self._turns[self._turns_before[here] if here >= 0 else 0 : self._turns_before[there]]
 
@@ -115,9 +115,9 @@ class Programme:
         """Tell whether a part of the test begins with a visit."""
         return index == 0 or self.visits[index - 1].part != self.visits[index].part
 
-    def since_beginning(self, index: int) -> tuple[int, Sequence[Turn]]:
+    def since_beginning(self, index: int) -> tuple[int, Sequence[TurningPoint]]:
         """Return how many visits of its part come before one, and the turns from the part's beginning."""
         first = index
         while not self.begins_part(first):
             first -= 1
-        return index - first, (Turn(self._corner_before[first], None), *self.turns(first, index))
+        return index - first, (TurningPoint(self._corner_before[first], None), *self.turns(first, index))

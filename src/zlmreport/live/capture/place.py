@@ -16,7 +16,7 @@ from math import exp, hypot, inf, log, pi, sqrt
 from statistics import median
 
 from zlmreport.live.capture.events import Mean
-from zlmreport.live.capture.motion import Programme, Route, Turn
+from zlmreport.live.capture.motion import Programme, Route, TurningPoint
 from zlmreport.live.capture.visits import FASTEST, Settings
 from zlmreport.measurement.approach import Approach
 
@@ -63,7 +63,7 @@ _STEPS = 15
 
 
 @dataclass(frozen=True, slots=True)
-class Stop:
+class TargetStandstill:
     """A standstill at a target."""
 
     target: int  #: Its number, from 1.
@@ -92,7 +92,7 @@ class _Guess:
     files: tuple[int | None, ...] = (None,)
 
 
-class Place:
+class PlaceInProgram:
     """Follows the program by its stops.
 
     `taken`: How many visits are taken or missed for good: the operator begins after them.
@@ -104,20 +104,20 @@ class Place:
         self, programme: Programme, settings: Settings, taken: int, last: float | None = None
     ) -> None:
         #: The stops of which it is not clear which visit they are, first come first.
-        self.undecided: list[Stop] = []
+        self.undecided: list[TargetStandstill] = []
         #: Numbers of the visits that the operator leaves out: that they go unseen is no wonder.
         self.left_out: frozenset[int] = frozenset()
         self._programme = programme
         self._settings = settings
         self._close = 2 * settings.tolerance
         self._paces: deque[float] = deque(maxlen=_STEPS)
-        self._before: tuple[Stop, int, int] | None = None
+        self._before: tuple[TargetStandstill, int, int] | None = None
         self._sure: tuple[int, float] | None = None
         self._guesses = [_Guess(taken - 1, 0.0, None, 0, 0, is_told=True)]
         if taken and last is not None:
             self._guesses.append(_Guess(taken - 1, _RAN_ON, last, 0, -1))
 
-    def add(self, stop: Stop, route: Route) -> None:
+    def add(self, stop: TargetStandstill, route: Route) -> None:
         """Take the next stop in."""
         before, self._before = self._before, (stop, len(route.turns), route.breaks)
         self.undecided.append(stop)
@@ -134,11 +134,11 @@ class Place:
             replace(each, weight=each.weight - best) for each in merged if each.weight > best + _HOPELESS
         ]
 
-    def _is_same(self, before: Stop, stop: Stop) -> bool:
+    def _is_same(self, before: TargetStandstill, stop: TargetStandstill) -> bool:
         """Tell whether the axis only went on a little, on its way to the same target."""
         return before.target == stop.target and abs(before.position - stop.position) <= self._close
 
-    def _gone_on(self, guess: _Guess, before: Stop, stop: Stop) -> _Guess:
+    def _gone_on(self, guess: _Guess, before: TargetStandstill, stop: TargetStandstill) -> _Guess:
         """Return an explanation after the axis went on a little; now it may be seen how it came."""
         if before.heading is not None or stop.heading is None or guess.place < 0:
             return replace(guess, files=(*guess.files, guess.files[-1]))
@@ -147,7 +147,7 @@ class Place:
             return replace(guess, files=(*guess.files, guess.place))
         return replace(guess, weight=guess.weight + _STRAY, files=(*guess.files, None))
 
-    def decided(self) -> Iterator[tuple[Stop, int | None, float]]:
+    def decided(self) -> Iterator[tuple[TargetStandstill, int | None, float]]:
         """Yield the stops that are clear by now, with the index of their visit and how probable that is.
 
         The index is None for no visit.
@@ -172,7 +172,7 @@ class Place:
         total = sum(odds.values())
         return {index: each / total for index, each in odds.items()}
 
-    def told(self, index: int | None) -> Stop:
+    def told(self, index: int | None) -> TargetStandstill:
         """Take the operator's word which visit the first undecided stop is; return that stop."""
         at = -len(self.undecided)
         if not any(guess.files[at] == index for guess in self._guesses) and index is not None:
@@ -191,7 +191,7 @@ class Place:
             if each.files[at] == index or not is_sure
         ]
 
-    def _explained(self, guess: _Guess, stop: Stop, route: Route) -> Iterator[_Guess]:
+    def _explained(self, guess: _Guess, stop: TargetStandstill, route: Route) -> Iterator[_Guess]:
         """Yield the explanations that one becomes by a stop."""
         candidates = self._programme.at(stop.target, stop.heading)
         for index in candidates:
@@ -212,7 +212,7 @@ class Place:
         stray = guess.weight + (_STRAY if is_on_its_way else self._stray(guess, stop))
         yield replace(guess, weight=stray, files=(*guess.files, None))
 
-    def _stray(self, guess: _Guess, stop: Stop) -> float:
+    def _stray(self, guess: _Guess, stop: TargetStandstill) -> float:
         """Return how probable it is that a stop is none of the program's."""
         visits, following = self._programme.visits, guess.place + 1
         if guess.is_told and following < len(visits):
@@ -223,7 +223,9 @@ class Place:
         is_wrong = sides and stop.heading is not None and stop.heading not in sides
         return _WRONG_SIDE if is_wrong else _STRAY
 
-    def _weight(self, guess: _Guess, index: int, stop: Stop, route: Route, candidates: int) -> float:
+    def _weight(
+        self, guess: _Guess, index: int, stop: TargetStandstill, route: Route, candidates: int
+    ) -> float:
         """Return how probable it is that the program, where a guess has it, comes to stop at a visit."""
         programme, here = self._programme, guess.place
         turns = route.turns[guess.turns :]
@@ -302,11 +304,13 @@ class Place:
         unseen = self._unseen(here, index)
         skipped = _SKIPPED * unseen
         expected = self._programme.turns(here, index)
-        if not guess.is_heading_known and expected[:1] == [Turn(self._programme.visits[here].position, None)]:
+        if not guess.is_heading_known and expected[:1] == [
+            TurningPoint(self._programme.visits[here].position, None)
+        ]:
             expected = expected[1:]  # whether it turned round where it stood nobody could see
         return skipped + self._likeness(turns, expected)
 
-    def _likeness(self, turns: Sequence[float], expected: Sequence[Turn]) -> float:
+    def _likeness(self, turns: Sequence[float], expected: Sequence[TurningPoint]) -> float:
         """Return how well turning points are those of a program, whose overrun may be another one."""
         if len(turns) != len(expected):
             return -inf
@@ -321,7 +325,7 @@ class Place:
     def _is_beyond(self, seen: float, planned: float, target: float) -> bool:
         return abs(seen - target) > self._settings.tolerance and (seen > target) == (planned > target)
 
-    def _in_time(self, guess: _Guess, index: int, stop: Stop) -> float:
+    def _in_time(self, guess: _Guess, index: int, stop: TargetStandstill) -> float:
         """Return how probable the time is that the program took to a visit while nobody saw it."""
         expected = self._programme.seconds(guess.place, index)
         if guess.time is None or not self._settings.feed:
@@ -342,7 +346,7 @@ class Place:
             return 0.0
         return exp(_HURRIED + _EACH_REST * max(1.0, (planned - seconds) / stay))
 
-    def _keep_pace(self, index: int, stop: Stop) -> None:
+    def _keep_pace(self, index: int, stop: TargetStandstill) -> None:
         """Learn from a step to the next visit how long the program takes, beside the plan."""
         before, self._sure = self._sure, (index, stop.mean.time)
         if before is None or index != before[0] + 1:

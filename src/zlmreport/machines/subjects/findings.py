@@ -11,11 +11,12 @@ from zlmreport.document.blocks import Block, Cell, Column, Mark, Notice, Paragra
 from zlmreport.language import Words
 from zlmreport.language.numbers import significant_words
 from zlmreport.machines.choosing import with_form
-from zlmreport.machines.diagnosis import MachineDiagnosis, Verdict
+from zlmreport.machines.diagnosis import MachineDiagnosis
 from zlmreport.machines.forms import plain_form
-from zlmreport.machines.study import CircleStudy, Estimated, said_estimates
+from zlmreport.machines.study import CircleStudy, EstimatedTerm, said_estimates
 from zlmreport.machines.subjects.saying import Sayer, plain_table, right
 from zlmreport.measurement.units import MICROMETRE
+from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.effects.circle_effect import CircleEffect
 
 _MARKS = {Verdict.ADEQUATE: Mark.MET, Verdict.MISSING: Mark.OPEN, Verdict.UNEXPLAINED: Mark.NOT_MET}
@@ -77,7 +78,7 @@ class Absent:
     """An effect of which nothing is found, and how much of it there might be."""
 
     effect: str
-    estimates: tuple[Estimated, ...]
+    estimates: tuple[EstimatedTerm, ...]
     sentences: tuple[Words, ...]
 
 
@@ -155,7 +156,7 @@ def model_section(study: CircleStudy, say: Sayer) -> Section:
     return Section("model", say(_MODEL), (parameter_table(study.estimates, say), Paragraph(say(_COVERAGE))))
 
 
-def parameter_table(estimates: Iterable[Estimated], say: Sayer) -> Table:
+def parameter_table(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
     """Return parameters with their uncertainties; one that was only tried at some values has none."""
     rows = []
     for each in estimates:

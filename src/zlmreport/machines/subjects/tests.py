@@ -19,8 +19,8 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
 from zlmreport.language import Words
-from zlmreport.machines.comparison import Compared, StandardNumbers
-from zlmreport.machines.course import Circle, StraightTest
+from zlmreport.machines.comparison import ComparedTest, StandardNumbers
+from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.residual import Stretch, centred
 from zlmreport.machines.subjects.saying import Sayer, plain_table, right
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
@@ -33,7 +33,7 @@ _ARROWS, _WAYS = {1: "↺", -1: "↻"}, {1: "↑", -1: "↓"}
 
 
 def sizes_table(
-    tests: Sequence[Compared], say: Sayer, noise: float | None = None, *, with_numbers: bool = False
+    tests: Sequence[ComparedTest], say: Sayer, noise: float | None = None, *, with_numbers: bool = False
 ) -> Table:
     """Return the root mean squares of all tests; with G of both senses, if it is asked for and there."""
     rows: list[tuple[Cell, ...]] = []
@@ -60,13 +60,13 @@ def _both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[str, s
     return "", ""
 
 
-def test_section(found: Compared, say: Sayer) -> Section:
+def test_section(found: ComparedTest, say: Sayer) -> Section:
     """Return one test: what it is, sizes and numbers, what explains it, where it fails, its curves."""
     title = f"{found.name}: {say(title_of(found.test))}"
     return Section(f"test-{found.name}", title, tuple(_test_blocks(found, say)))
 
 
-def _test_blocks(found: Compared, say: Sayer) -> Iterator[Block]:
+def _test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
     yield numbers_table(found, say)
     for words, shares in ((_OF_AXES, found.of_axes), (_OF_EFFECTS, found.of_effects)):
         listed = _listed(shares, say)
@@ -78,10 +78,10 @@ def _test_blocks(found: Compared, say: Sayer) -> Iterator[Block]:
     notice = failure_notice([found], say)
     if notice:
         yield notice
-    yield Graph(circle_figure(found) if isinstance(found.test, Circle) else line_figure(found))
+    yield Graph(circle_figure(found) if isinstance(found.test, CircularTest) else line_figure(found))
 
 
-def numbers_table(found: Compared, say: Sayer) -> Table:
+def numbers_table(found: ComparedTest, say: Sayer) -> Table:
     """Return a test's root mean square and the numbers of its standards: measured, predicted, left."""
     sizes = (found.rms.measured, found.rms.predicted, found.rms.left)
     rows: list[tuple[Cell, ...]] = [("RMS", *map(say.micrometres, sizes))]
@@ -100,7 +100,7 @@ def numbers_table(found: Compared, say: Sayer) -> Table:
     return plain_table(say(_NUMBERS.given(test=found.name)), columns, rows)
 
 
-def title_of(test: Circle | StraightTest) -> Words:
+def title_of(test: CircularTest | StraightTest) -> Words:
     """Return what kind of test it is, with its place."""
     if isinstance(test, StraightTest):
         return _LINE.given(count=len(test.at))
@@ -117,7 +117,7 @@ def _listed(shares: Mapping[str, float], say: Sayer) -> str:
     return ", ".join(f"{name} {say.micrometres(size)}" for name, size in largest)
 
 
-def failure_notice(tests: Sequence[Compared], say: Sayer) -> Notice | None:
+def failure_notice(tests: Sequence[ComparedTest], say: Sayer) -> Notice | None:
     """Return where tests differ from their prediction; None where none does."""
     items = tuple(
         say(_of_test(each, stretch, is_one=len(tests) == 1))
@@ -127,8 +127,8 @@ def failure_notice(tests: Sequence[Compared], say: Sayer) -> Notice | None:
     return Notice(say(_FAILS), items) if items else None
 
 
-def _of_test(found: Compared, stretch: Stretch, *, is_one: bool) -> Words:
-    said = stretch_in_words(stretch, is_circle=isinstance(found.test, Circle))
+def _of_test(found: ComparedTest, stretch: Stretch, *, is_one: bool) -> Words:
+    said = stretch_in_words(stretch, is_circle=isinstance(found.test, CircularTest))
     return said if is_one else _NAMED.given(test=found.name, said=said)
 
 
@@ -155,10 +155,10 @@ def _millimetres(value: float) -> str:
     return f"{MILLIMETRE.from_si(value):.0f}".replace("-", "−")
 
 
-def circle_figure(found: Compared) -> Figure:
+def circle_figure(found: ComparedTest) -> Figure:
     """Return a circle: measured and predicted, and beside it what is left, both senses."""
     circle = found.test
-    assert isinstance(circle, Circle)  # noqa: S101 - who asks has looked
+    assert isinstance(circle, CircularTest)  # noqa: S101 - who asks has looked
     measured, predicted, left = (
         MICROMETRE.from_si(centred(circle, each))
         for each in (circle.deviation, found.prediction.values, found.left)
@@ -202,7 +202,7 @@ def circle_figure(found: Compared) -> Figure:
     )  # fmt: skip
 
 
-def line_figure(found: Compared) -> Figure:
+def line_figure(found: ComparedTest) -> Figure:
     """Return a line: measured, and predicted with its band; below it what is left."""
     line = found.test
     assert isinstance(line, StraightTest)  # noqa: S101 - who asks has looked

@@ -32,7 +32,7 @@ Function = Callable[[FloatArray], FloatArray]
 
 
 @dataclass(frozen=True, slots=True)
-class Scatter:
+class ReadingScatter:
     """How readings scatter about what the axis does."""
 
     #: single and run: Standard deviations of a single reading, and of what a run has in common, m or rad.
@@ -42,7 +42,7 @@ class Scatter:
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class DeviationPart:
     """What the readings say of one part of the deviations: what both directions share, or what parts them.
 
     These are (e↑ ± e↓)/√2 at each target, and scatter alike. What a model does not describe may be large in
@@ -55,7 +55,7 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
-class Basis:
+class TableBasis:
     """What a table is made from, and what it is held against."""
 
     curve: ErrorCurve  #: The means of the test.
@@ -63,8 +63,8 @@ class Basis:
     #: (2, m): What another test of this plan would show at the targets without a table, m or rad.
     estimate: FloatArray
     #: What is behind the estimate: what both directions share, and if both were measured what parts them.
-    parts: tuple[Part, ...]
-    scatter: Scatter | None  #: Of the readings; None where the test cannot tell.
+    parts: tuple[DeviationPart, ...]
+    scatter: ReadingScatter | None  #: Of the readings; None where the test cannot tell.
     #: What a table can take away that leaves out the waves of these names.
     without: Callable[[frozenset[str]], Function]
     #: The periodic effects of the model, each with the length of its shortest wave, m or rad.
@@ -155,7 +155,7 @@ def with_table(measurements: MeasurementSet, taken: FloatArray) -> MeasurementSe
 
 def basis_of_means(
     curve: ErrorCurve, measurements: MeasurementSet, fitted: FittedModel | None = None
-) -> Basis:
+) -> TableBasis:
     """Return the means of a test as they are; a model, if there is one, says what is between them."""
     means = np.stack([curve.forward, curve.reverse])
     known = alone = _interpolated(curve.positions, means)
@@ -163,17 +163,17 @@ def basis_of_means(
         model = fitted.carried()
         known = _sum(model, _interpolated(curve.positions, means - model(curve.positions)))
     targets = len(curve.positions)
-    part = Part(np.eye(targets), 1.0)
+    part = DeviationPart(np.eye(targets), 1.0)
     scatter = _scatter(measurements.deviations())
     parts = (part,) * (1 + curve.is_bidirectional)
-    return Basis(curve, known, means, parts, scatter, lambda _: alone)
+    return TableBasis(curve, known, means, parts, scatter, lambda _: alone)
 
 
-def basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> Basis:
+def basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
     """Return what a model says, and beyond it the means as far as they can be believed."""
     measurements = fitted.measurements
     left = corrected(measurements, fitted.observed, fitted.fit).deviations()
-    scatter = _scatter(left) or Scatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
+    scatter = _scatter(left) or ReadingScatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
     beyond, imitated = (
         parted(values, is_bidirectional=curve.is_bidirectional)
         for values in (fitted.sign * _both(_means(left)), _imitated(fitted))
@@ -185,7 +185,7 @@ def basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> Basis:
     explained = _both(_means(measurements.deviations())) - _both(_means(left))
     rest = joined(np.stack([part.trust * each for part, each in zip(parts, beyond, strict=True)]))
     kept = _interpolated(curve.positions, rest)
-    return Basis(
+    return TableBasis(
         curve,
         _sum(fitted.carried(), kept),
         fitted.sign * explained + rest,
@@ -216,7 +216,7 @@ def _both(means: FloatArray) -> FloatArray:
     return np.where(np.isfinite(means), means, means[::-1])
 
 
-def _scatter(deviations: FloatArray) -> Scatter | None:
+def _scatter(deviations: FloatArray) -> ReadingScatter | None:
     """Return the scatter of readings about their means, what a run has in common told apart."""
     off = deviations - _means(deviations)[..., np.newaxis]
     runs = off.shape[-1]
@@ -227,7 +227,7 @@ def _scatter(deviations: FloatArray) -> Scatter | None:
     degrees = int(np.isfinite(off).sum() - np.isfinite(_means(deviations)).sum() - (runs - 1))
     if degrees < 1:
         return None
-    return Scatter(
+    return ReadingScatter(
         float(np.sqrt(np.nansum(single**2) / degrees)),
         float(np.sqrt(np.sum(common**2) / (runs - 1))),
         degrees,
@@ -252,7 +252,7 @@ def joined(parts: FloatArray) -> FloatArray:
     return parted(parts, is_bidirectional=True)  # its own inverse
 
 
-def _part(rest: FloatArray, columns: FloatArray, own: float) -> Part:
+def _part(rest: FloatArray, columns: FloatArray, own: float) -> DeviationPart:
     """Return one part of the deviations, and how far its residuals are believed.
 
     What they vary beyond their own scatter is real: var(r) = τ² + u², and r is worth τ²/(τ² + u²) of itself
@@ -261,7 +261,7 @@ def _part(rest: FloatArray, columns: FloatArray, own: float) -> Part:
     left, singular, _ = np.linalg.svd(columns.T, full_matrices=False)
     directions = left[:, singular > _ROUNDING * max(singular.max(initial=0.0), 1e-300)]
     total = float(np.sum(rest**2)) / max(1, len(rest) - directions.shape[1])
-    return Part(directions, max(0.0, 1.0 - own / total) if total else 0.0)
+    return DeviationPart(directions, max(0.0, 1.0 - own / total) if total else 0.0)
 
 
 def _imitated(fitted: FittedModel) -> FloatArray:

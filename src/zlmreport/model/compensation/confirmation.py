@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.compensation.basis import Basis
+from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
 
 #: A part of the table that was applied is taken for 1, ½ or −1 within this.
@@ -41,7 +41,7 @@ class Confirmation:
     shift: float = 0.0  #: By how much the table seems shifted, m or rad; 0 unless that is the verdict.
 
 
-def confirm(basis: Basis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
+def confirm(basis: TableBasis, after: ErrorCurve, table: CompensationTable, place: Place) -> Confirmation:
     """Hold a second test against the table that the first one gave.
 
     `basis`: What is known of the axis from the first test; between its targets, too.

@@ -11,7 +11,7 @@ from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, effect_along
 from zlmreport.evaluation.uncertainty.monte_carlo import single_draws
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.compensation.basis import Basis, joined
+from zlmreport.model.compensation.basis import TableBasis, joined
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
 
 #: Places between two rows at which the table is looked at.
@@ -37,7 +37,7 @@ class Figures:
 
 
 @dataclass(frozen=True, slots=True)
-class Expected:
+class ExpectedFigure:
     """What a second test of the same plan will show of a figure, m or rad: 95 % lie from low to high."""
 
     value: float
@@ -58,7 +58,7 @@ class TableForecast:
     after: Figures
     #: By symbol, what a second test will show: what the table leaves, the uncertainty of the first test, and
     #: the scatter of both. Empty where the first cannot tell its scatter.
-    second_test: dict[str, Expected]
+    second_test: dict[str, ExpectedFigure]
     left: FloatArray  #: (2, m): The mean deviations after, by direction and target, m or rad.
     #: between and between_at: Largest deviation that is left anywhere between the rows, and where it is, m or
     #: rad.
@@ -74,7 +74,7 @@ class TableForecast:
 
 
 def forecast(
-    basis: Basis,
+    basis: TableBasis,
     meant: CompensationTable,
     decoded: CompensationTable,
     active: CompensationTable | None,
@@ -121,7 +121,7 @@ def _fine(rows: FloatArray, targets: FloatArray) -> FloatArray:
     return inside
 
 
-def _second_test(basis: Basis, left: FloatArray, budget: Budget | None) -> dict[str, Expected]:
+def _second_test(basis: TableBasis, left: FloatArray, budget: Budget | None) -> dict[str, ExpectedFigure]:
     """Draw second tests of the same plan, and return what they show.
 
     Each has the axis as one of those that the first test may have seen, and scatter of its own. Both tests
@@ -141,12 +141,12 @@ def _second_test(basis: Basis, left: FloatArray, budget: Budget | None) -> dict[
     tests = shown[..., np.newaxis] + common + noise
     drawn = drawn_figures(tests)
     return {
-        symbol: Expected(float(values.mean()), *map(float, np.quantile(values, [_LOW, _HIGH])))
+        symbol: ExpectedFigure(float(values.mean()), *map(float, np.quantile(values, [_LOW, _HIGH])))
         for symbol, values in drawn.items()
     }
 
 
-def _unknown(basis: Basis, own: FloatArray, random: np.random.Generator) -> FloatArray:
+def _unknown(basis: TableBasis, own: FloatArray, random: np.random.Generator) -> FloatArray:
     """Draw by how much the axis differs from the estimate, shape (N, 2, m), m or rad.
 
     With means of variance u² the posterior of each part is that of universal kriging: along the model's

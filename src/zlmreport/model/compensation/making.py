@@ -21,7 +21,7 @@ from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.compensation.basis import Basis
+from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.curve import CompensationTable, table_of
 from zlmreport.model.compensation.forecast import TableForecast, forecast
 
@@ -55,7 +55,7 @@ class Grid:
 
 
 def grid_of(
-    basis: Basis,
+    basis: TableBasis,
     place: Place,
     *,
     step: float | None = None,
@@ -121,7 +121,7 @@ class Made:
     """A table, with all that it was made from and into."""
 
     controller: TableWriter  #: The control.
-    basis: Basis  #: What is known of the axis.
+    basis: TableBasis  #: What is known of the axis.
     grid: Grid  #: Where the table has its rows, and why.
     #: Periodic effects that no row carries, each with the length of its shortest wave, m or rad.
     left_out: tuple[tuple[str, float], ...]
@@ -135,7 +135,7 @@ class Made:
 
 
 def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
-    basis: Basis,
+    basis: TableBasis,
     axis: Axis,
     number: str,
     place: Place,

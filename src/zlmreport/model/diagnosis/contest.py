@@ -21,12 +21,12 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.diagnosis.families import Family, families_of, forms_by_effect, is_known
-from zlmreport.model.diagnosis.nameless import Part, irregular_factors, parts_of
+from zlmreport.model.diagnosis.nameless import CovariancePart, irregular_factors, parts_of
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.contrasts import Contrasts, contrasts_of, single_readings
 from zlmreport.model.fitting.noise import NoiseSource, noise_parts
-from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.priors import PriorExpectation
 
 #: Variances of an effect before any reading, in units of what one reading is worth, and their weights; the
 #: first is what earlier tests say, where they do.
@@ -105,7 +105,7 @@ class Contest:
 
     design: Design
     columns: Columns
-    parts: tuple[Part, ...]
+    parts: tuple[CovariancePart, ...]
     families: tuple[Family, ...]
     invisible: tuple[Effect, ...]  #: Effects of which the plan sees nothing beside the model.
     deviation: FloatArray  #: (N,): x, m or rad; zeros where only simulated readings are asked about.
@@ -113,7 +113,7 @@ class Contest:
     squares: float  #: Their sum of squares, by which they were divided.
     known: float  #: Sum of squares of a noise of known size that stands beside σ.
     least_visible: float
-    expected: Expected = field(default_factory=Expected)
+    expected: PriorExpectation = field(default_factory=PriorExpectation)
 
     @classmethod
     def of(  # noqa: PLR0913 - a test, a model, what contends, and what is known
@@ -128,7 +128,7 @@ class Contest:
         forms: Iterable[Effect] = (),
         known: float = 0.0,
         least_visible: float = 1e-6,
-        expected: Expected | None = None,
+        expected: PriorExpectation | None = None,
         with_nameless: bool = True,
     ) -> Contest:
         """Prepare a contest.
@@ -157,7 +157,7 @@ class Contest:
             Whether parts without a name are thought of.
         """
         readings, sources = len(design.position), noise_parts(design)
-        expected = expected or Expected()
+        expected = expected or PriorExpectation()
         weights = np.ones(readings) if weights is None else weights
         space = contrasts_of(base, sources, single_readings(design, weights, memory))
         columns = Columns(space, irregular_factors(sources))

@@ -14,8 +14,8 @@ from zlmreport.measurement.arrays import IntArray
 from zlmreport.measurement.units import behind
 from zlmreport.model.diagnosis.candidates import NotTestable, effects_to_try
 from zlmreport.model.diagnosis.contest import Told, untold
-from zlmreport.model.diagnosis.faults import Fault, FaultKind, faults_of, gaps
-from zlmreport.model.diagnosis.finding import Finding, Named, Rival, find, with_member
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind, faults_of, gaps
+from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, StandIn, find, with_member
 from zlmreport.model.diagnosis.remainder import Remainder, irregular_remainder, remainder_of_run
 from zlmreport.model.diagnosis.residual_tests import failures, flagged, residual_tests
 from zlmreport.model.diagnosis.residuals import Failure, residuals_of
@@ -31,7 +31,7 @@ from zlmreport.model.fitting.distributions import f_tail
 from zlmreport.model.fitting.estimate import Estimate
 from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validated_rms, fit
 from zlmreport.model.fitting.observations import Observations, thinned
-from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.priors import PriorExpectation
 from zlmreport.model.fitting.repeats import lasting_floor, noise_floor, repeats
 
 #: Share of the misfit from which on an effect explains it, and does not only contribute.
@@ -151,7 +151,7 @@ class Diagnosis:
     remarks: tuple[Words, ...]  #: What was assumed, and what was left out.
     #: The noise floor with that which lasts over a few readings, m or rad; None without repeats.
     lasting_noise: float | None
-    faults: tuple[Fault, ...] = ()  #: What looks wrong in the data.
+    faults: tuple[DataFault, ...] = ()  #: What looks wrong in the data.
 
     @property
     def leaves_noise(self) -> bool:
@@ -169,7 +169,7 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
     observed: Observations,
     effects: Sequence[Effect],
     assumptions: Assumptions | None = None,
-    expected: Expected | None = None,
+    expected: PriorExpectation | None = None,
     *,
     may_go: frozenset[str] = frozenset(),
     told: Told = untold,
@@ -208,7 +208,7 @@ class _Asked:
     observed: Observations
     effects: Sequence[Effect]
     assumptions: Assumptions | None
-    expected: Expected | None
+    expected: PriorExpectation | None
     may_go: frozenset[str]
 
 
@@ -219,7 +219,7 @@ class _Held:
     observed: Observations  #: All readings.
     fit: Fit
     error: ErrorNumbers
-    finding: Finding
+    finding: ContestFinding
     complete: Fit  #: With the whole set that was found.
     left: Remainder | None
 
@@ -302,7 +302,7 @@ def _of_the_set(readings: IntArray) -> IntArray:
     return readings[readings >= 0]
 
 
-def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterable[Fault]) -> Verdict:
+def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterable[DataFault]) -> Verdict:
     if together:
         return Verdict.MISSING
     if left is not None or any(each.comes_first or each.kind is FaultKind.WRONG_UNIT for each in faults):
@@ -325,7 +325,7 @@ def _is_noise(error: ErrorNumbers, lasting: float | None) -> bool:
     return lasting is not None and error.rms**2 <= LARGEST_RATIO * lasting**2
 
 
-def _complete(fitted: Fit, named: Iterable[Named], makeshift: Iterable[str]) -> Fit:
+def _complete(fitted: Fit, named: Iterable[NamedEffect], makeshift: Iterable[str]) -> Fit:
     """Return the model with a whole set in it; as much of it as the readings determine."""
     found = fitted
     for each in named:
@@ -351,7 +351,7 @@ def error_numbers(fitted: Fit) -> ErrorNumbers:
     )
 
 
-def _candidates(finding: Finding, before: ErrorNumbers) -> Iterator[Candidate]:
+def _candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
     """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
     seen: set[str] = set()
     for each in finding.named:
@@ -370,7 +370,9 @@ def _candidates(finding: Finding, before: ErrorNumbers) -> Iterator[Candidate]:
         yield from _candidate(finding.fit, other, (), before)
 
 
-def _candidate(base: Fit, rival: Rival, equals: Sequence[Rival], before: ErrorNumbers) -> Iterator[Candidate]:
+def _candidate(
+    base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
+) -> Iterator[Candidate]:
     """Yield an effect as a candidate, if the readings determine it beside the job's model."""
     try:
         after = with_member(base, rival.member)

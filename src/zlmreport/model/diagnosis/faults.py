@@ -73,7 +73,7 @@ _OF_LOGS = frozenset({FaultKind.STUCK_SENSOR, FaultKind.LAGGING_SENSOR, FaultKin
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class DataFault:
     """Something that looks wrong in the data."""
 
     kind: FaultKind  #: What went wrong.
@@ -102,7 +102,7 @@ def faults_of(
     effects: Iterable[Effect],
     *,
     is_something_missing: bool,
-) -> tuple[Fault, ...]:
+) -> tuple[DataFault, ...]:
     """Return what looks wrong in the data; a run that two signs betray is named once.
 
     `before`, `complete`: The job's model, and the same with all effects that a contest found.
@@ -124,7 +124,7 @@ def gaps(design: Design) -> Iterator[Words]:
         yield _GAP.given(hours=hours, before=int(design.run[place]), after=int(design.run[place + 1]))
 
 
-def recorded_faults(design: Design, deviation: FloatArray) -> tuple[Fault, ...]:
+def recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFault, ...]:
     """Return what the rows themselves show, without any model."""
     return (
         *_against_the_order(design),
@@ -136,7 +136,9 @@ def recorded_faults(design: Design, deviation: FloatArray) -> tuple[Fault, ...]:
     )
 
 
-def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = -np.inf) -> tuple[Fault, ...]:
+def run_faults(
+    fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = -np.inf
+) -> tuple[DataFault, ...]:
     """Return slips of single runs that explain what the repeats differ by.
 
     An effect that changes with time makes runs differ as well: a slip must leave less within the repeats than
@@ -166,7 +168,9 @@ def run_faults(fitted: Fit, rivals: Sequence[Fit] = (), shape_evidence: float = 
         ahead = evidence - max(by_rivals, shape_evidence, 0.0)
         if evidence > _STRONG and ahead > 0:
             statement, remedy = _OF_RUNS[kind]
-            fault = Fault(kind, run, _probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER)
+            fault = DataFault(
+                kind, run, _probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER
+            )
             found.append((evidence, fault))
     return tuple(fault for _, fault in sorted(found, key=lambda each: -each[0])[:1])
 
@@ -176,7 +180,7 @@ def _within(fitted: Fit) -> float:
     return repeats(fitted.design, fitted.residual).squares
 
 
-def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]) -> tuple[Fault, ...]:
+def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]) -> tuple[DataFault, ...]:
     """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
 
     `rivals`: The same with each of the best effects; nothing is said where none is better than nothing.
@@ -215,7 +219,7 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
     statement = _LAGS_BEHIND.given(column=name, minutes=significant_words(lag / 60, 1))
     kind = FaultKind.LAGGING_SENSOR
     return (
-        Fault(kind, None, _probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING),
+        DataFault(kind, None, _probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING),
     )
 
 
@@ -289,7 +293,7 @@ def _squares_left(columns: FloatArray, deviation: FloatArray) -> float:
     return float(np.sum((deviation - scaled @ np.linalg.lstsq(scaled, deviation, rcond=None)[0]) ** 2))
 
 
-def _against_the_order(design: Design) -> Iterator[Fault]:
+def _against_the_order(design: Design) -> Iterator[DataFault]:
     """Yield runs whose rows lead the other way than their directions say, where others do not."""
     agrees = {}
     for run in np.unique(design.cycle).tolist():
@@ -303,10 +307,10 @@ def _against_the_order(design: Design) -> Iterator[Fault]:
         if each < -_CLEAR and rightly >= 1 and rightly >= len(agrees) / 2:
             statement, remedy = _OF_RUNS[FaultKind.SWAPPED_DIRECTION]
             words = _ORDER_SAYS_SO.given(statement=statement.given(run=run))
-            yield Fault(FaultKind.SWAPPED_DIRECTION, run, 1.0, words, remedy)
+            yield DataFault(FaultKind.SWAPPED_DIRECTION, run, 1.0, words, remedy)
 
 
-def _duplicated(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+def _duplicated(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield runs that repeat another reading for reading, where readings do not repeat as a rule."""
     runs = {
         run: deviation[design.cycle == run][
@@ -323,10 +327,10 @@ def _duplicated(design: Design, deviation: FloatArray) -> Iterator[Fault]:
         usual = max(others, default=0.0) if len(runs) > _FEWEST_RUNS - 1 else 0.0
         if share == 1.0 and len(runs[one]) >= _FEWEST_EQUAL and (usual < _CLEAR) and np.ptp(runs[one]) > 0:
             statement = _DUPLICATED.given(run=other, first=one)
-            yield Fault(FaultKind.DUPLICATED_RUN, other, 1.0, statement, _EXCLUDE_RUN.given(run=other))
+            yield DataFault(FaultKind.DUPLICATED_RUN, other, 1.0, statement, _EXCLUDE_RUN.given(run=other))
 
 
-def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield readings that are off by the distance to another target."""
     targets = design.target_positions
     if len(targets) < _FEWEST_RUNS:
@@ -340,20 +344,20 @@ def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[Fault]:
                 reading=wording.reading_at(design, place),
                 target=wording.position(design.axis, float(targets[other])),
             )
-            yield Fault(FaultKind.WRONG_TARGET, int(design.cycle[place]), 1.0, statement, _CORRECT_TARGET)
+            yield DataFault(FaultKind.WRONG_TARGET, int(design.cycle[place]), 1.0, statement, _CORRECT_TARGET)
 
 
-def _of_the_clock(design: Design) -> Iterator[Fault]:
+def _of_the_clock(design: Design) -> Iterator[DataFault]:
     """Yield where the time falls, or jumps within a run."""
     if design.time_is_counted:
         return
     steps = np.diff(design.time)
     for place in np.flatnonzero(steps < 0).tolist()[:1]:
         statement = _CLOCK_FALLS.given(reading=wording.reading_at(design, place + 1))
-        yield Fault(FaultKind.CLOCK_JUMP, int(design.cycle[place + 1]), 1.0, statement, _CORRECT_CLOCK)
+        yield DataFault(FaultKind.CLOCK_JUMP, int(design.cycle[place + 1]), 1.0, statement, _CORRECT_CLOCK)
 
 
-def _of_sensors(design: Design) -> Iterator[Fault]:
+def _of_sensors(design: Design) -> Iterator[DataFault]:
     """Yield logs that are in each other's columns, and logs that stopped while others went on."""
     outside = {
         name: not bool(np.all((low <= log) & (log <= high)))
@@ -363,16 +367,16 @@ def _of_sensors(design: Design) -> Iterator[Fault]:
     wrong = [name for name, is_outside in outside.items() if is_outside]
     if len(wrong) > 1:
         statement = _SWAPPED_COLUMNS.given(columns=", ".join(wrong))
-        yield Fault(FaultKind.SWAPPED_COLUMNS, None, 1.0, statement, _CORRECT_COLUMNS)
+        yield DataFault(FaultKind.SWAPPED_COLUMNS, None, 1.0, statement, _CORRECT_COLUMNS)
     changing = {name for name, log in design.conditions.items() if len(np.unique(log)) > len(log) // 4}
     for name, log in design.conditions.items():
         stuck = len(log) - 1 - int(np.flatnonzero(np.diff(log))[-1]) if np.ptp(log) > 0 else 0
         if name in changing and stuck > max(_FEWEST_STUCK, len(log) // 4):
             statement = _STUCK.given(column=name, count=stuck)
-            yield Fault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
+            yield DataFault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
 
 
-def _of_units(design: Design, deviation: FloatArray) -> Iterator[Fault]:
+def _of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
     sizes = {
         run: float(np.median(np.abs(deviation[design.cycle == run])))
@@ -383,19 +387,19 @@ def _of_units(design: Design, deviation: FloatArray) -> Iterator[Fault]:
         low, high = others[0], others[-1]
         if high < _ANOTHER_UNIT * low and (size > _ANOTHER_UNIT * high or size * _ANOTHER_UNIT < low):
             statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
-            yield Fault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
+            yield DataFault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
     # A single reading at another target is no scatter.
     floor = _NORMAL * float(np.median(np.abs(repeats(design, deviation).centred)))
     largest = float(np.abs(deviation).max())
     if 0 < largest < _TINY:
         statement = _TINY_TEST.given(size=wording.deviation(design.axis, largest))
-        yield Fault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
+        yield DataFault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
     elif 0 < floor < _STILL and largest < _SMALL:
         statement = _STILL_TEST.given(size=wording.deviation(design.axis, floor))
-        yield Fault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
+        yield DataFault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
     elif floor > _WILD:
         statement = _WILD_TEST.given(size=wording.deviation(design.axis, floor))
-        yield Fault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
+        yield DataFault(FaultKind.WRONG_UNIT, None, _LIKELY, statement, _STATE_UNITS)
 
 
 #: What a log can be at a machine, SI.

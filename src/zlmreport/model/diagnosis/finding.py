@@ -18,14 +18,14 @@ from zlmreport.model.diagnosis.contest import Contest, Told, untold
 from zlmreport.model.diagnosis.forms import unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue, Scores, chances_of, simulate_null
 from zlmreport.model.diagnosis.remainder import Remainder, remainder_of
-from zlmreport.model.diagnosis.sets import EffectSet, Member, SetSearch
+from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch
 from zlmreport.model.diagnosis.visibility import Visibility, visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import Noise
-from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.priors import PriorExpectation
 from zlmreport.model.fitting.repeats import resolution
 from zlmreport.model.fitting.search import Thetas
 
@@ -52,10 +52,10 @@ _CERTAIN = 200.0
 
 
 @dataclass(frozen=True, slots=True)
-class Rival:
+class StandIn:
     """An effect that may stand in the place of another, or beside a model where none has a name."""
 
-    member: Member
+    member: SetMember
     probability: float  #: Among all that may stand there, and nothing.
     evidence: float  #: 2·ln of the odds for it against nothing in this place.
     p_value: PValue  #: Of its likelihood ratio beside the job's model, its own search allowed for.
@@ -67,12 +67,14 @@ class Rival:
 
 
 @dataclass(frozen=True, slots=True)
-class Named:
+class NamedEffect:
     """An effect that belongs in."""
 
-    leading: Rival
-    equals: tuple[Rival, ...]  #: Effects that the readings do not tell from it, beside the others of the set.
-    behind: tuple[Rival, ...]  #: Effects that might stand there as well, but are told from it; best first.
+    leading: StandIn
+    equals: tuple[
+        StandIn, ...
+    ]  #: Effects that the readings do not tell from it, beside the others of the set.
+    behind: tuple[StandIn, ...]  #: Effects that might stand there as well, but are told from it; best first.
 
     @property
     def identifier(self) -> str:
@@ -81,14 +83,14 @@ class Named:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class ContestFinding:
     """What a contest beside a model comes to."""
 
     fit: Fit  #: The model.
     noise: Noise  #: Held to what noise may be.
     p_value: PValue  #: Chance of such a contest where nothing is missing.
-    named: tuple[Named, ...]  #: The effects that belong in, the one to add first first.
-    others: tuple[Rival, ...]  #: Those that explain most where none has evidence of its own, best first.
+    named: tuple[NamedEffect, ...]  #: The effects that belong in, the one to add first first.
+    others: tuple[StandIn, ...]  #: Those that explain most where none has evidence of its own, best first.
     makeshift: tuple[str, ...]  #: Effects of the model that others take the place of.
     remainder: Remainder | None  #: What is left without a name; None where it is noise.
     visible: tuple[Visibility, ...]  #: How much of each effect the plan can see beside the model.
@@ -97,12 +99,12 @@ class Finding:
 def find(  # noqa: PLR0913 - what is known, what may be, and who is told
     fitted: Fit,
     effects: Iterable[Effect],
-    expected: Expected | None = None,
+    expected: PriorExpectation | None = None,
     *,
     may_go: frozenset[str] = frozenset(),
     is_left: bool = False,
     told: Told = untold,
-) -> Finding:
+) -> ContestFinding:
     """Return what a contest of all effects beside a fitted model comes to.
 
     `expected`: What earlier tests say.
@@ -129,7 +131,7 @@ class _Stated:
 
     fitted: Fit
     forms: tuple[Effect, ...]
-    expected: Expected | None
+    expected: PriorExpectation | None
     may_go: frozenset[str]
     is_left: bool
     known: float
@@ -140,7 +142,7 @@ class _Stated:
         cls,
         fitted: Fit,
         effects: Iterable[Effect],
-        expected: Expected | None,
+        expected: PriorExpectation | None,
         may_go: frozenset[str],
         *,
         is_left: bool,
@@ -205,7 +207,7 @@ class _Stated:
 class _Contested:
     """What came of a contest: the set, if anything is missing at all."""
 
-    finding: Finding
+    finding: ContestFinding
     found: EffectSet | None
 
 
@@ -228,7 +230,7 @@ def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
     told(0.2)
     most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
-        return _Contested(Finding(fitted, noise, p_value, (), (), (), None, visible), None)
+        return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
     found = _believed(search, search.found(start.members, lambda share: told(0.2 + 0.6 * share)))
     before = {(each.identifier, each.effect.settings) for each in start.members}
     named = tuple(
@@ -236,7 +238,7 @@ def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
         for number in _in_order(contest, found)
         if (found.members[number].identifier, found.members[number].effect.settings) not in before
     )
-    finding = Finding(
+    finding = ContestFinding(
         fit=fitted,
         noise=noise,
         p_value=p_value,
@@ -302,7 +304,7 @@ def _in_order(contest: Contest, found: EffectSet) -> list[int]:
     return chosen
 
 
-def _named(search: SetSearch, found: EffectSet, number: int) -> Named:
+def _named(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
     """Return an effect of a set with those that could stand in its place."""
     rest = search.without(found, number)
     member = found.members[number]
@@ -313,7 +315,7 @@ def _named(search: SetSearch, found: EffectSet, number: int) -> Named:
     beside = [each.columns for place, each in enumerate(found.members) if place != number]
     chances = chances_of(search.contest, found.amplitudes, beside, [each.identifier for each in members])
     rivals = [
-        Rival(each, float(weight / weights.sum()), rest.score - whole.score, chances[each.identifier])
+        StandIn(each, float(weight / weights.sum()), rest.score - whole.score, chances[each.identifier])
         for each, whole, weight in zip(members, sets, weights[1:], strict=True)
     ]
     design = search.contest.design
@@ -322,7 +324,7 @@ def _named(search: SetSearch, found: EffectSet, number: int) -> Named:
     others = [each for each in rivals if each is not leading]
     is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in others]
     names = {each.identifier for each in found.members}
-    return Named(
+    return NamedEffect(
         leading,
         tuple(each for each, equal in zip(others, is_equal, strict=True) if equal),
         tuple(
@@ -343,14 +345,14 @@ def _assumptions(effect: Effect, design: Design) -> int:
     return searched + follows_a_log
 
 
-def _others(search: SetSearch, found: EffectSet) -> Iterator[Rival]:
+def _others(search: SetSearch, found: EffectSet) -> Iterator[StandIn]:
     """Yield the effects that explain most beside what has no name, where none has evidence of its own."""
     tried = search.ahead(found)
     names = [each.members[-1].identifier for each in tried]
     chances = chances_of(search.contest, found.amplitudes, found.columns, names) if names else {}
     for name, each in zip(names, tried, strict=True):
         odds = float(np.exp(-0.5 * min(max(each.score - found.score, -_CERTAIN), _CERTAIN)))
-        yield Rival(each.members[-1], odds / (1.0 + odds), found.score - each.score, chances[name])
+        yield StandIn(each.members[-1], odds / (1.0 + odds), found.score - each.score, chances[name])
 
 
 def known_noise(fitted: Fit) -> float:
@@ -367,7 +369,7 @@ def known_noise(fitted: Fit) -> float:
     return 2.0 * float(np.hypot(rounding, np.hypot(*inexact)))
 
 
-def with_member(fitted: Fit, member: Member) -> Fit:
+def with_member(fitted: Fit, member: SetMember) -> Fit:
     """Return the fit of a model with an effect, where a contest found it.
 
     Raises `ModelError` if the readings do not determine it.

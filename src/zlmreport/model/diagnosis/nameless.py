@@ -21,7 +21,7 @@ from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.noise import NoisePart, NoiseSource, by_session
 from zlmreport.model.fitting.pauses import working_time
-from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.priors import PriorExpectation
 
 #: 2·ln of the odds against a nameless part, its amplitude chosen among some: rarer than a known cause.
 PRICE = 9.0
@@ -46,7 +46,7 @@ class Along(Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class CovariancePart:
     """A part of the covariance, with the amplitudes that are tried of it."""
 
     shape: Words  #: In words.
@@ -71,10 +71,10 @@ def parts_of(
     design: Design,
     columns: Columns,
     noise: tuple[NoisePart, ...],
-    expected: Expected,
+    expected: PriorExpectation,
     *,
     with_nameless: bool = True,
-) -> tuple[Part, ...]:
+) -> tuple[CovariancePart, ...]:
     """Return the parts of the covariance that the plan can see beside the model; their columns are added.
 
     `noise`: The sources of noise; those by position are the irregular factors of the table, in their order.
@@ -91,7 +91,7 @@ def parts_of(
         may_be_more = with_nameless and each.source is not NoiseSource.TIME
         further = tuple(level for level in _IRREGULAR if may_be_more and level > each.ratios[-1])
         found.append(
-            Part(
+            CovariancePart(
                 _WORDS[each.source],
                 _ALONG[each.source],
                 places,
@@ -109,7 +109,7 @@ def parts_of(
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
             costs = (0.0, *(PRICE for _ in _VARIANCES))
             places = columns.add(contrasts / size)
-            found.append(Part(shape, along, places, None, (0.0, *_VARIANCES), costs, 1))
+            found.append(CovariancePart(shape, along, places, None, (0.0, *_VARIANCES), costs, 1))
     return tuple(found)
 
 

@@ -17,7 +17,7 @@ from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
 from zlmreport.model.diagnosis.nameless import Along
-from zlmreport.model.diagnosis.sets import EffectSet, Member, SetSearch
+from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
@@ -69,7 +69,7 @@ class _Share:
     values: FloatArray  #: (N,), m or rad.
     along: Along
     shape: Words
-    member: Member | None  #: The form; None of a random curve.
+    member: SetMember | None  #: The form; None of a random curve.
 
     @property
     def rms(self) -> float:
@@ -198,7 +198,7 @@ def _shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             yield _Share(explained, part.along, part.shape, None)
 
 
-def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> Member | None:
+def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
     """Return the form that follows a curve best; None if none follows most of it."""
     contest = search.contest
     best = search.best_unnamed(bare)
@@ -211,12 +211,12 @@ def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> Member 
     return best if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
 
 
-def _proposed(form: Member, design: Design) -> FormulaKeys:
+def _proposed(form: SetMember, design: Design) -> FormulaKeys:
     assert isinstance(form.effect, UnnamedForm)  # noqa: S101 - no other effect has no name
     return form.effect.proposed(form.theta, design)
 
 
-def _shape_of(member: Member, design: Design) -> Words:
+def _shape_of(member: SetMember, design: Design) -> Words:
     """Return a form in words."""
     form = member.effect
     assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name

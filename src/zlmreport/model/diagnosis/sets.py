@@ -49,7 +49,7 @@ _SEEN = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Member:
+class SetMember:
     """An effect of a set, at values of its searched parameters."""
 
     family: Family
@@ -74,17 +74,17 @@ class Member:
 class EffectSet:
     """Effects together, with the amplitudes of what has no name beside them."""
 
-    members: tuple[Member, ...]
+    members: tuple[SetMember, ...]
     amplitudes: Amplitudes
     score: float  #: −2·ln of its evidence, but for a constant of the test.
 
     @property
-    def named(self) -> tuple[Member, ...]:
+    def named(self) -> tuple[SetMember, ...]:
         """Those that are installed effects."""
         return tuple(each for each in self.members if each.family.is_named)
 
     @property
-    def unnamed(self) -> tuple[Member, ...]:
+    def unnamed(self) -> tuple[SetMember, ...]:
         """Forms without a name."""
         return tuple(each for each in self.members if not each.family.is_named)
 
@@ -106,7 +106,7 @@ class SetSearch:
         self.contest = contest
         self._is_quiet = False  # whether nameless parts are left out
 
-    def found(self, start: Sequence[Member] = (), told: Told = untold) -> EffectSet:
+    def found(self, start: Sequence[SetMember] = (), told: Told = untold) -> EffectSet:
         """Return the set with the most evidence.
 
         `start`: Effects that are in it at first, and may go out.
@@ -149,14 +149,14 @@ class SetSearch:
         members = (*found.members[:number], *found.members[number + 1 :])
         return self._with(members, found.amplitudes)
 
-    def as_noise(self, members: Sequence[Member]) -> EffectSet:
+    def as_noise(self, members: Sequence[SetMember]) -> EffectSet:
         """Return a set beside which there is nothing but noise."""
         self._is_quiet = True
         found = self._with(members, self.contest.quiet)
         self._is_quiet = False
         return found
 
-    def member_of(self, effect: Effect, theta: FloatArray) -> Member:
+    def member_of(self, effect: Effect, theta: FloatArray) -> SetMember:
         """Return an effect of the contest at values of its searched parameters as a member of a set."""
         family = next(
             each
@@ -167,7 +167,7 @@ class SetSearch:
         blocks, ranks, _ = orthonormal(
             contest.space, contest.design, effect, theta[np.newaxis], contest.least_visible
         )
-        return Member(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
+        return SetMember(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
 
     def rivals(self, found: EffectSet, rest: EffectSet, within: float) -> list[EffectSet]:
         """Return the sets in which another effect stands in the place of a member, best first.
@@ -196,21 +196,21 @@ class SetSearch:
         tried = self._ahead(found, _LISTED, _TRIED, lambda family: family.is_named)
         return list({each.members[-1].identifier: each for each in reversed(tried)}.values())[::-1]
 
-    def best_unnamed(self, found: EffectSet) -> Member | None:
+    def best_unnamed(self, found: EffectSet) -> SetMember | None:
         """Return the form without a name that adds most to a set; None if none adds anything."""
         tried = self._ahead(found, _LISTED, _TRIED, lambda family: not family.is_named)
         return tried[0].members[-1] if tried else None
 
-    def _with(self, members: Sequence[Member], amplitudes: Amplitudes) -> EffectSet:
+    def _with(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         """Return a set with its best amplitudes near others."""
         return self._scored(members, self._amplitudes([each.columns for each in members], amplitudes))
 
-    def _scored(self, members: Sequence[Member], amplitudes: Amplitudes) -> EffectSet:
+    def _scored(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         columns = [each.columns for each in members]
         score = self.contest.criterion(amplitudes, columns) + self._cost(members, amplitudes)
         return EffectSet(tuple(members), amplitudes, score)
 
-    def _cost(self, members: Sequence[Member], amplitudes: Amplitudes) -> float:
+    def _cost(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> float:
         """Return what the members cost: prior odds, coefficients, searched parameters, unusual values."""
         if not members:
             return 0.0
@@ -236,7 +236,7 @@ class SetSearch:
         return cost
 
     def _by_size(
-        self, member: Member, solved: FloatArray, information: FloatArray
+        self, member: SetMember, solved: FloatArray, information: FloatArray
     ) -> Iterator[tuple[float, int]]:
         """Yield what a member explains beside the others of a set, in σ², and with how many columns.
 
@@ -257,7 +257,7 @@ class SetSearch:
         parts = np.linalg.qr(powers)[0].T @ (root @ solved)
         yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
 
-    def _unusual(self, member: Member, solved: FloatArray, covariance: FloatArray) -> float:
+    def _unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""
         effect, design = member.effect, self.contest.design
         cost = sum(
@@ -413,7 +413,7 @@ class SetSearch:
         """
         glanced = []
         for family, block, spread in self._leading(now, listed, wanted):
-            member = Member(
+            member = SetMember(
                 family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread
             )
             members = (*_beside(now.members, member.effect), member)
@@ -443,7 +443,7 @@ class SetSearch:
                     seen.add(choice)
                     yield family, choice[1], float(scan.spread[number])
 
-    def _glanced(self, members: Sequence[Member], amplitudes: Amplitudes) -> EffectSet:
+    def _glanced(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         """Return a set with nameless parts lowered where that is better at once."""
         contest, columns = self.contest, [each.columns for each in members]
         best, now = contest.criterion(amplitudes, columns), amplitudes
@@ -479,7 +479,7 @@ class SetSearch:
         members, _ = self._jumped(members, amplitudes)
         return self._scored(members, amplitudes)
 
-    def _jumped(self, members: list[Member], amplitudes: Amplitudes) -> tuple[list[Member], bool]:
+    def _jumped(self, members: list[SetMember], amplitudes: Amplitudes) -> tuple[list[SetMember], bool]:
         """Return members at better parts of their grids, beside each other, and whether any moved."""
         contest, found, has_moved = self.contest, list(members), False
         for number, member in enumerate(members):
@@ -501,14 +501,14 @@ class SetSearch:
             family, block = contest.families[chosen], int(scan.best[chosen])
             moved = contest.criterion(amplitudes, [*rest, family.blocks[block]])
             if is_other or moved < contest.criterion(amplitudes, [*rest, member.columns]) - _JUMP:
-                found[number] = Member(
+                found[number] = SetMember(
                     family, family.thetas[block], family.blocks[block], int(family.ranks[block])
                 )
                 has_moved = True
             found[number] = replace(found[number], spread=float(scan.spread[chosen]))
         return found, has_moved
 
-    def _refined(self, members: Sequence[Member], number: int, amplitudes: Amplitudes) -> Member:
+    def _refined(self, members: Sequence[SetMember], number: int, amplitudes: Amplitudes) -> SetMember:
         """Return a member with its searched parameters between those of the grid, one after another."""
         contest, member = self.contest, members[number]
         family, effect = member.family, member.effect
@@ -555,7 +555,7 @@ class SetSearch:
         return replace(moved, tangents=tangents)
 
     def _tangents(
-        self, members: Sequence[Member], number: int, amplitudes: Amplitudes, steps: dict[int, float]
+        self, members: Sequence[SetMember], number: int, amplitudes: Amplitudes, steps: dict[int, float]
     ) -> IntArray | None:
         """Return the places of what small shifts of a member's searched parameters change."""
         contest, member = self.contest, members[number]
@@ -583,7 +583,7 @@ def _moved(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
     return (*amplitudes[:number], level, *amplitudes[number + 1 :])
 
 
-def _beside(members: Sequence[Member], effect: Effect) -> tuple[Member, ...]:
+def _beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:
     """Return the members that can stand beside an effect: none that it contains or takes the place of."""
     replaced = {effect.identifier, *effect.contains}
     return tuple(

@@ -23,7 +23,7 @@ _USUAL, _IMAGINED = 0.12, 4.0
 LEVEL = 5e-3
 
 
-class Way(Enum):
+class RunDifference(Enum):
     """In what a run differs from the others."""
 
     MEAN = Words(en="run {run} displaced as a whole", de="Durchlauf {run} als Ganzes verschoben")
@@ -42,7 +42,7 @@ class SingleRun:
     """A run that differs from all others."""
 
     run: int
-    way: Way
+    way: RunDifference
     values: FloatArray  #: (N,): What it adds to the readings, m or rad; zero in the others.
 
     @property
@@ -68,11 +68,15 @@ def single_run(design: Design, residual: FloatArray, sigma: float) -> SingleRun 
     if len(runs) < _FEWEST_RUNS or sigma <= 0:
         return None
     lever = 2.0 * (design.position - design.middle) / (design.length or 1.0)
-    ways = {Way.MEAN: np.ones(len(residual)), Way.SLOPE: lever, Way.REVERSAL: design.direction}
+    ways = {
+        RunDifference.MEAN: np.ones(len(residual)),
+        RunDifference.SLOPE: lever,
+        RunDifference.REVERSAL: design.direction,
+    }
     farthest, found = 0.0, None
     limit = t_quantile(1.0 - LEVEL / (len(ways) * len(runs)), len(runs) - 2 + _IMAGINED)
     for way, column in ways.items():
-        if way is Way.REVERSAL and not design.is_bidirectional:
+        if way is RunDifference.REVERSAL and not design.is_bidirectional:
             continue
         of_run = [design.cycle == run for run in runs]
         squares = np.array([float(column[own] @ column[own]) for own in of_run])

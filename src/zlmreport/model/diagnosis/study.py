@@ -33,7 +33,7 @@ from zlmreport.model.fitting.blunders import outliers
 from zlmreport.model.fitting.estimate import Estimate, InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
 from zlmreport.model.fitting.observations import Observations, observations_of, of_readings, thinned
-from zlmreport.model.fitting.priors import Expected
+from zlmreport.model.fitting.priors import PriorExpectation
 from zlmreport.model.fitting.sessions import held_together, of_the_job, with_zeros
 
 #: The effect that is a full polynomial over the position.
@@ -150,9 +150,9 @@ class Study:
         except ModelError as error:
             raise InputError(self._problems(error)) from error
 
-    def _expected(self) -> Expected | None:
+    def _expected(self) -> PriorExpectation | None:
         """Return what the job says that earlier tests say."""
-        return Expected.of(self.job.priors, self.job.axis) if self.job.priors else None
+        return PriorExpectation.of(self.job.priors, self.job.axis) if self.job.priors else None
 
     def titles(self, effects: Sequence[Effect]) -> dict[str, Words]:
         """Return what installed effects and the formulas of the job are called, by identifier."""

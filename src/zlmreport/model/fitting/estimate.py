@@ -22,7 +22,7 @@ from zlmreport.model.effects.effect import Dimension, Parameter
 from zlmreport.model.fitting.contrasts import Contrasts
 from zlmreport.model.fitting.distributions import t_quantile
 from zlmreport.model.fitting.noise import Noise
-from zlmreport.model.fitting.search import Place, Problem, Solution
+from zlmreport.model.fitting.search import ContinuousParameter, FitProblem, Solution
 
 _ACTIVE = 1e-3
 _FEWEST, _MOST = 1.0, 1e6
@@ -217,7 +217,10 @@ class Uncertainties:
 
 
 def estimates_of(
-    problem: Problem, solution: Solution, places: Sequence[Place], uncertainties: Uncertainties
+    problem: FitProblem,
+    solution: Solution,
+    places: Sequence[ContinuousParameter],
+    uncertainties: Uncertainties,
 ) -> tuple[Estimate, ...]:
     """Return every parameter of a fitted model, in its order, the linear ones of each effect first."""
     count = len(uncertainties.inverse)
@@ -250,7 +253,7 @@ def estimates_of(
     return tuple(_as_linked(each, found, problem) for each in found)
 
 
-def _as_linked(estimate: Estimate, found: Sequence[Estimate], problem: Problem) -> Estimate:
+def _as_linked(estimate: Estimate, found: Sequence[Estimate], problem: FitProblem) -> Estimate:
     """Return the estimate of a parameter that equals another: the value and uncertainty of that."""
     links = {term.effect.identifier: term.links for term in problem.model.terms}[estimate.effect]
     if estimate.parameter.name not in links:
@@ -266,7 +269,7 @@ def _as_linked(estimate: Estimate, found: Sequence[Estimate], problem: Problem) 
     )
 
 
-def _terms(problem: Problem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:
+def _terms(problem: FitProblem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:
     return zip(problem.model.terms, solution.coefficients, strict=True)
 
 
@@ -286,7 +289,7 @@ def _expecting(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
 
 
 def scanned_ends(
-    problem: Problem, solution: Solution, index: int, column: int, sigma: float
+    problem: FitProblem, solution: Solution, index: int, column: int, sigma: float
 ) -> tuple[float, float]:
     """Return the ends of the interval of a θ that jumps from value to value and has no derivative.
 

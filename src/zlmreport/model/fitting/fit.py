@@ -28,7 +28,15 @@ from zlmreport.model.fitting.estimate import (
 from zlmreport.model.fitting.noise import Noise, NoisePart, coarse_grid, noise_parts
 from zlmreport.model.fitting.observations import of_readings
 from zlmreport.model.fitting.repeats import weights
-from zlmreport.model.fitting.search import Place, Problem, Solution, Thetas, refine, search, tangents
+from zlmreport.model.fitting.search import (
+    ContinuousParameter,
+    FitProblem,
+    Solution,
+    Thetas,
+    refine,
+    search,
+    tangents,
+)
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
 _LARGEST_RATIO = 1e4
@@ -76,7 +84,7 @@ class Fit:
     estimates: tuple[Estimate, ...]  #: All parameters, in the order of the model.
     noise: Noise  #: What scatters.
     solution: Solution  #: The parameters as arrays.
-    places: tuple[Place, ...]  #: The searched parameters that vary continuously.
+    places: tuple[ContinuousParameter, ...]  #: The searched parameters that vary continuously.
     uncertainties: Uncertainties  #: What the uncertainty of any value follows from.
 
     @property
@@ -203,14 +211,14 @@ def _fit(
     parts = noise_parts(design) if taken.parts is None else taken.parts
     known = weights(design, deviation) if taken.weights is None else taken.weights
     noise = Noise(0.0, {}, known)
-    problem = Problem(model, design, deviation, whitener(parts, noise))
+    problem = FitProblem(model, design, deviation, whitener(parts, noise))
     solution = search(problem) if start is None else refine(problem, problem.solution(start))
     refuse_collisions(model, _columns(model, design, solution))
     for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
         base = _jacobian(model, design, solution, problem.places(solution.thetas))
         space = contrasts_of(base, parts, noise.weights)
         noise = _estimated(space, _open(model, design, deviation, solution), noise.weights)
-        problem = Problem(model, design, deviation, whitener(parts, noise))
+        problem = FitProblem(model, design, deviation, whitener(parts, noise))
         solution = refine(problem, problem.solution(solution.thetas))
     return _finished(problem, solution, space, noise, taken)
 
@@ -245,7 +253,9 @@ def _value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:
     return found
 
 
-def _jacobian(model: AxisModel, design: Design, solution: Solution, places: Sequence[Place]) -> FloatArray:
+def _jacobian(
+    model: AxisModel, design: Design, solution: Solution, places: Sequence[ContinuousParameter]
+) -> FloatArray:
     """Return J on a design: the columns that were solved, then the tangents, shape (N, p)."""
     empty = np.empty((len(design.position), 0))
     slopes = tangents(model, design, solution, places)
@@ -253,7 +263,7 @@ def _jacobian(model: AxisModel, design: Design, solution: Solution, places: Sequ
 
 
 def _finished(
-    problem: Problem, solution: Solution, space: Contrasts, noise: Noise, assumptions: Assumptions
+    problem: FitProblem, solution: Solution, space: Contrasts, noise: Noise, assumptions: Assumptions
 ) -> Fit:
     model, design = problem.model, problem.design
     places = problem.places(solution.thetas)
@@ -299,7 +309,7 @@ def cross_validated_rms(
     for run in runs:
         left_out = np.flatnonzero(cycle == run)
         kept = np.flatnonzero(cycle != run)
-        problem = Problem(model, of_readings(design, kept), deviation[kept], _as_they_are)
+        problem = FitProblem(model, of_readings(design, kept), deviation[kept], _as_they_are)
         found = refine(problem, problem.solution(thetas))
         others = of_readings(design, left_out)
         predicted = np.zeros(len(left_out))

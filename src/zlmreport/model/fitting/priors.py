@@ -39,7 +39,7 @@ _NAMES: Mapping[NoiseSource, SourceName] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Expected:
+class PriorExpectation:
     """What is expected of a test before its readings are looked at."""
 
     #: Of a source of shared scatter, ratios φ and their probabilities, shape (2, k).
@@ -48,7 +48,7 @@ class Expected:
     sizes: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, keys: PriorsKeys, axis: Axis) -> Expected:
+    def of(cls, keys: PriorsKeys, axis: Axis) -> PriorExpectation:
         """Return what a file of priors says of an axis."""
         ratios = {
             source: np.array([stated.ratios, stated.probabilities])
@@ -80,7 +80,7 @@ class Expected:
         shares = np.bincount(nearest, stated, len(levels)) / stated.sum()
         return np.asarray(np.maximum(shares, _LEAST_PROBABILITY))
 
-    def in_units_of(self, sigma: float) -> Expected:
+    def in_units_of(self, sigma: float) -> PriorExpectation:
         """Return the same with sizes over σ."""
         return replace(self, sizes={name: size / (sigma or 1.0) for name, size in self.sizes.items()})
 
@@ -170,7 +170,7 @@ def _population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray]:
         for source, tried in levels.items()
     }
     for _ in range(_ROUNDS):
-        expected = Expected(found)
+        expected = PriorExpectation(found)
         counts = {source: np.full(len(each[0]), _IMAGINED / len(each[0])) for source, each in found.items()}
         for levels, grid, likelihoods in known:
             posterior = likelihoods * expected.probabilities(levels, grid)

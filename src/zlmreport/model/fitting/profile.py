@@ -21,7 +21,7 @@ from zlmreport.model.fitting.contrasts import whitener
 from zlmreport.model.fitting.estimate import Estimate, scanned_ends
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import noise_parts
-from zlmreport.model.fitting.search import Problem, descend
+from zlmreport.model.fitting.search import FitProblem, descend
 
 #: Fits with a parameter held, to find one end of its interval, and how near the rise must come.
 _FITS, _NEAR = 12, 1e-4
@@ -54,11 +54,11 @@ def intervals(fitted: Fit) -> tuple[Interval, ...]:
     """
     parts = fitted.assumptions.parts
     parts = noise_parts(fitted.design) if parts is None else parts
-    problem = Problem(fitted.model, fitted.design, fitted.deviation, whitener(parts, fitted.noise))
+    problem = FitProblem(fitted.model, fitted.design, fitted.deviation, whitener(parts, fitted.noise))
     return tuple(_intervals(fitted, problem))
 
 
-def _intervals(fitted: Fit, problem: Problem) -> Iterator[Interval]:
+def _intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
     at_places = {(place.term, place.column): (place.least, place.most) for place in fitted.places}
     identifiers = fitted.model.identifiers
     for each in fitted.estimates:
@@ -83,7 +83,7 @@ def _intervals(fitted: Fit, problem: Problem) -> Iterator[Interval]:
         yield Interval(each.effect, each.parameter, ends[0], ends[1], are_open[0], are_open[1])
 
 
-def _scanned(fitted: Fit, problem: Problem, index: int, estimate: Estimate) -> Interval:
+def _scanned(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> Interval:
     """Return the interval of a parameter of which only the values of a grid are known."""
     term = fitted.model.terms[index]
     column = term.effect.searched.index(estimate.parameter)
@@ -92,7 +92,7 @@ def _scanned(fitted: Fit, problem: Problem, index: int, estimate: Estimate) -> I
     return Interval(estimate.effect, estimate.parameter, low, high, low <= values.min(), high >= values.max())
 
 
-def _usual(fitted: Fit, problem: Problem, index: int, estimate: Estimate) -> tuple[float, float]:
+def _usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> tuple[float, float]:
     """Return k·u of a parameter: what the readings leave, and what the instrument adds."""
     known, own = fitted.uncertainties, (estimate.effect, estimate.parameter)
     if own in fitted.columns:
@@ -108,7 +108,7 @@ def _usual(fitted: Fit, problem: Problem, index: int, estimate: Estimate) -> tup
 
 
 def _rise(
-    fitted: Fit, problem: Problem, index: int, estimate: Estimate, sign: float
+    fitted: Fit, problem: FitProblem, index: int, estimate: Estimate, sign: float
 ) -> Callable[[float], float]:
     """Return the root of the rise of the deviance over the distance of a parameter from its best value."""
     terms, thetas = fitted.model.terms, fitted.solution.thetas

@@ -34,7 +34,7 @@ _IMITATED = 1e-7
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class ContinuousParameter:
     """A searched parameter that varies continuously."""
 
     #: term and column: Index of its term, and of it among the θ of that term.
@@ -74,7 +74,7 @@ class Solution:
 
 
 @dataclass(frozen=True, slots=True)
-class Problem:
+class FitProblem:
     """A model to be fitted to deviations."""
 
     #: model, design and deviation: What is fitted to what.
@@ -93,7 +93,7 @@ class Problem:
         solved = solve(columns, left)
         return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
 
-    def places(self, thetas: Thetas) -> tuple[Place, ...]:
+    def places(self, thetas: Thetas) -> tuple[ContinuousParameter, ...]:
         """Return the searched parameters that vary continuously."""
         return tuple(
             _place(index, column, term.grid(self.design)[:, column], float(thetas[index][column]))
@@ -113,7 +113,7 @@ def solve(columns: FloatArray, values: FloatArray) -> FloatArray:
     return found / np.where(lengths > 0, lengths, 1.0)
 
 
-def search(problem: Problem) -> Solution:
+def search(problem: FitProblem) -> Solution:
     """Return the best fit over the whole grid of every term, refined."""
     grids = [term.grid(problem.design) for term in problem.model.terms]
     best = problem.solution(tuple(grid[0] for grid in grids))
@@ -129,7 +129,7 @@ def search(problem: Problem) -> Solution:
     return refine(problem, best)
 
 
-def refine(problem: Problem, start: Solution) -> Solution:
+def refine(problem: FitProblem, start: Solution) -> Solution:
     """Return the best fit near another one: halving steps first, then Gauss-Newton."""
     best, places = start, problem.places(start.thetas)
     steps = [place.spacing / 2 for place in places]
@@ -141,7 +141,9 @@ def refine(problem: Problem, start: Solution) -> Solution:
     return descend(problem, best)
 
 
-def tangents(model: AxisModel, design: Design, solution: Solution, places: Sequence[Place]) -> FloatArray:
+def tangents(
+    model: AxisModel, design: Design, solution: Solution, places: Sequence[ContinuousParameter]
+) -> FloatArray:
     """Return ∂(Cγ)/∂θ on a design, shape (N, places)."""
     found = np.empty((len(design.position), len(places)))
     for number, place in enumerate(places):
@@ -160,7 +162,7 @@ def tangents(model: AxisModel, design: Design, solution: Solution, places: Seque
     return found
 
 
-def descend(problem: Problem, start: Solution, settled: float = 0.0) -> Solution:
+def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solution:
     """Return the best fit by damped steps in θ, the linear parameters following (L. Kaufman's Jacobian).
 
     A step that changes the sum of squares by less than `settled` is the last.
@@ -207,9 +209,9 @@ def _squares(solution: Solution) -> float:
     return squares if np.isfinite(squares) else np.inf
 
 
-def _place(term: int, column: int, values: FloatArray, theta: float) -> Place:
+def _place(term: int, column: int, values: FloatArray, theta: float) -> ContinuousParameter:
     """Return the place of a θ in its grid, with the distance of neighbours about it."""
     distinct = np.unique(values)
     near = int(np.clip(np.searchsorted(distinct, theta), 1, len(distinct) - 1))
     spacing = float(distinct[near] - distinct[near - 1])
-    return Place(term, column, spacing, float(distinct[0]), float(distinct[-1]))
+    return ContinuousParameter(term, column, spacing, float(distinct[0]), float(distinct[-1]))

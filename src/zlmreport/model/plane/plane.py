@@ -17,7 +17,7 @@ from zlmreport.model.diagnosis.report import report_error
 from zlmreport.model.diagnosis.study import instrument_error
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.fitting.observations import observations_of
-from zlmreport.model.plane.surface import Line, Surface, coefficient_names, side_by_side, surface
+from zlmreport.model.plane.surface import Surface, SurfaceLine, coefficient_names, side_by_side, surface
 
 #: A job, and what it measured.
 Measured = tuple[Job, MeasurementSet]
@@ -32,7 +32,7 @@ class Plane:
 
     axis: Axis  #: The axis that was measured.
     second: str  #: Name of the second axis.
-    lines: tuple[Line, ...]  #: In rising order of the second axis.
+    lines: tuple[SurfaceLine, ...]  #: In rising order of the second axis.
     surfaces: tuple[Surface, ...]  #: One for each direction of approach.
 
 
@@ -49,7 +49,7 @@ def plane_of(measured: Sequence[Measured]) -> Plane:
     lines = tuple(
         sorted(
             (
-                Line(job.axis.position_unit.to_si(place.at), observations_of(measurements))
+                SurfaceLine(job.axis.position_unit.to_si(place.at), observations_of(measurements))
                 for (job, measurements), place in zip(measured, places, strict=True)
             ),
             key=lambda line: line.across,

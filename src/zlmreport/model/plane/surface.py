@@ -34,7 +34,7 @@ ACROSS = "position_of_second_axis"
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class SurfaceLine:
     """A test of the axis at one position of the second axis."""
 
     across: float  #: R, the position of the second axis, m.
@@ -50,7 +50,7 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
-class Readings:
+class SurfaceReadings:
     """The readings of all lines that approach from one side."""
 
     second: str  #: Name of the second axis.
@@ -67,7 +67,7 @@ class Readings:
         return self.design.conditions[ACROSS]
 
 
-def side_by_side(lines: Sequence[Line], approach: Approach, second: str = "R") -> Readings:
+def side_by_side(lines: Sequence[SurfaceLine], approach: Approach, second: str = "R") -> SurfaceReadings:
     """Return the readings of lines in one direction of approach, those that stand off set aside.
 
     `lines`: In any order.
@@ -91,10 +91,10 @@ def side_by_side(lines: Sequence[Line], approach: Approach, second: str = "R") -
         conditions={ACROSS: read_only_floats(across)},
     )
     deviation = read_only_floats(np.concatenate([each.deviation for each in kept]))
-    return Readings(second, design, deviation, _pooled_floor(kept))
+    return SurfaceReadings(second, design, deviation, _pooled_floor(kept))
 
 
-def points(readings: Readings, along: FloatArray, across: FloatArray) -> Design:
+def points(readings: SurfaceReadings, along: FloatArray, across: FloatArray) -> Design:
     """Return a design that asks for points of the plane, each (M,), m."""
     design = readings.design
     none = np.zeros(len(along))
@@ -112,7 +112,7 @@ def points(readings: Readings, along: FloatArray, across: FloatArray) -> Design:
     )
 
 
-def _one_way(line: Line, approach: Approach) -> Observations:
+def _one_way(line: SurfaceLine, approach: Approach) -> Observations:
     kept = line.kept()
     chosen = np.flatnonzero(kept.design.direction == float(approach))
     return Observations(
@@ -213,7 +213,7 @@ class Surface:
     """The deviation over the plane for one direction of approach."""
 
     approach: Approach  #: The direction.
-    readings: Readings  #: What was fitted.
+    readings: SurfaceReadings  #: What was fitted.
     fit: Fit  #: The model, with scaled positions.
     powers: Powers  #: Its one effect.
     error: ErrorNumbers  #: How far the readings are from it.
@@ -257,7 +257,7 @@ class Surface:
         )
 
 
-def surface(readings: Readings, instrument: InstrumentError) -> Surface:
+def surface(readings: SurfaceReadings, instrument: InstrumentError) -> Surface:
     """Fit equation (13) to the lines of a plane.
 
     The orders are 3, or less by one than the number of positions or lines where these are fewer than four.
@@ -285,7 +285,7 @@ def surface(readings: Readings, instrument: InstrumentError) -> Surface:
     )
 
 
-def _fitted(powers: Powers, readings: Readings, assumed: Assumptions) -> Fit:
+def _fitted(powers: Powers, readings: SurfaceReadings, assumed: Assumptions) -> Fit:
     try:
         return fit(AxisModel((Term(powers),)), readings.design, readings.deviation, assumed)
     except ModelError as error:

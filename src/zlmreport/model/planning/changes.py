@@ -87,7 +87,7 @@ _PAUSE = {
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class PlanChange:
     """A change of a plan."""
 
     of: str  #: What it changes: two changes of the same do not go together.
@@ -97,9 +97,9 @@ class Change:
     changed: Callable[[Plan], Plan]  #: Returns the plan with the change.
 
 
-def together(changes: Sequence[Change]) -> Change:
+def together(changes: Sequence[PlanChange]) -> PlanChange:
     """Return several changes as one."""
-    return Change(
+    return PlanChange(
         " ".join(change.of for change in changes),
         None,
         listed([change.advice for change in changes]),
@@ -107,7 +107,7 @@ def together(changes: Sequence[Change]) -> Change:
     )
 
 
-def changes(axis: Axis, plan: Plan, seed: int) -> Iterator[Change]:
+def changes(axis: Axis, plan: Plan, seed: int) -> Iterator[PlanChange]:
     """Yield changes that let a plan see what it hides: each alone, and in the end all together."""
     of_targets = list(_of_targets(axis, plan, seed, _MANY_TARGETS))
     of_sequence = list(_of_sequence(plan, _MANY_RUNS))
@@ -119,7 +119,7 @@ def changes(axis: Axis, plan: Plan, seed: int) -> Iterator[Change]:
 
 def further_changes(
     axis: Axis, plan: Plan, seed: int, period: float | None, *, goes_on: bool = False
-) -> Iterator[Change]:
+) -> Iterator[PlanChange]:
     """Yield each change that may tell effects apart, or show one.
 
     `period`: Of an effect in question, m or rad: the targets are to see all its phases.
@@ -136,8 +136,10 @@ def further_changes(
         yield _session(_SECOND_SESSION, 0.0, 0.0)
         yield _session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
     longer = float(round(_LONGER * plan.dwell)) or plan.dwell
-    yield Change("dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer))
-    yield Change(
+    yield PlanChange(
+        "dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer)
+    )
+    yield PlanChange(
         "overrun",
         None,
         _OVERRUN.given(times=f"{_FARTHER:g}"),
@@ -154,33 +156,33 @@ def within_travel(axis: Axis, plan: Plan) -> Plan:
     return replace(plan, targets=read_only_floats(moved))
 
 
-def _session(advice: Words, minutes: float, change: float) -> Change:
+def _session(advice: Words, minutes: float, change: float) -> PlanChange:
     after = Pause(minutes * _SECONDS_PER_MINUTE, change, _WARMING[0][0])
     words = advice.given(minutes=f"{minutes:g}", change=f"{change:g}")
-    return Change("session", None, words, lambda each: replace(each, after=after))
+    return PlanChange("session", None, words, lambda each: replace(each, after=after))
 
 
-def _pause(column: str, minutes: float) -> Change:
+def _pause(column: str, minutes: float) -> PlanChange:
     pause = Pause(minutes * _SECONDS_PER_MINUTE, _KELVIN, column)
     advice = _PAUSE[column].given(minutes=f"{minutes:g}", change=f"{_KELVIN:g}")
-    return Change("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))
+    return PlanChange("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))
 
 
-def _by_method(method: Method, reason: Words | None) -> Change:
-    return Change("method", reason, _MEASURE_BY[method], lambda each: replace(each, method=method))
+def _by_method(method: Method, reason: Words | None) -> PlanChange:
+    return PlanChange("method", reason, _MEASURE_BY[method], lambda each: replace(each, method=method))
 
 
-def _of_sequence(plan: Plan, runs: int) -> Iterator[Change]:
+def _of_sequence(plan: Plan, runs: int) -> Iterator[PlanChange]:
     if plan.method is not Method.LINEAR:
         yield _by_method(Method.LINEAR, None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION)
     if plan.runs < runs:
         advice = _MORE_RUNS.given(runs=runs)
-        yield Change("runs", None, advice, lambda each: replace(each, runs=runs))
+        yield PlanChange("runs", None, advice, lambda each: replace(each, runs=runs))
 
 
 def _of_targets(
     axis: Axis, plan: Plan, seed: int, many: int, period: float | None = None
-) -> Iterator[Change]:
+) -> Iterator[PlanChange]:
     """Yield other targets; the last change has all that those before it have."""
     spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
     overrun = min(plan.overrun, usual_overrun(spread_over))
@@ -192,7 +194,7 @@ def _of_targets(
     if blind or period is not None:
         reason = _SAME_PHASE.given(periods=listed(blind)) if blind else None
         count = len(plan.targets)
-        yield Change("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
+        yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
     if len(plan.targets) < many:
         advice = _MORE_TARGETS.given(count=many)
-        yield Change("targets", None, advice, lambda each: drawn(each, many, period))
+        yield PlanChange("targets", None, advice, lambda each: drawn(each, many, period))

@@ -27,7 +27,7 @@ from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import noise_parts
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.planning.experiment import Experiment, next_experiment
-from zlmreport.model.planning.plan import Expected, PlannedStandard, measured_plan, propose, seed_of
+from zlmreport.model.planning.plan import ExpectedTest, PlannedStandard, measured_plan, propose, seed_of
 from zlmreport.model.planning.planned_test import model_of
 from zlmreport.model.planning.rivals import Question, Rival
 from zlmreport.model.planning.targets import in_users_unit
@@ -165,7 +165,7 @@ def _of_study(
     plan = measured_plan(job, study.measurements)
     seed = seed_of(job.keys.certificate.number)
     return next_experiment(
-        question, plan, Expected(question.sigma, rise), study.tried(effects), seed, told=told
+        question, plan, ExpectedTest(question.sigma, rise), study.tried(effects), seed, told=told
     )
 
 

@@ -27,9 +27,9 @@ from zlmreport.model.diagnosis.report import listed
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
-from zlmreport.model.planning.changes import Change, further_changes, together, within_travel
+from zlmreport.model.planning.changes import PlanChange, further_changes, together, within_travel
 from zlmreport.model.planning.methods import RUN_BY_RUN
-from zlmreport.model.planning.plan import Expected, Plan, beyond_travel
+from zlmreport.model.planning.plan import ExpectedTest, Plan, beyond_travel
 from zlmreport.model.planning.rivals import Question
 
 #: The probability from which on an experiment is taken to decide, and below which none is advised.
@@ -87,7 +87,7 @@ class Experiment:
 class _Option:
     """A plan with what led to it, how often it decides, and by how much of evidence in nine of ten tests."""
 
-    changes: tuple[Change, ...]
+    changes: tuple[PlanChange, ...]
     plan: Plan
     decides: float = 0.0
     margin: float = -np.inf
@@ -104,7 +104,7 @@ class _Draws:
 def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may be, and who is told
     question: Question,
     plan: Plan,
-    expected: Expected,
+    expected: ExpectedTest,
     effects: Sequence[Effect],
     seed: int,
     *,
@@ -170,7 +170,7 @@ def _period(question: Question) -> float | None:
     return max(found, default=None)
 
 
-def _options(question: Question, plan: Plan, choices: Sequence[Sequence[Change]]) -> Iterator[_Option]:
+def _options(question: Question, plan: Plan, choices: Sequence[Sequence[PlanChange]]) -> Iterator[_Option]:
     """Yield the plans that changes lead to: those that the axis can follow, and that are not too long."""
     before = 0 if question.first is None else len(question.first.deviation)
     for choice in choices:
@@ -184,7 +184,7 @@ def _options(question: Question, plan: Plan, choices: Sequence[Sequence[Change]]
                 yield _Option(tuple(choice), changed)
 
 
-def _glance(question: Question, expected: Expected, draws: _Draws, option: _Option) -> _Option:
+def _glance(question: Question, expected: ExpectedTest, draws: _Draws, option: _Option) -> _Option:
     """Return how often a plan would decide if only the rivals were possible, and the noise known."""
     design = question.design(option.plan, expected)
     visible = [each.effect for each in question.rivals if each.effect.untestable(design) is None]
@@ -196,7 +196,7 @@ def _glance(question: Question, expected: Expected, draws: _Draws, option: _Opti
 
 
 def _thorough(
-    question: Question, expected: Expected, effects: Sequence[Effect], draws: _Draws, option: _Option
+    question: Question, expected: ExpectedTest, effects: Sequence[Effect], draws: _Draws, option: _Option
 ) -> _Option:
     """Return how often a plan decides among all effects and shapes, whatever the noise."""
     design = question.design(option.plan, expected)
@@ -252,7 +252,7 @@ def _lead(
     return np.asarray(own - np.maximum(needed, PRICE + NAMED), dtype=np.float64)
 
 
-def _experiment(question: Question, expected: Expected, best: _Option, count: int) -> Experiment:
+def _experiment(question: Question, expected: ExpectedTest, best: _Option, count: int) -> Experiment:
     aim = (_TO_TELL if len(question.rivals) > 1 else _TO_SHOW).given(effects=listed(question.names))
     share = number_words(100 * best.decides, 0)
     if best.decides < _NOT_WORTH_IT:

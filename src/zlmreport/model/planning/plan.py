@@ -61,7 +61,7 @@ class Proposal:
     """The plan of a test."""
 
     plan: Plan  #: Targets, method, runs, overrun, feed and dwell.
-    expected: Expected  #: What is expected of the readings.
+    expected: ExpectedTest  #: What is expected of the readings.
     seed: int  #: Of random fractions.
     #: Whether the targets were drawn with it: not where the job lists them, or asks for even ones.
     has_fractions: bool
@@ -114,7 +114,7 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
             "smaller plan.targets.count, or plan.runs",
         )
     plan = replace(motion, targets=targets, runs=runs)
-    expected = Expected(axis.deviation_unit.to_si(keys.repeatability), keys.temperature_change)
+    expected = ExpectedTest(axis.deviation_unit.to_si(keys.repeatability), keys.temperature_change)
     has_fractions = keys.targets.positions is None and period != 0
     return Proposal(plan, expected, seed, has_fractions, _assumed(job))
 
@@ -155,7 +155,7 @@ def _assumed(job: Job) -> frozenset[str]:
 
 
 @dataclass(frozen=True, slots=True)
-class Expected:
+class ExpectedTest:
     """What is expected of a test that nobody has done yet."""
 
     sigma: float  #: Repeatability of a single reading, m or rad.

@@ -17,7 +17,7 @@ from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
 from zlmreport.model.fitting.observations import Observations
 from zlmreport.model.fitting.sessions import SessionZeros, held_together
-from zlmreport.model.planning.plan import Expected, Plan
+from zlmreport.model.planning.plan import ExpectedTest, Plan
 from zlmreport.model.planning.visibility import expected_design, logs_of
 
 #: Share of the coefficients that shrinking must leave.
@@ -27,14 +27,14 @@ _SCATTERS = 8
 
 
 @dataclass(frozen=True, slots=True)
-class Scatter:
+class PossibleNoise:
     """A noise that may be that of the axis."""
 
     sigma: float  #: Repeatability of single readings, m or rad.
     ratios: Mapping[NoiseSource, float]  #: φ of the other sources of scatter.
 
 
-def possible_scatters(after: Fit) -> tuple[Scatter, ...]:
+def possible_scatters(after: Fit) -> tuple[PossibleNoise, ...]:
     """Return noises that readings leave open beside a model, each as likely as any other of them.
 
     They lie evenly in what restricted likelihood says of the ratios φ that noise may have.
@@ -48,7 +48,7 @@ def possible_scatters(after: Fit) -> tuple[Scatter, ...]:
     sigmas = np.sqrt(squares / space.degrees)
     sources = [part.source for part in parts]
     return tuple(
-        Scatter(float(sigmas[place]), dict(zip(sources, grid[place].tolist(), strict=True)))
+        PossibleNoise(float(sigmas[place]), dict(zip(sources, grid[place].tolist(), strict=True)))
         for place in places
     )
 
@@ -66,7 +66,9 @@ class Rival:
     root: FloatArray  #: (k + s, k + s): A factor of their covariance.
     #: (s,): Half-widths of the intervals of searched parameters that are known among the values of a grid.
     widths: FloatArray
-    scatters: tuple[Scatter, ...] = ()  #: Noises that it leaves open, each as likely; none without readings.
+    scatters: tuple[
+        PossibleNoise, ...
+    ] = ()  #: Noises that it leaves open, each as likely; none without readings.
     size: float = 0.0  #: Where no readings tell its parameters: its root mean square value, m or rad.
     kept: float = 1.0  #: What the shrinking left of its coefficients, 0 to 1.
 
@@ -107,7 +109,7 @@ class Rival:
 
     @classmethod
     def of_size(
-        cls, effect: Effect, probability: float, size: float, scatters: tuple[Scatter, ...] = ()
+        cls, effect: Effect, probability: float, size: float, scatters: tuple[PossibleNoise, ...] = ()
     ) -> Rival:
         """Return an effect of which nothing but its size can be said."""
         nothing = np.empty(0)
@@ -171,7 +173,7 @@ class Question:
         design = None if self.first is None else self.first.design
         return design is not None and not design.time_is_counted and not design.session.any()
 
-    def design(self, plan: Plan, expected: Expected) -> Design:
+    def design(self, plan: Plan, expected: ExpectedTest) -> Design:
         """Return a plan as effects see it; the readings of a first session stand below its own."""
         own = self.next_design(plan, expected)
         if self.first is None or plan.after is None:
@@ -182,7 +184,7 @@ class Question:
         )
         return replace(held_together(planned, [("", self.first)]).design, span=own.span)
 
-    def next_design(self, plan: Plan, expected: Expected) -> Design:
+    def next_design(self, plan: Plan, expected: ExpectedTest) -> Design:
         """Return a plan by itself, with the logs of the test and those that the rivals ask for.
 
         What was logged begins as it did then.
@@ -217,7 +219,7 @@ class Question:
         A first session is as it was: model and noise of the second are drawn from what its readings leave
         open once the rival is taken away.
         """
-        scatters = rival.scatters or (Scatter(self.sigma, self.ratios),)
+        scatters = rival.scatters or (PossibleNoise(self.sigma, self.ratios),)
         turns = np.arange(sets) % len(scatters)
         spread = np.sqrt(self.degrees / random.chisquare(self.degrees, sets))
         sigma = np.array([each.sigma for each in scatters])[turns] * spread

@@ -21,7 +21,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, needs_linear_axis, needs_rotary_axis
 from zlmreport.model.planning.changes import changes
 from zlmreport.model.planning.methods import Visit, half_way, path, planned_design, visits
-from zlmreport.model.planning.plan import Expected, Plan, Proposal, expected_conditions
+from zlmreport.model.planning.plan import ExpectedTest, Plan, Proposal, expected_conditions
 
 _LIVELIER = Words(
     en="measure while there are larger changes of {logs}",
@@ -59,7 +59,7 @@ def planned_visits(plan: Plan) -> tuple[Visit, ...]:
     return visits(path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
 
 
-def expected_design(axis: Axis, plan: Plan, expected: Expected) -> Design:
+def expected_design(axis: Axis, plan: Plan, expected: ExpectedTest) -> Design:
     """Return a planned test with the conditions that are expected, all of them logged."""
     listed, pause = planned_visits(plan), plan.pause
     design, second_half = planned_design(axis, plan.targets, listed, plan.feed, plan.dwell), half_way(listed)
@@ -84,7 +84,7 @@ def determined(model: AxisModel, design: Design) -> AxisModel:
 
 
 def effects_seen(
-    model: AxisModel, design: Design, effects: Sequence[Effect], expected: Expected
+    model: AxisModel, design: Design, effects: Sequence[Effect], expected: ExpectedTest
 ) -> tuple[SeenEffect, ...]:
     """Return what a planned test sees of every installed effect, best seen first.
 

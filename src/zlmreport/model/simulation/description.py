@@ -19,7 +19,7 @@ from zlmreport.model.planning.plan import Plan
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class ConditionCourse:
     """How a condition changes during the test, and how it is logged."""
 
     start: float  #: At the first reading, SI.
@@ -34,7 +34,7 @@ class Course:
 
 
 @dataclass(frozen=True, slots=True)
-class Noise:
+class SimulatedNoise:
     """Everything random about the readings, m or rad, as standard deviations."""
 
     reading: float = 0.0  #: σ of a single reading.
@@ -63,8 +63,8 @@ class Description:
     seed: int
     #: What makes the axis err, each with the values of its parameters; linear ones that are left out are 0.
     effects: tuple[Term, ...] = ()
-    conditions: Mapping[str, Course] = field(default_factory=dict)  #: By name.
-    noise: Noise = field(default_factory=Noise)  #: Everything random about the readings.
+    conditions: Mapping[str, ConditionCourse] = field(default_factory=dict)  #: By name.
+    noise: SimulatedNoise = field(default_factory=SimulatedNoise)  #: Everything random about the readings.
     time_is_logged: bool = True  #: Whether the readings carry times.
 
 
@@ -87,7 +87,7 @@ class Stream(IntEnum):
         return np.random.default_rng([seed, self, *further])
 
 
-def noise_of(noise: Noise, design: Design, seed: int) -> FloatArray:
+def noise_of(noise: SimulatedNoise, design: Design, seed: int) -> FloatArray:
     """Return the random part of each reading, shape (N,), m or rad; resolution and missing ones apart."""
     targets = int(design.target.max()) + 1
     runs = int(design.run.max()) + 1
@@ -104,7 +104,7 @@ def noise_of(noise: Noise, design: Design, seed: int) -> FloatArray:
     )
 
 
-def is_missing(noise: Noise, readings: int, seed: int) -> BoolArray:
+def is_missing(noise: SimulatedNoise, readings: int, seed: int) -> BoolArray:
     """Return which readings are missing, shape (N,)."""
     return np.asarray(Stream.MISSING.generator(seed).random(readings) < noise.missing_share)
 
@@ -118,7 +118,7 @@ def rounded(values: FloatArray, resolution: float) -> FloatArray:
     return np.where(np.isfinite(steps), steps * resolution, values)
 
 
-def _readings(noise: Noise, design: Design, targets: int, seed: int) -> FloatArray:
+def _readings(noise: SimulatedNoise, design: Design, targets: int, seed: int) -> FloatArray:
     spread = 1 + noise.unequal * Stream.UNEQUAL.generator(seed).uniform(-1, 1, targets)
     single = Stream.READING.generator(seed).standard_normal(len(design.position))
     return np.asarray(noise.reading * spread[design.target] * single)
@@ -134,13 +134,13 @@ def _drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
     return drift
 
 
-def _outliers(noise: Noise, readings: int, seed: int) -> FloatArray:
+def _outliers(noise: SimulatedNoise, readings: int, seed: int) -> FloatArray:
     random = Stream.OUTLIER.generator(seed)
     is_off = random.random(readings) < noise.outlier_share
     return np.asarray(np.where(is_off, random.choice([-1.0, 1.0], readings), 0.0) * noise.outlier_size)
 
 
-def true_course(course: Course, time: FloatArray) -> FloatArray:
+def true_course(course: ConditionCourse, time: FloatArray) -> FloatArray:
     """Return a condition at each reading, SI, shape (N,)."""
     end = course.start if course.end is None else course.end
     if course.time_constant is None:
@@ -152,7 +152,7 @@ def true_course(course: Course, time: FloatArray) -> FloatArray:
     return np.asarray(course.start + (end - course.start) * progress + swing)
 
 
-def logged_course(course: Course, true: FloatArray, seed: int, sensor: int) -> FloatArray:
+def logged_course(course: ConditionCourse, true: FloatArray, seed: int, sensor: int) -> FloatArray:
     """Return what a sensor logs of a condition.
 
     `course`: With the sensor's noise and resolution.

@@ -24,7 +24,7 @@ from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.planning.planned_test import USUAL_MODEL
 from zlmreport.model.planning.targets import target_generator, target_positions
-from zlmreport.model.simulation.description import Course, Description, Noise
+from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import design_of, deviation_by
 
 _SECONDS_PER_MINUTE = 60
@@ -91,10 +91,10 @@ def _targets(file: SimulationFile) -> FloatArray:
     return read_only_floats(unit.to_si(np.maximum(typed, keys.axis.travel[0])))
 
 
-def _course(name: str, keys: CourseKeys) -> Course:
+def _course(name: str, keys: CourseKeys) -> ConditionCourse:
     kind = CONDITIONS.get(name)
     unit = kind.unit if kind else _AS_FOUND
-    return Course(
+    return ConditionCourse(
         start=unit.to_si(keys.start),
         end=None if keys.end is None else unit.to_si(keys.end),
         time_constant=keys.time_constant,
@@ -106,8 +106,10 @@ def _course(name: str, keys: CourseKeys) -> Course:
     )
 
 
-def _noise(keys: NoiseKeys, unit: Unit) -> Noise:
-    return Noise(**{name: value if name in _NO_DEVIATIONS else unit.to_si(value) for name, value in keys})
+def _noise(keys: NoiseKeys, unit: Unit) -> SimulatedNoise:
+    return SimulatedNoise(
+        **{name: value if name in _NO_DEVIATIONS else unit.to_si(value) for name, value in keys}
+    )
 
 
 def _impossible(file: SimulationFile, description: Description) -> Iterator[Problem]:

@@ -77,7 +77,7 @@ def reason_of(error: BaseException) -> str:
 Key: TypeAlias = tuple[str, str]
 
 
-class Candidate:
+class PluginCandidate:
     """A plugin that is loaded when somebody asks for what it offers.
 
     `load`: Returns its module, or any object that has hooks.

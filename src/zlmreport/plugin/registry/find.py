@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.plugin.hooks import hookimpl
 from zlmreport.plugin.kinds import KINDS, Kind
-from zlmreport.plugin.registry.candidate import DISABLE, Candidate, Plugin, reason_of
+from zlmreport.plugin.registry.candidate import DISABLE, Plugin, PluginCandidate, reason_of
 from zlmreport.plugin.registry.registry import Registry
 
 if TYPE_CHECKING:
@@ -50,16 +50,16 @@ def find_plugins(
     """
     off = {name.strip() for name in environment.get(DISABLE, "").split(",")}
     releases = _Releases()
-    candidates: list[Candidate] = []
+    candidates: list[PluginCandidate] = []
     disabled: list[str] = []
     for point, kind in plugin_points():
         if point.name in off:
             disabled.append(point.name)
             continue
         plugin = Plugin(point.name, point.module, *releases.of(point))
-        candidates.append(Candidate(plugin, point.load, (kind, point.name) if kind else None))
+        candidates.append(PluginCandidate(plugin, point.load, (kind, point.name) if kind else None))
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
-    from_files: list[Candidate] = []
+    from_files: list[PluginCandidate] = []
     refused: list[ZlmreportError] = []
     for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
         try:
@@ -108,13 +108,13 @@ def plugin_points() -> list[tuple[EntryPoint, Kind[Any] | None]]:
     return sorted(found, key=lambda each: (each[0].name, each[0].value, each[0].group))
 
 
-def _in_file(path: Path) -> Candidate:
+def _in_file(path: Path) -> PluginCandidate:
     """Return the plugin in a file; its name in the interpreter is one that no import finds."""
     if not path.is_file():
         raise AccessError.at(Place(str(path)), "there is no such plugin file")
     if path.suffix in _CATALOGUES:
         catalogue = _Catalogue(path)
-        return Candidate(Plugin(path.stem, str(path)), lambda: catalogue)
+        return PluginCandidate(Plugin(path.stem, str(path)), lambda: catalogue)
     spec = spec_from_file_location(f"zlmreport plugin {path}", path)
     if spec is None or spec.loader is None:
         raise InputError.at(
@@ -127,7 +127,7 @@ def _in_file(path: Path) -> Candidate:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
         raise InputError.at(Place(str(path), _line_in(path, error)), reason_of(error)) from error
-    return Candidate(Plugin(path.stem, str(path)), lambda: module)
+    return PluginCandidate(Plugin(path.stem, str(path)), lambda: module)
 
 
 class _Catalogue:

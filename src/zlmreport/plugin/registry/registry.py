@@ -12,7 +12,7 @@ from zlmreport.language import Words
 from zlmreport.plugin import kinds
 from zlmreport.plugin.boundary import Guarded
 from zlmreport.plugin.kinds import KINDS, Kind
-from zlmreport.plugin.registry.candidate import DISABLE, Candidate, FailedPlugin, Plugin
+from zlmreport.plugin.registry.candidate import DISABLE, FailedPlugin, Plugin, PluginCandidate
 
 if TYPE_CHECKING:
     from zlmreport.job.choices import ExtensionChoice
@@ -74,7 +74,7 @@ class Registry:
     everything that loads one.
     """
 
-    def __init__(self, candidates: Iterable[Candidate] = (), disabled: Iterable[str] = ()) -> None:
+    def __init__(self, candidates: Iterable[PluginCandidate] = (), disabled: Iterable[str] = ()) -> None:
         self.disabled = tuple(disabled)
         self.refused: ZlmreportError | None = None
         self._candidates = sorted(candidates, key=lambda each: (each.plugin.name, each.plugin.module))
@@ -163,13 +163,13 @@ class Registry:
         used.extend((kinds.EFFECT, each.installed) for each in effects if not each.is_formula)
         return {identifier: self.origin(kind, identifier).release for kind, identifier in used}
 
-    def _loaded(self, candidate: Candidate) -> Any:
+    def _loaded(self, candidate: PluginCandidate) -> Any:
         offered = candidate.offered
         if candidate.misspelt:
             raise InputError(candidate.misspelt)
         return offered
 
-    def _one(self, key: tuple[str, str], place: Place) -> Sequence[Candidate]:
+    def _one(self, key: tuple[str, str], place: Place) -> Sequence[PluginCandidate]:
         """Return the plugin that offers this, if there is one; two would answer differently."""
         offering = self._offering(key)
         if len(offering) > 1:
@@ -177,7 +177,7 @@ class Registry:
             raise InputError.at(place, _twice(kind, key[1], offering))
         return offering
 
-    def _offering(self, key: tuple[str, str]) -> Sequence[Candidate]:
+    def _offering(self, key: tuple[str, str]) -> Sequence[PluginCandidate]:
         return [each for each in self._candidates if key in each.keys]
 
     @property
@@ -303,7 +303,7 @@ def _is_for(program: PartProgram, takes: type | None) -> bool:
     return taken_by(program) is (takes or Motion)
 
 
-def _twice(kind: Kind[Any], identifier: str, offering: Sequence[Candidate]) -> str:
+def _twice(kind: Kind[Any], identifier: str, offering: Sequence[PluginCandidate]) -> str:
     """Return the sentence on what two plugins provide."""
     first, second = (each.plugin for each in offering[:2])
     return (
@@ -318,7 +318,7 @@ def _as_it_is(module: object) -> object:
 
 def collect(loaded: Iterable[tuple[Plugin, object]], disabled: Iterable[str] = ()) -> Registry:
     """Return the registry of modules, or of any objects that have hooks; raise `InputError` as it does."""
-    candidates = [Candidate(plugin, partial(_as_it_is, module)) for plugin, module in loaded]
+    candidates = [PluginCandidate(plugin, partial(_as_it_is, module)) for plugin, module in loaded]
     registry = Registry(candidates, disabled)
     registry.offers()
     if registry.misspelt:
