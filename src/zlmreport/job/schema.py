@@ -10,7 +10,14 @@ from pydantic import BaseModel
 from pydantic.errors import PydanticInvalidForJsonSchema
 
 from zlmreport.job.choices import ParameterLimits, group_model
-from zlmreport.job.evaluation_keys import ControllerKeys, DecisionRuleKeys, ProgramKeys, StandardKeys
+from zlmreport.job.document_keys import Output
+from zlmreport.job.evaluation_keys import (
+    AxisModelKeys,
+    ControllerKeys,
+    DecisionRuleKeys,
+    ProgramKeys,
+    StandardKeys,
+)
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
 from zlmreport.job.keys import JobKeys
@@ -62,14 +69,14 @@ def job_schema(registry: Installed) -> Schema:
     definitions[ParameterLimits.__name__] = ParameterLimits.model_json_schema()
     definitions[f"formula.{FormulaKeys.__name__}"] = _own_keys(FormulaKeys, "formula", definitions)
     formula = {"$ref": f"#/$defs/formula.{FormulaKeys.__name__}"}
-    definitions["Model"]["properties"]["effects"]["items"] = {
+    definitions[AxisModelKeys.__name__]["properties"]["effects"]["items"] = {
         "anyOf": [
             {"enum": [effect.identifier for effect in registry.effects]},
             *(_effect(effect, definitions) for effect in registry.effects),
             formula,
         ]
     }
-    definitions["Model"]["properties"]["candidates"]["items"] = formula
+    definitions[AxisModelKeys.__name__]["properties"]["candidates"]["items"] = formula
     if registry.controllers:
         definitions[ControllerKeys.__name__] = {
             "description": definitions[ControllerKeys.__name__]["description"],
@@ -90,7 +97,7 @@ def job_schema(registry: Installed) -> Schema:
                 *(_by_name("program", "part program", each, definitions) for each in programs),
             ],
         }
-    formats = definitions["Output"]["properties"]["formats"]
+    formats = definitions[Output.__name__]["properties"]["formats"]
     formats["items"] = {"enum": [renderer.identifier for renderer in registry.renderers]}
     _describe_references(schema, definitions)
     _take_numbers_for_text(schema)
