@@ -27,7 +27,7 @@ def test_plugins_are_listed_by_kind_with_title_and_distribution(shop: Shop) -> N
         "circle effects",
         "  none",
         "part programs",
-        "  exemplary-steps  Three words  exemplary-plugins 1.2",
+        "  exemplary-steps  Four words  exemplary-plugins 1.2",
         "controllers",
         "  none",
         "extensions",

@@ -49,7 +49,7 @@ def test_two_temperatures_decide_what_one_leaves_open(hidden: str) -> None:
     assert {alone.identifier, *alone.equals} == {"scale-error", "scale-expansion"}
     together = _diagnosed(held_together(cool, [("warm.yaml", warm)])).candidates[0]
     assert (together.identifier, together.equals) == (hidden, ())
-    assert together.probability > 0.99
+    assert together.probability > 0.95  # odds of 20 to 1
 
 
 def test_two_tests_at_one_temperature_decide_nothing() -> None:
