@@ -367,9 +367,12 @@ def test_a_rising_line_is_no_cosine_error() -> None:
     assert "cosine-error" not in leading.equals
 
 
-def test_a_remainder_is_no_larger_than_what_the_whole_set_leaves() -> None:
+@pytest.mark.parametrize("size", [6e-6, 10e-6])
+def test_what_is_left_beside_a_bow_is_told_and_is_no_larger_than_what_the_whole_set_leaves(
+    size: float,
+) -> None:
     place = DESIGN.position
-    there = np.where((place > 0.3) & (place < 0.55), 10e-6, 0.0)
+    there = np.where((place > 0.3) & (place < 0.55), size, 0.0)
     bowed = 30e-6 * ((place - 0.5) / 0.5) ** 3 + there * DESIGN.direction * np.sin(DESIGN.time / 200.0)
     found = diagnose(model_of("offset"), observations(DESIGN, bowed + noise(DESIGN)), INSTALLED)
     assert found.remainder is not None

@@ -221,6 +221,7 @@ class _Held:
     error: ErrorNumbers
     finding: ContestFinding
     complete: Fit  #: With the whole set that was found.
+    error_after: ErrorNumbers  #: Of the complete model.
     left: Remainder | None
 
     @property
@@ -251,10 +252,13 @@ def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     left = finding.remainder
     if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
         left = None
-    if is_left and left is None and not finding.named:
-        left = remainder_of_run(fitted, run) if run else irregular_remainder(fitted, error.noise_rms or 0.0)
     complete = _complete(fitted, finding.named, finding.makeshift)
-    return _Held(asked.observed, fitted, error, finding, complete, left)
+    after = error if complete is fitted else error_numbers(complete)
+    if left is None and not finding.named and run:
+        left = remainder_of_run(fitted, run)
+    elif left is None and not _may_be_noise(after, complete):  # what no curve follows is there all the same
+        left = irregular_remainder(complete, after.noise_rms or 0.0, fitted)
+    return _Held(asked.observed, fitted, error, finding, complete, after, left)
 
 
 def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
@@ -280,7 +284,7 @@ def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
         failures=failures(tests) + ((stand_off,) if stand_off else ()),
         candidates=candidates,
         together=together,
-        error_after=held.error if complete is fitted else error_numbers(complete),
+        error_after=held.error if complete is fitted else held.error_after,
         makeshift=finding.makeshift if together else (),
         remainder=held.left,
         not_testable=not_testable,

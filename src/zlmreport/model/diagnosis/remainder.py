@@ -142,10 +142,10 @@ def remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     )
 
 
-def irregular_remainder(fitted: Fit, noise: float) -> Remainder:
+def irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
     """Return what is left where neither a form nor a smooth curve follows it: how large, and where most.
 
-    `noise`: What repeats scatter, m or rad.
+    `noise`: What repeats scatter, m or rad; `of`: The job's model, of whose error the share is told.
     """
     design, squares = fitted.design, fitted.residual**2
     rms = max(float(np.mean(squares)) - noise**2, 0.0) ** 0.5
@@ -154,7 +154,7 @@ def irregular_remainder(fitted: Fit, noise: float) -> Remainder:
     first, last = design.span
     return Remainder(
         rms=rms,
-        share=min(1.0, rms**2 / float(np.mean(squares))),
+        share=min(1.0, rms**2 / float(np.mean(of.residual**2))),
         where=_MOST_AT.given(place=wording.position(design.axis, widest)),
         low=first,
         high=last,
