@@ -82,7 +82,9 @@ def _spike(path: Course, axis: int, width: float, slow: float) -> np.ndarray:
     angle = np.arctan2(path.v, path.u)
     since = (path.sense * (angle - axis * np.pi / 2)) % np.pi
     rise = np.sin(np.pi * np.minimum(since / width, 1.0) / 2)
-    return np.asarray(np.where(since < width, rise, np.exp(-(((since - width) / slow) ** 1.5))))
+    return np.asarray(
+        np.where(since < width, rise, np.exp(-((np.maximum(since - width, 0.0) / slow) ** 1.5)))
+    )
 
 
 def _radial(path: Course, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
