@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import importlib.util
 import os
 import sys
 import venv
 from dataclasses import dataclass
 from pathlib import Path
 from subprocess import CompletedProcess
+from types import ModuleType
 
 from processes import PYTHON, run
 
@@ -63,3 +65,14 @@ class Environment:
     def run(self, *command: str | Path, folder: Path) -> CompletedProcess[str]:
         """Run a command that is found here first."""
         return run(*command, cwd=folder, env=self._environment)
+
+
+def imported_from(name: str, folder: Path) -> ModuleType:
+    """Return the module of a plugin that was just written, as its author's Python would load it."""
+    spec = importlib.util.spec_from_file_location(name, folder / f"{name}.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    return module

@@ -8,12 +8,12 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
 import pytest
 
+from environments import imported_from
 from model.axis_tests import linear_test, noise
 from zlmreport.cli import main
 from zlmreport.cli.new import GUIDES
@@ -39,21 +39,11 @@ def begun(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         sys.modules.pop(name, None)
 
 
-def _imported(name: str, folder: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, folder / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.mark.parametrize("kind", [each for each in GUIDES if each != "instrument"])
 def test_skeleton_passes_its_kit(kind: str, begun: Any, tmp_path: Path) -> None:
     folder = begun(kind)
-    _imported("my_plugin", folder)
-    tests = _imported("test_my_plugin", folder)
+    imported_from("my_plugin", folder)
+    tests = imported_from("test_my_plugin", folder)
     takes_folder = kind in {"source", "notifier"}
     if kind == "quantity":
         tests.test_standard_conforms()
@@ -63,7 +53,7 @@ def test_skeleton_passes_its_kit(kind: str, begun: Any, tmp_path: Path) -> None:
 
 
 def test_skeleton_of_an_instrument_is_read(begun: Any) -> None:
-    instrument = _imported("my_plugin", begun("instrument")).MyPlugin()
+    instrument = imported_from("my_plugin", begun("instrument")).MyPlugin()
     for check in (instruments.is_named, instruments.follows_the_axis, instruments.no_cut_answer_is_usable):
         check(instrument)
 
@@ -170,8 +160,8 @@ def test_formula_becomes_a_plugin_that_gives_the_same_fit(
     expected = json.loads(capsys.readouterr().out)
     folder = begun("effect", "--from", str(job))
     named = capsys.readouterr().out.partition("instead of the formula: ")[2].strip()
-    _imported("my_plugin", folder)
-    _imported("test_my_plugin", folder).test_conforms()
+    imported_from("my_plugin", folder)
+    imported_from("test_my_plugin", folder).test_conforms()
     job.write_text(_JOB.format(effect=named), encoding="utf-8")
     assert main(["model", "fit", str(job), "--json", "--plugin", str(folder / "my_plugin.py")]) == 0
     found = json.loads(capsys.readouterr().out)

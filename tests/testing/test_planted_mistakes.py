@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import importlib.util
 import sys
 from collections.abc import Callable, Iterator
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from types import ModuleType
 
 import pytest
 
+from environments import imported_from
 from testing.planted import PLANTED, Changes, Planted
 from zlmreport.cli.new import skeleton_of
 
@@ -60,23 +59,13 @@ def test_of(
         named = [check for check in getattr(module, checks) if check.__name__ == planted.check]
         assert named, f"the kit of a {planted.kind} has no check {planted.check}"
         monkeypatch.setattr(module, checks, tuple(named))
-        _imported("my_plugin", tmp_path)
-        found: Callable[..., None] = _imported("test_my_plugin", tmp_path).test_conforms
+        imported_from("my_plugin", tmp_path)
+        found: Callable[..., None] = imported_from("test_my_plugin", tmp_path).test_conforms
         return found
 
     yield build
     for name in ("my_plugin", "test_my_plugin"):
         sys.modules.pop(name, None)
-
-
-def _imported(name: str, folder: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(name, folder / f"{name}.py")
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
-    spec.loader.exec_module(module)
-    return module
 
 
 @pytest.mark.parametrize("planted", PLANTED, ids=str)
