@@ -473,9 +473,9 @@ def _parameter(row: Row[Any]) -> RecordedParameter:
     )
 
 
-def _words(english: str, german: str = "") -> Words:
-    """Return the text of a notice; an older program kept it in English alone."""
-    return Words(english, german or english)
+def _words(*texts: str) -> Words:
+    """Return the text of a notice as it was kept in each language; an older program kept fewer."""
+    return Words.of({language.value: text for language, text in zip(Language, texts, strict=False)})
 
 
 def _files(kept: list[list[Any]]) -> tuple[KnownFile, ...]:

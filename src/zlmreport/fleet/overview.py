@@ -332,7 +332,7 @@ def _machine(
             measured = OverviewCellContext() if number else cells.measured(trend, due.get(key))
             row = (*beside, measured)
             rows.append(OverviewRowContext(head, len(shown), row, facts))
-    counted = words.ONE_AXIS if len(axes) == 1 else words.COUNTED_AXES.given(number=len(axes))
+    counted = words.COUNTED_AXES.given(number=len(axes))
     name = cells.machine(next(iter(axes.values()))[0].series)
     return OverviewMachineContext(name, cells.say(counted), tuple(rows))
 

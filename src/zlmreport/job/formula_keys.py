@@ -11,35 +11,41 @@ from pydantic import Field, PlainSerializer, PlainValidator, WithJsonSchema, fie
 
 from zlmreport.errors import did_you_mean
 from zlmreport.job.types import Finite, JobPart, Options, Positive, Text
-from zlmreport.language import Language, Words, same
+from zlmreport.language import Language, Words
 from zlmreport.measurement.measurand import OF_SYMBOLS, POSITIONING, Measurand
 
 _LANGUAGES = tuple(language.value for language in Language)
+_ENGLISH = Language.ENGLISH.value
 _NAME = r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$"
 
 
 def _phrase(value: Any) -> Words:
-    """Return a text in every language; one that is written once is alike in all of them."""
+    """Return a text in every language; one that is written once is English, or alike in all of them."""
     if isinstance(value, Words):
         return value
     if isinstance(value, Mapping):
-        lacking = [name for name in _LANGUAGES if not str(value.get(name) or "").strip()]
+        lacking = [name for name in {_ENGLISH, *value} if not str(value.get(name) or "").strip()]
         unknown = [name for name in value if name not in _LANGUAGES]
         if lacking or unknown:
-            wrong = f"{', '.join(lacking)} is missing" if lacking else f"{unknown[0]} is no language"
+            strange = f"{unknown[0]} is none of {', '.join(_LANGUAGES)}" if unknown else ""
+            wrong = strange or f"{', '.join(sorted(lacking))} is missing"
             raise ValueError(f"a text is {{en: …, de: …}}; {wrong}")
-        texts = {name: " ".join(str(value[name]).split()) for name in _LANGUAGES}
-        return Words(en=texts["en"], de=texts["de"])
+        return Words.of({name: " ".join(str(text).split()) for name, text in value.items()})
     if not isinstance(value, str) or not value.strip():
         raise ValueError("a text is expected, or {en: …, de: …}")
-    return same(" ".join(value.split()))
+    return Words(" ".join(value.split()))
 
 
-#: A text in every language, ``{en: …, de: …}``; or one text that stands for all.
+def _stated(words: Words) -> str | dict[str, str]:
+    texts = {name: text for name in _LANGUAGES if (text := getattr(words, name)) is not None}
+    return words.en if set(texts) == {_ENGLISH} else texts
+
+
+#: A text in several languages, ``{en: …, de: …}``, the English one first of all; or one text alone.
 Phrase: TypeAlias = Annotated[
     Words,
     PlainValidator(_phrase),
-    PlainSerializer(lambda words: {each.value: words.in_language(each) for each in Language}),
+    PlainSerializer(_stated),
     WithJsonSchema(
         {
             "anyOf": [
@@ -47,7 +53,7 @@ Phrase: TypeAlias = Annotated[
                 {
                     "type": "object",
                     "properties": {name: {"type": "string"} for name in _LANGUAGES},
-                    "required": list(_LANGUAGES),
+                    "required": [_ENGLISH],
                     "additionalProperties": False,
                 },
             ]

@@ -1,16 +1,21 @@
 """The languages a certificate is written in, and text that exists in each of them.
 
-Every sentence that reaches a page is written once, as `Words`, in all languages side by side; so a
-missing translation is a type error and not a surprise on a customer's certificate.
+A sentence that reaches a page is written once, in English, at its place in the code: `Words`. What it is in
+other languages stands in a catalogue of translations, a file for each language (`catalogues`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field, replace
 from enum import StrEnum
+from typing import Protocol, runtime_checkable
 
+from zlmreport.language.catalogues import translated
 from zlmreport.language.formatting import DecimalSign, general_number
+
+#: The place of a phrase whose value chooses between singular and plural.
+_COUNTED = "number"
 
 
 class Language(StrEnum):
@@ -18,11 +23,23 @@ class Language(StrEnum):
 
     ENGLISH = "en"
     GERMAN = "de"
+    FRENCH = "fr"
+    ITALIAN = "it"
+    SPANISH = "es"
 
     @property
     def decimal_sign(self) -> DecimalSign:
         """The decimal sign that readers of this language expect."""
-        return DecimalSign.COMMA if self is Language.GERMAN else DecimalSign.POINT
+        return DecimalSign.POINT if self is Language.ENGLISH else DecimalSign.COMMA
+
+
+@runtime_checkable
+class Said(Protocol):
+    """What is written in the manner of a language: a phrase, or a number with its digits."""
+
+    def in_language(self, language: Language) -> str:
+        """Return it in one language."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,37 +48,77 @@ class Words:
 
     Attributes
     ----------
-    en, de
-        The phrase; ``{name}`` marks a place for a value given by `given`.
+    en
+        The phrase in English; ``{name}`` marks a place for a value given by `given`.
+    de, fr, it, es
+        The phrase in these languages, where a plugin brings its own translation. What is not stated is looked
+        up in the catalogues of this program, and is English where they do not have it.
     values
         What stands in the marked places. Numbers are written in the manner of the language, up to six
         significant digits; data of users belong here and never in the phrase itself.
+    context
+        Tells alike English phrases apart that other languages say differently.
+    plural
+        The phrase for more than one; the value of the place ``{number}`` chooses.
     """
 
     en: str
-    de: str
-    values: Mapping[str, str | int | float | Words] = field(default_factory=dict)
+    de: str | None = None
+    _: KW_ONLY
+    fr: str | None = None
+    it: str | None = None
+    es: str | None = None
+    values: Mapping[str, str | int | float | Said] = field(default_factory=dict)
+    context: str = ""
+    plural: str = ""
 
-    def given(self, **values: str | float | Words) -> Words:
+    @classmethod
+    def of(cls, texts: Mapping[str, str]) -> Words:
+        """Return a phrase from its texts by language, the English one among them."""
+        return cls(texts["en"], texts.get("de"), fr=texts.get("fr"), it=texts.get("it"), es=texts.get("es"))
+
+    def given(self, **values: str | float | Said) -> Words:
         """Return the phrase with values for its marked places."""
         return replace(self, values={**self.values, **values})
 
     def in_language(self, language: Language) -> str:
         """Return the phrase in one language, its places filled."""
-        phrase = self.de if language is Language.GERMAN else self.en
+        phrase = getattr(self, language.value) if language is not Language.ENGLISH else None
+        if phrase is None:
+            number = self.values.get(_COUNTED, 1)
+            phrase = translated(self.en, language.value, self.context, plural=self.plural, number=number)
         if not self.values:
             return phrase
         return phrase.format_map({name: _written(value, language) for name, value in self.values.items()})
 
 
-def same(phrase: str) -> Words:
-    """Return a phrase that is alike in every language: a name, a symbol, a user's own text."""
-    return Words("{phrase}", "{phrase}", {"phrase": phrase})
+@dataclass(frozen=True, slots=True)
+class Row:
+    """Phrases one behind the other, parted by commas."""
+
+    phrases: tuple[Words, ...]
+
+    def in_language(self, language: Language) -> str:
+        """Return the row in one language."""
+        return ", ".join(each.in_language(language) for each in self.phrases)
 
 
-def _written(value: str | float | Words, language: Language) -> str:
-    if isinstance(value, Words):
-        return value.in_language(language)
+def same(phrase: str | Said) -> Words:
+    """Return a phrase that is alike in every language, or is written by itself: a name, a text."""
+    return Words("{phrase}", values={"phrase": phrase})
+
+
+def _written(value: str | float | Said, language: Language) -> str:
+    if isinstance(value, str):
+        return value
     if isinstance(value, float):
         return general_number(value, language.decimal_sign)
+    if isinstance(value, Said):
+        return value.in_language(language)
     return str(value)
+
+
+def accepted_language(asked: str) -> Language | None:
+    """Return the first language of a row such as ``fr-CH, de;q=0.8`` that there is, or None."""
+    wanted = [part.strip()[:2] for part in asked.split(",")]
+    return next((Language(each) for each in wanted if each in set(Language)), None)

@@ -20,7 +20,7 @@ from starlette.routing import Route
 from zlmreport.document.typesetting.resources import page_file
 from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
-from zlmreport.language import Language, Words
+from zlmreport.language import Language, Words, accepted_language
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
@@ -36,11 +36,8 @@ from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, closer, results, view
 
 _OTHER_PAGE = "the request is none of a page of this version"
-_TITLE = Words(en="Workbench", de="Werkbank")
-_NO_SCRIPT = Words(
-    en="The workbench needs JavaScript, which comes from this computer alone.",
-    de="Die Werkbank braucht JavaScript; es kommt allein von diesem Rechner.",
-)
+_TITLE = Words("Workbench")
+_NO_SCRIPT = Words("The workbench needs JavaScript, which comes from this computer alone.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -301,8 +298,7 @@ async def file(request: HttpRequest) -> Response:
 def language_of(request: HttpRequest) -> Language | None:
     """Return the language that an address or a browser asks for; None where neither does."""
     stated = request.query_params.get("lang", "")
-    accepted = [part.strip()[:2] for part in request.headers.get("accept-language", "").split(",")]
-    return next((Language(each) for each in (stated, *accepted) if each in set(Language)), None)
+    return accepted_language(stated) or accepted_language(request.headers.get("accept-language", ""))
 
 
 class Served(Protocol):

@@ -17,7 +17,7 @@ from starlette.requests import Request
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from zlmreport.language import Words
+from zlmreport.language import Language, Words, accepted_language
 
 HOST = "127.0.0.1"
 _NAMES = (HOST, "localhost")
@@ -40,10 +40,7 @@ _HEADERS = {
     "Cache-Control": "no-store",
 }
 
-_NO_TOKEN = Words(
-    en="This page opens only by the address that 'zlmreport workbench' printed on the terminal.",
-    de="Diese Seite öffnet sich nur über die Adresse, die 'zlmreport workbench' im Terminal ausgegeben hat.",
-)
+_NO_TOKEN = Words("This page opens only by the address that 'zlmreport workbench' printed on the terminal.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,8 +109,8 @@ class DoorKeeper:
         if offered is not None and request.url.path == "/" and self.door.opens(offered):
             return self._admission(request)
         if not self.door.opens(request.cookies.get(self.door.cookie, "")):
-            language = request.headers.get("accept-language", "")
-            return PlainTextResponse(_NO_TOKEN.de if language.startswith("de") else _NO_TOKEN.en, 403)
+            language = accepted_language(request.headers.get("accept-language", "")) or Language.ENGLISH
+            return PlainTextResponse(_NO_TOKEN.in_language(language), 403)
         return None
 
     def _foreign(self, request: Request) -> Response | None:
