@@ -365,7 +365,7 @@ def test_sound_job_has_no_mistake(tmp_path: Path) -> None:
 
 
 def test_everything_wrong_is_said_at_once_in_the_order_of_lines(tmp_path: Path) -> None:
-    text = with_line(5, "  language: fr").replace("travel: [0, 300]", "travel: [0]")
+    text = with_line(5, "  language: pl").replace("travel: [0, 300]", "travel: [0]")
     text = text.replace("2026-11-18", "18.11.2026").replace("six.txt", "{}").replace("{E: 20}", "{A: 20}")
     places = [message.split(": ")[0] for message in mistakes(text, tmp_path)]
     assert places == ["job.yaml:5:13", "job.yaml:7:31", "job.yaml:9:9", "job.yaml:12:5", "job.yaml:14:44"]

@@ -67,6 +67,11 @@ def test_measurements_are_read_by_themselves_too() -> None:
     ("right", "wrong", "sentence"),
     [
         ("effects/1", "effects/2", "rack.yaml:1:9: schema: 'zlmreport/effects/2' is unknown; did you mean"),
+        (
+            "{en: Rack, de: Zahnstange}",
+            "{de: Zahnstange}",
+            "rack.yaml:6:5: effects.rack.title: a text is {en: …, de: …}; en is missing",
+        ),
         ("name: rack", "name: Rack", "rack.yaml:5:11: effects.Rack.name: 'Rack' is not text of the form"),
         (
             "    formula:",
@@ -84,9 +89,9 @@ def test_measurements_are_read_by_themselves_too() -> None:
             "rack.yaml:9:21: effects.rack.parameters.reset.unit: 'umm' is no unit of a parameter",
         ),
         (
-            ", de: Zahnstange",
-            "",
-            "rack.yaml:6:5: effects.rack.title: a text is {en: …, de: …}; de is missing",
+            "de: Zahnstange",
+            "dk: Tandstang",
+            "rack.yaml:6:5: effects.rack.title: a text is {en: …, de: …}; dk is none of en, de, fr, it, es",
         ),
         (
             "periodic: fine-run",

@@ -1,6 +1,7 @@
 // The jobs of a folder: the worst first, each a link to its workbench.
 
 import { fill, h } from "./dom.js";
+import { languageChoice } from "./languages.js";
 import { Refusal, Silence, get } from "./server.js";
 
 const SIGNS = { fails: "✕", "not-met": "✕", overdue: "!", undecided: "?", soon: "◷", earlier: "·", fine: "✓", waits: "…" };
@@ -10,11 +11,10 @@ const LOOK = 3000;
 
 /** Show the list, and go on looking whether it has changed. */
 export async function showFolder(texts) {
-  const other = document.documentElement.lang === "de" ? "en" : "de";
   const counts = h("ul", { class: "counts", role: "status" });
   const list = h("section", { class: "panel", "aria-labelledby": "jobs" });
   document.body.replaceChildren(
-    h("header", {}, h("h1", {}, texts.folder), h("code"), h("a", { href: `?lang=${other}`, hreflang: other, lang: other }, texts.language)),
+    h("header", {}, h("h1", {}, texts.folder), h("code"), languageChoice(texts)),
     h("main", {}, counts, list));
   let before = "";
   for (;;) {

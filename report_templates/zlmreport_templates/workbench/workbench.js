@@ -5,6 +5,7 @@ import { fill, h, said } from "./dom.js";
 import { showEffect } from "./effect.js";
 import { showFolder } from "./folder.js";
 import { Graphs } from "./graphs.js";
+import { languageChoice } from "./languages.js";
 import { written } from "./number.js";
 import * as panels from "./panels.js";
 import { ROOT, Refusal, Silence, get, post } from "./server.js";
@@ -142,7 +143,7 @@ class Page {
       [["undo", texts.undo, texts.undoOf], ["redo", texts.redo, texts.redoOf]].map(([action, name, of]) =>
         h("button", { type: "button", "data-key": action, disabled: job[action] === null, click: () => this.#change({ action }) },
           job[action] === null ? name : said(of, { step: job[action] }))),
-      h("a", { href: `?lang=${document.documentElement.lang === "de" ? "en" : "de"}`, hreflang: document.documentElement.lang === "de" ? "en" : "de", lang: document.documentElement.lang === "de" ? "en" : "de" }, texts.language),
+      languageChoice(texts),
     ];
   }
 

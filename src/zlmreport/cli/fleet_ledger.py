@@ -19,7 +19,6 @@ from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.state import FleetState, Rules, state_of
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, load_fleet
-from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
 
 _INCOMPLETE = 4
@@ -32,7 +31,7 @@ def report(options: Namespace) -> int:
     folder: Path = options.output or fleet.output
     names = Names(find_plugins(files=options.plugin).standards)
     files = os.path.relpath(fleet.output, folder)
-    language = Language(fleet.keys.language)
+    language = fleet.keys.language
     contents = (
         overview(state, language, names, files).encode(),
         metrics(state).encode(),

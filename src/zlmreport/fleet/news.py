@@ -89,7 +89,7 @@ def news_of(state: FleetState, language: Language) -> Iterator[News]:
 
 def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
     """Return news as a message, kind by kind: ``Hall North: 1 failed, 2 changed``."""
-    language = Language(fleet.keys.language)
+    language = fleet.keys.language
     counted = Counter(each.kind for each in news)
     said = {kind: words.in_language(language) for kind, words in _KINDS.items() if counted[kind]}
     title = f"{fleet.name}: " + ", ".join(f"{counted[kind]} {word}" for kind, word in said.items())
@@ -102,7 +102,7 @@ def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
 
 def news_of_job(happened: Happened, known: Evening) -> Message | None:
     """Return what people may be told as it happens; a job that failed before is no news."""
-    fleet, language = known.fleet, Language(known.fleet.keys.language)
+    fleet, language = known.fleet, known.fleet.keys.language
     if happened.what is What.ISSUED:
         said = _ISSUED.given(number=happened.number).in_language(language)
         said += _LIMIT.in_language(language) if happened.conforms is False else ""

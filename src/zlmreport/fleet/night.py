@@ -27,7 +27,7 @@ from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, Sta
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, job_files
-from zlmreport.language import Language, Words, same
+from zlmreport.language import Words, same
 from zlmreport.plugin.protocols import Occasion
 
 #: A job may take so many times as long as it ever took.
@@ -96,7 +96,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     """
     plugins, ends = order.plugins, time.monotonic() + order.seconds
     jobs, unmatched = found_jobs(fleet)
-    ways, language = ways_of(fleet, plugins), Language(fleet.keys.language)
+    ways, language = ways_of(fleet, plugins), fleet.keys.language
     with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
         last = ledger.last_night()
         known = evening(fleet, jobs, ledger, plugins)

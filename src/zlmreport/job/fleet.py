@@ -21,6 +21,7 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import LARGEST, parse
 from zlmreport.job.tree import Items, Keys, Scalar, key_place, place_of, walk
 from zlmreport.job.types import JobPart, JobPath, LocatedText, Text, keys_in, path_named
+from zlmreport.language import Language
 
 #: What a layout can be made of.
 PLACEHOLDERS = ("machine", "manufacturer", "model", "serial", "axis", "number")
@@ -148,8 +149,8 @@ class FleetKeys(JobPart):
         "without it.",
         examples=["Hall North"],
     )
-    language: Literal["en", "de"] = Field(
-        "en",
+    language: Language = Field(
+        Language.ENGLISH,
         description="Language of the overview and of the news; the certificates have those of their jobs.",
     )
     jobs: list[Text] | Text = Field(

@@ -105,10 +105,7 @@ def machine_document(machine: MachineFile, registry: Registry, generator: str = 
             letterhead=letterhead_of(laboratory, logo),
             cover=cover,
             sections=() if is_sheet else tuple(_sections(material, say)),
-            page_words=PageWords(
-                number=f"{title} {machine.number}", page=say(_PAGE), of=say(_OF), end=say(_END),
-                figure=say(_FIGURE), table=say(_TABLE),
-            ),
+            page_words=PageWords.said(stated.language, f"{title} {machine.number}"),
             description=f"{title}: {name}",
             measurements=_nothing_measured(),
             evaluations=(),
@@ -246,9 +243,6 @@ def _facts(machine: MachineFile, say: Sayer) -> Facts:
 
 _TITLE = Words("Report on a Machine")
 _RESULTS = Words("Results for programs")
-_PAGE, _OF = Words("page"), Words("of")
-_END = Words("End of document")
-_FIGURE, _TABLE = Words("Figure"), Words("Table")
 _NUMBER, _CUSTOMER = Words("Number"), Words("Customer")
 _MACHINE, _SERIAL = Words("Machine"), Words("Serial number")
 _CHAIN = Words("Axes, from workpiece to tool")

@@ -76,10 +76,6 @@ MARKUP = '<zlm-markup a="1">&amp;,;{{7*7}}{%x%}</zlm-markup>'
 LETTERS = "Łódź Žďár Ångström Ωμέγα ≤ − ″"
 NUMBER = "KIT-2026-0001"
 _PLACE_OF_A_WORD = "Word"
-_PAGE_WORDS = {
-    Language.ENGLISH: PageWords("Certificate number", "page", "of", "End", "Figure", "Table"),
-    Language.GERMAN: PageWords("Nummer", "Seite", "von", "Ende", "Bild", "Tabelle"),
-}
 
 
 def sample_certificate(language: Language = Language.ENGLISH, text: str = "Example") -> Certificate:
@@ -107,7 +103,7 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
             Section("results", text, _blocks(evaluation, text), new_page=True),
             Section("nothing", text, ()),
         ),
-        page_words=_PAGE_WORDS[language],
+        page_words=PageWords.said(language, f"Kit {NUMBER}"),
         description=text,
         measurements=measurements,
         evaluations=(evaluation,),

@@ -178,7 +178,7 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
         "keys": Words("Keys in a job"),
         "confusions": Words("What it is taken for"),
         "contains": Words("It contains {effects}, which cannot stand beside it in a model."),
-        "language": Words("Deutsch"),
+        "language": Words("Language"),
         "implausible": Words("implausible"),
         "doubtful": Words("doubtful"),
         "expected": Words("expected {value}"),

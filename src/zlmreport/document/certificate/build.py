@@ -109,13 +109,9 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         letterhead=letterhead,
         cover=laid_out.cover,
         sections=sections,
-        page_words=PageWords(
-            number=writer.say(running_title(certificate)),
-            page=writer.say(Words("page")),
-            of=writer.say(Words("of")),
-            end=writer.say(Words("End of document")),
-            figure=writer.say(Words("Figure")),
-            table=writer.say(Words("Table")),
+        page_words=PageWords.said(
+            certificate.language,
+            writer.say(running_title(certificate)),
             head=filled(style.header or "", job, "certificate.style.header"),
             foot=filled(style.footer or "", job, "certificate.style.footer"),
         ),

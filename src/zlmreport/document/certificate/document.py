@@ -8,6 +8,7 @@ from datetime import date
 from typing import TYPE_CHECKING, Any, Literal
 
 from zlmreport.document.blocks import Block, Graph, Section
+from zlmreport.language import Words
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.attachments import Attachment, Source
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
-    from zlmreport.language import Language, Words
+    from zlmreport.language import Language
     from zlmreport.measurement.measurement_set import MeasurementSet
     from zlmreport.model.diagnosis.diagnosis import Diagnosis
 
@@ -39,6 +40,9 @@ class Letterhead:
     logo_type: str = ""
 
 
+_OF_PAGES = (Words("page"), Words("of"), Words("End of document"), Words("Figure"), Words("Table"))
+
+
 @dataclass(frozen=True, slots=True)
 class PageWords:
     """The words of page margins and captions: ``page {page} of {pages}`` is split around its numbers.
@@ -56,6 +60,12 @@ class PageWords:
     table: str = ""
     head: str = ""
     foot: str = ""
+
+    @classmethod
+    def said(cls, language: Language, number: str, *, head: str = "", foot: str = "") -> PageWords:
+        """Return the words in a language; `number` is the running title with the document's number."""
+        page, of, end, figure, table = (each.in_language(language) for each in _OF_PAGES)
+        return cls(number, page, of, end, figure, table, head, foot)
 
 
 @dataclass(frozen=True, slots=True)
