@@ -90,7 +90,7 @@ def expect_identifier(identifier: object, owner: str) -> None:
 
 def expect_words(words: object, owner: str) -> None:
     """Expect a phrase that says something in every language, with all its places filled."""
-    expect(isinstance(words, Words), f"{owner} must be Words(en=…, de=…), not {words!r}")
+    expect(isinstance(words, Words), f"{owner} must be Words(…), not {words!r}")
     for language in Language:
         try:
             text = words.in_language(language)  # type: ignore[attr-defined]  # said above

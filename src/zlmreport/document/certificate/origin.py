@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Block, Column, Facts, Paragraph, RowGroup, Section, Table
 from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.document.certificate.measured_lines import said_of_each
-from zlmreport.language import Words
+from zlmreport.language import Language, Words
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.document import Certificate
@@ -36,7 +36,7 @@ def section(
         deviation=deviation, reversal=axis.measurand.reversal
     )
     blocks: list[Block] = [
-        *(Paragraph(writer.say(words)) for words in (_READING_AID, signs)),
+        *(Paragraph(writer.say(words)) for words in (_READING_AID, *_terms(writer), signs)),
         _files(sources, measurements, writer),
         programs,
     ]
@@ -67,7 +67,7 @@ def section_of_several(
     ]
     headed = [(_OF_LINE.given(name=name, source=each.provenance.source), each) for name, each in found]
     blocks: list[Block] = [
-        Paragraph(writer.say(_READING_AID)),
+        *(Paragraph(writer.say(words)) for words in (_READING_AID, *_terms(writer))),
         _files_of(sources, headed, writer),
         _programs(generator, plugins, writer),
     ]
@@ -87,12 +87,22 @@ _READING_AID = Words(
     "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
     "readings."
 )
+_TERMS = Words(
+    "Parameters and requirements are named by this program's translation of the English editions; a national "
+    "edition may word them otherwise."
+)
 _SIGNS = Words(
     "Signs: deviation = {deviation}; {reversal} B = mean of the positive approach ↑ − mean of the "
     "negative approach ↓."
 )
 _SIGN = Words("Sign: {deviation}.")
 _INDICATED = Words("indicated − calibrated position")
+
+
+def _terms(writer: Writer) -> Iterator[Words]:
+    """Yield whose the terms are, where they are not those of the editions that were read."""
+    if writer.language is not Language.ENGLISH:
+        yield _TERMS
 
 
 def _remarks(remarks: Iterable[Words], writer: Writer) -> Table:
