@@ -82,6 +82,9 @@ def night(address: str, began: str = NIGHTS[0], fleet: str = "north") -> Iterato
         yield ledger, at_work
 
 
+_SET_BACK = Words("set back", de="zurückgestellt", fr="reculée", it="spostato indietro", es="atrasado")
+
+
 def test_an_entry_comes_back_as_it_was_given(address: str) -> None:
     with night(address) as (ledger, at_work):
         at_work.issue(ENTRY, FILES, BASIS)
@@ -247,12 +250,12 @@ def test_a_ledger_of_an_older_format_is_brought_up_to_date(older: int, address: 
     with night(address, NIGHTS[1]) as (ledger, at_work):
         assert list(ledger.entries()) == [ENTRY]
         at_work.beat(NIGHTS[1])
-        at_work.notice([NightNotice(About.CLOCK, Words("set back", "zurückgestellt"))])
+        at_work.notice([NightNotice(About.CLOCK, _SET_BACK)])
         at_work.issue(replace(ENTRY, number="CAL-2"), FILES, BASIS, {"kind": "linear"})
         assert [each.lesson for each in ledger.lessons()] == [{"kind": "linear"}]
         last = ledger.last_night()
         assert last is not None
-        assert last.notices == (NightNotice(About.CLOCK, Words("set back", "zurückgestellt")),)
+        assert last.notices == (NightNotice(About.CLOCK, _SET_BACK),)
 
 
 def test_a_copy_of_a_ledger_says_the_same(address: str, tmp_path: Path) -> None:
@@ -363,7 +366,7 @@ def test_of_each_test_the_latest_certificate_teaches_in_the_order_of_measurement
 
 def test_the_last_night_is_that_of_the_fleet_with_what_became_of_it(north: tuple[Ledger, Night]) -> None:
     ledger, at_work = north
-    said = NightNotice(About.CLOCK, Words("set back", "zurückgestellt"))
+    said = NightNotice(About.CLOCK, _SET_BACK)
     at_work.notice([said])
     at_work.beat(NIGHTS[1])
     for entry in (FAILURE, FAILURE, replace(ENTRY, state=State.DRAFT)):

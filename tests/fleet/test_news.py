@@ -220,7 +220,7 @@ def test_news_is_in_the_language_of_the_fleet() -> None:
     clock = NightNotice(About.CLOCK, same("die Uhr steht auf …"))
     last = PastNight(dt.datetime(2027, 9, 1, tzinfo=dt.UTC), None, (clock,))
     state = state_of("Halle Nord", entries, [], last, Rules(365))
-    keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language="de"))
+    keys = SimpleNamespace(name="Halle Nord", keys=SimpleNamespace(language=Language.GERMAN))
     message = digest(keys, tuple(news_of(state, Language.GERMAN)))  # type: ignore[arg-type]
     assert message.title == (
         "Halle Nord: 1 zum ganzen Lauf, 1 Grenzwert nicht eingehalten, 1 verändert, 1 mit Drift, 3 überfällig"

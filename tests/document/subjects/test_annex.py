@@ -65,7 +65,7 @@ def composed(loaded: Job) -> Certificate:
     return pipeline.compose(loaded, registry())
 
 
-@pytest.mark.parametrize("language", Language)
+@pytest.mark.parametrize("language", [Language.ENGLISH, Language.GERMAN])
 def test_the_text_of_the_annex_is_what_was_read_and_approved(language: Language) -> None:
     """Set ZLMREPORT_APPROVE=1 to take the present text as approved, and read the difference."""
     wording = _NUMBER.sub("#", text(modelled(), language))

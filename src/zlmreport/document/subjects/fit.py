@@ -206,7 +206,7 @@ def parameters(fit: Fit, language: Language) -> Table:
     columns = (
         Column(say(Words("Name")), key="name"),
         Column(say(Words("Symbol")), key="symbol"),
-        Column(say(Words("Parameter")), key="parameter"),
+        Column(say(Words("Parameter", context="model")), key="parameter"),
         Column(say(Words("Value")), align=Align.RIGHT, key="value"),
         Column("U", align=Align.RIGHT, key="uncertainty"),
         Column(say(Words("Unit")), key="unit"),
