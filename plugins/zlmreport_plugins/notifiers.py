@@ -52,7 +52,7 @@ class Mail:
     """A mail by SMTP (RFC 5321)."""
 
     identifier = "mail"
-    title = Words(en="Mail", de="E-Mail")
+    title = Words("Mail")
     options: type[Options] = MailOptions
 
     def receiver(self, options: MailOptions) -> str:
@@ -99,7 +99,7 @@ class Apprise:
     """Any of the services that apprise knows, by the address that it has for each."""
 
     identifier = "apprise"
-    title = Words(en="Any service that apprise knows", de="Jeder Dienst, den apprise kennt")
+    title = Words("Any service that apprise knows")
     options: type[Options] = AppriseOptions
 
     def receiver(self, options: AppriseOptions) -> str:

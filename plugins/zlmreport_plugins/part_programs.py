@@ -123,7 +123,7 @@ class LinuxCncProgram(_Dialect):
     """
 
     identifier = "linuxcnc"
-    title = Words(en="LinuxCNC (RS274/NGC)", de="LinuxCNC (RS274/NGC)")
+    title = Words("LinuxCNC (RS274/NGC)")
     suffix = ".ngc"
     options: Any = LinuxCncProgramOptions
 
@@ -192,7 +192,7 @@ class FanucProgram(_Dialect):
     """
 
     identifier = "fanuc"
-    title = Words(en="Fanuc (ISO code)", de="Fanuc (ISO-Code)")
+    title = Words("Fanuc (ISO code)")
     suffix = ".nc"
     options: Any = FanucProgramOptions
 
@@ -257,7 +257,7 @@ class Siemens840dProgram(_Dialect):
     """
 
     identifier = "siemens-840d"
-    title = Words(en="Siemens SINUMERIK 840D", de="Siemens SINUMERIK 840D")
+    title = Words("Siemens SINUMERIK 840D")
     suffix = ".mpf"
     options: Any = Siemens840dOptions
 
@@ -310,7 +310,7 @@ class HeidenhainProgram(_Dialect):
     """
 
     identifier = "heidenhain"
-    title = Words(en="HEIDENHAIN Klartext", de="HEIDENHAIN-Klartext")
+    title = Words("HEIDENHAIN Klartext")
     suffix = ".h"
     options: Any = HeidenhainOptions
 

@@ -21,18 +21,9 @@ from zlmreport.plugin.effect import (
 #: A logged column: +1 where a probe touched the gauge in the positive direction, −1 in the negative.
 FACE = "face"
 
-_CALIBRATED_BLOCK = Words(
-    en="measure a calibrated gauge block or ring with both faces",
-    de="ein kalibriertes Endmaß oder einen Einstellring mit beiden Flächen messen",
-)
-_GAUGE_REALIGNED = Words(
-    en="align the gauge anew, or take the lengths along its own measured direction",
-    de="den Prüfkörper neu ausrichten oder die Längen entlang seiner eigenen, gemessenen Richtung nehmen",
-)
-_GAUGE_REPLACED_BY_LASER = Words(
-    en="repeat with an aligned laser beam in place of the gauge",
-    de="mit einem ausgerichteten Laserstrahl statt des Prüfkörpers wiederholen",
-)
+_CALIBRATED_BLOCK = Words("measure a calibrated gauge block or ring with both faces")
+_GAUGE_REALIGNED = Words("align the gauge anew, or take the lengths along its own measured direction")
+_GAUGE_REPLACED_BY_LASER = Words("repeat with an aligned laser beam in place of the gauge")
 
 
 class ProbeRadius(Effect):
@@ -43,29 +34,23 @@ class ProbeRadius(Effect):
     """
 
     identifier = "probe-radius"
-    title = Words(en="Error of the probe radius", de="Abweichung des Tastkugelradius")
+    title = Words("Error of the probe radius")
     equation = "f·ΔR"
     linear = (
         Parameter(
             "radius_error",
             "ΔR",
             Dimension.DEVIATION,
-            Words(en="error of the effective radius", de="Abweichung des wirksamen Radius"),
+            Words("error of the effective radius"),
             -15e-6,
             15e-6,
         ),
     )
     shape = Shape.DIRECTION
-    look = Words(
-        en="The two kinds of faces stand apart by the same amount everywhere.",
-        de="Die beiden Arten von Flächen liegen überall um denselben Betrag auseinander.",
-    )
+    look = Words("The two kinds of faces stand apart by the same amount everywhere.")
     remedy = Words(
-        en="The probe, not the machine: qualify it at a calibrated sphere or ring with the force and speed "
-        "of the test, enter its effective radius and evaluate anew. Never compensate it as backlash.",
-        de="Der Taster, nicht die Maschine: mit Kraft und Geschwindigkeit der Prüfung an kalibrierter Kugel "
-        "oder Ring einmessen, den wirksamen Radius eintragen und neu auswerten. Nie als Lose "
-        "kompensieren.",
+        "The probe, not the machine: qualify it at a calibrated sphere or ring with the force and speed "
+        "of the test, enter its effective radius and evaluate anew. Never compensate it as backlash."
     )
     confusions = (Confusion("backlash", _CALIBRATED_BLOCK),)
 
@@ -86,31 +71,23 @@ class GaugeMisalignment(Effect):
     """
 
     identifier = "gauge-misalignment"
-    title = Words(en="Misalignment of the step gauge", de="Schiefstellung des Stufenendmaßes")
+    title = Words("Misalignment of the step gauge")
     equation = "−P·φ²/2"
     linear = (
         Parameter(
             "shortening",
             "φ²/2",
             Dimension.SLOPE,
-            Words(
-                en="relative shortening by the misalignment",
-                de="relative Verkürzung durch die Schiefstellung",
-            ),
+            Words("relative shortening by the misalignment"),
             0.0,
             50e-6,
         ),
     )
     shape = Shape.POSITION
-    look = Words(
-        en="The residuals fall in proportion to the position.",
-        de="Die Residuen fallen im Verhältnis zur Position.",
-    )
+    look = Words("The residuals fall in proportion to the position.")
     remedy = Words(
-        en="The set-up, not the machine: align the gauge to the axis, or take the lengths along its own "
-        "measured direction. Never compensate it.",
-        de="Der Messaufbau, nicht die Maschine: den Prüfkörper zur Achse ausrichten oder die Längen entlang "
-        "seiner eigenen, gemessenen Richtung nehmen. Nie kompensieren.",
+        "The set-up, not the machine: align the gauge to the axis, or take the lengths along its own "
+        "measured direction. Never compensate it."
     )
     confusions = (
         Confusion("cosine-error", _GAUGE_REPLACED_BY_LASER),

@@ -36,8 +36,8 @@ from zlmreport_step_gauge.standard import StepGaugeEvaluation
 from zlmreport_step_gauge.uncertainty import gauge_contributions
 
 #: Heads what a certificate says of a gauge.
-TITLE = Words(en="Step gauge", de="Stufenendmaß")
-_SECTION = Words(en="blocks {first} to {last}", de="Blöcke {first} bis {last}")
+TITLE = Words("Step gauge")
+_SECTION = Words("blocks {first} to {last}")
 
 
 def described(set_up: GaugeSetUp, writer: Writer) -> Described:
@@ -49,7 +49,7 @@ def described(set_up: GaugeSetUp, writer: Writer) -> Described:
 def _facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
     numbers = set_up.gauge.blocks
     yield Fact(
-        Words(en="Section used", de="Benutzter Abschnitt"),
+        Words("Section used"),
         writer.say(_SECTION.given(first=numbers[0], last=numbers[-1])),
         ("step_gauge.first_block", "step_gauge.last_block"),
     )
@@ -60,10 +60,10 @@ def _facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
 def _location(located: Located, writer: Writer) -> Iterator[Fact]:
     key = ("step_gauge.initial_points",)
     location = located.location
-    yield Fact(Words(en="Begins at C1", de="Beginnt bei C1"), _point(location.begin, writer), key)
-    yield Fact(Words(en="Ends at C2", de="Endet bei C2"), _point(location.end, writer), key)
+    yield Fact(Words("Begins at C1"), _point(location.begin, writer), key)
+    yield Fact(Words("Ends at C2"), _point(location.end, writer), key)
     yield Fact(
-        Words(en="Direction C1C2", de="Richtung C1C2"),
+        Words("Direction C1C2"),
         f"u = {_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
         key,
     )
@@ -80,22 +80,17 @@ def _two_digits(value: float, writer: Writer) -> str:
 
 
 _TITLE = Words(
-    en="Calibration of the step gauge: calibrated minus nominal distance of the faces of the blocks {first} "
-    "to {last} from the reference face, with U (k = 2)",
-    de="Kalibrierung des Stufenendmaßes: kalibrierter minus Nennabstand der Flächen der Blöcke {first} bis "
-    "{last} von der Bezugsfläche, mit U (k = 2)",
+    "Calibration of the step gauge: calibrated minus nominal distance of the faces of the blocks {first} "
+    "to {last} from the reference face, with U (k = 2)"
 )
-_SENTENCE = Words(
-    en="Graph over the nominal distance, {low} mm to {high} mm. {front} {back}",
-    de="Diagramm über dem Nennabstand, {low} mm bis {high} mm. {front} {back}",
-)
-_RANGE = Words(en="{side} from {low} µm to {high} µm.", de="{side} von {low} µm bis {high} µm.")
+_SENTENCE = Words("Graph over the nominal distance, {low} mm to {high} mm. {front} {back}")
+_RANGE = Words("{side} from {low} µm to {high} µm.")
 _SIDES = {
-    Side.FRONT: Words(en="Front faces", de="Vorderflächen"),
-    Side.BACK: Words(en="Back faces", de="Rückflächen"),
+    Side.FRONT: Words("Front faces"),
+    Side.BACK: Words("Back faces"),
 }
-_X_TITLE = Words(en="Nominal distance from the reference face", de="Nennabstand von der Bezugsfläche")
-_Y_TITLE = Words(en="Calibrated − nominal", de="Kalibriert − Nennwert")
+_X_TITLE = Words("Nominal distance from the reference face")
+_Y_TITLE = Words("Calibrated − nominal")
 _LOOKS = {
     Side.FRONT: ("S↑", "S↑ ± U", Role.MEAN_POSITIVE, Role.LIMIT_POSITIVE),
     Side.BACK: ("S↓", "S↓ ± U", Role.MEAN_NEGATIVE, Role.LIMIT_NEGATIVE),

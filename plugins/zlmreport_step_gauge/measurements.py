@@ -28,112 +28,69 @@ from zlmreport_step_gauge.probed import Probed
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp
 
 INDICATION = Words(
-    en="Sign: deviation = indicated − calibrated position, by how much the machine reads too much (error of "
-    "indication; Pahk and Kim, Eq. 2 and 3). By how much the axis stands too far has the opposite sign.",
-    de="Vorzeichen: Abweichung = angezeigte − kalibrierte Position: um wie viel die Maschine zu viel anzeigt "
-    "(Anzeigeabweichung; Pahk und Kim, Gl. 2 und 3). Um wie viel die Achse zu weit steht, hat das "
-    "entgegengesetzte Vorzeichen.",
+    "Sign: deviation = indicated − calibrated position, by how much the machine reads too much (error of "
+    "indication; Pahk and Kim, Eq. 2 and 3). By how much the axis stands too far has the opposite sign."
 )
 POSITION = Words(
-    en="Sign: deviation = calibrated − indicated position, by how much the axis stands too far when it reads "
-    "a position (actual − target), as the job states. The errors of Pahk and Kim have the opposite sign.",
-    de="Vorzeichen: Abweichung = kalibrierte − angezeigte Position: um wie viel die Achse zu weit steht, "
-    "wenn sie eine Position anzeigt (Ist − Soll), wie im Auftrag angegeben. Die Abweichungen von Pahk und "
-    "Kim haben das entgegengesetzte Vorzeichen.",
+    "Sign: deviation = calibrated − indicated position, by how much the axis stands too far when it reads "
+    "a position (actual − target), as the job states. The errors of Pahk and Kim have the opposite sign."
 )
 _DIRECTION = Words(
-    en="Direction: ↑ is a front face, touched by a probe that moves from the beginning of the gauge to its "
+    "Direction: ↑ is a front face, touched by a probe that moves from the beginning of the gauge to its "
     "end; ↓ is a back face, touched the other way. It is the direction of probing, and not that in which the "
-    "axis came to the position.",
-    de="Richtung: ↑ ist eine Vorderfläche, angetastet in der Bewegung vom Anfang des Stufenendmaßes zum "
-    "Ende; ↓ ist eine Rückfläche, angetastet in der Gegenrichtung. Gemeint ist die Antastrichtung und nicht "
-    "die Richtung, aus der die Achse die Position angefahren hat.",
+    "axis came to the position."
 )
 _LINE = Words(
-    en="Measuring line: C1C2, through the centres of the first and the last block (Pahk and Kim); all points "
-    "were projected on it.",
-    de="Messlinie: C1C2 durch die Mittelpunkte des ersten und des letzten Blocks (Pahk und Kim); alle Punkte "
-    "sind auf sie projiziert.",
+    "Measuring line: C1C2, through the centres of the first and the last block (Pahk and Kim); all points "
+    "were projected on it."
 )
 _NO_LOCATION = Words(
-    en="Measuring line: the line through the probed points of one side, for no initial points are stated; "
-    "direction ({direction}).",
-    de="Messlinie: die Gerade durch die angetasteten Punkte einer Seite, da keine Anfangspunkte angegeben "
-    "sind; Richtung ({direction}).",
+    "Measuring line: the line through the probed points of one side, for no initial points are stated; "
+    "direction ({direction})."
 )
 _DISTANCES = Words(
-    en="The file gives distances from the reference face: in which direction they were projected, and which "
-    "radius was taken off, it does not tell.",
-    de="Die Datei nennt Abstände von der Bezugsfläche: in welche Richtung projiziert und welcher Radius "
-    "abgezogen wurde, sagt sie nicht.",
+    "The file gives distances from the reference face: in which direction they were projected, and which "
+    "radius was taken off, it does not tell."
 )
 _ASKEW = Words(
-    en="Misalignment: the normal of the face touched at the {which} of the gauge is {angle} µrad off the "
-    "measuring line (standard uncertainty {uncertainty} µrad); {verdict}.",
-    de="Schiefstellung: die Normale der Fläche am {which} des Stufenendmaßes weicht um {angle} µrad von der "
-    "Messlinie ab (Standardunsicherheit {uncertainty} µrad); {verdict}.",
+    "Misalignment: the normal of the face touched at the {which} of the gauge is {angle} µrad off the "
+    "measuring line (standard uncertainty {uncertainty} µrad); {verdict}."
 )
-_BEGIN = Words(en="beginning", de="Anfang")
-_END = Words(en="end", de="Ende")
-_SIGNIFICANT = Words(
-    en="the scatter of the points does not explain it", de="die Streuung der Punkte erklärt das nicht"
-)
-_INSIGNIFICANT = Words(en="the scatter of the points explains it", de="die Streuung der Punkte erklärt das")
+_BEGIN = Words("beginning")
+_END = Words("end")
+_SIGNIFICANT = Words("the scatter of the points does not explain it")
+_INSIGNIFICANT = Words("the scatter of the points explains it")
 _DETERMINED = Words(
-    en="Effective radius of the probe: {radius} mm, the mean of {number} blocks (Pahk and Kim, "
+    "Effective radius of the probe: {radius} mm, the mean of {number} blocks (Pahk and Kim, "
     "Eq. 1), which scatter by {scatter} µm; standard uncertainty of the mean {uncertainty} µm. It holds the "
-    "mean error of the machine within a block and its mean reversal: reversal values are relative to it.",
-    de="Wirksamer Tastkugelradius: {radius} mm, Mittel über {number} Blöcke (Pahk und Kim, Gl. 1), "
-    "die um {scatter} µm streuen; Standardunsicherheit des Mittels {uncertainty} µm. Er enthält die mittlere "
-    "Abweichung der Maschine innerhalb eines Blocks und ihre mittlere Umkehrspanne: Umkehrspannen sind "
-    "relativ dazu.",
+    "mean error of the machine within a block and its mean reversal: reversal values are relative to it."
 )
 _STATED = Words(
-    en="Effective radius of the probe: {radius} mm, as stated; standard uncertainty {uncertainty} µm.",
-    de="Wirksamer Tastkugelradius: {radius} mm, wie angegeben; Standardunsicherheit {uncertainty} µm.",
+    "Effective radius of the probe: {radius} mm, as stated; standard uncertainty {uncertainty} µm."
 )
-_OF_MACHINE = Words(
-    en="Radius of the probe: corrected by the machine.",
-    de="Tastkugelradius: von der Maschine korrigiert.",
-)
-_CANCELS = Words(
-    en="Radius of the probe: all faces are touched from the same side, so that it cancels.",
-    de="Tastkugelradius: alle Flächen werden von derselben Seite angetastet; er hebt sich auf.",
-)
+_OF_MACHINE = Words("Radius of the probe: corrected by the machine.")
+_CANCELS = Words("Radius of the probe: all faces are touched from the same side, so that it cancels.")
 _FACES = Words(
-    en="Each target position is a face of the gauge and is reached from one side only; what needs both "
-    "directions at one position is not reported by standards that ask for it.",
-    de="Jede Sollposition ist eine Fläche des Stufenendmaßes und nur von einer Seite erreichbar; was beide "
-    "Richtungen an einer Position braucht, wird nach Normen, die das verlangen, nicht angegeben.",
+    "Each target position is a face of the gauge and is reached from one side only; what needs both "
+    "directions at one position is not reported by standards that ask for it."
 )
 _BLOCKS = Words(
-    en="Each target position is the middle of a block: ↑ was read at its front face and ↓ at its back face, "
+    "Each target position is the middle of a block: ↑ was read at its front face and ↓ at its back face, "
     "half a block before and behind it. What the error of the axis changes over a block is in the reversal "
-    "values.",
-    de="Jede Sollposition ist die Mitte eines Blocks: ↑ wurde an seiner Vorderfläche und ↓ an seiner "
-    "Rückfläche abgelesen, einen halben Block davor und dahinter. Was sich die Abweichung der Achse über "
-    "einen Block ändert, steckt in den Umkehrspannen.",
+    "values."
 )
 _NOT_COMPENSATED = Words(
-    en="Temperature: the expansion of gauge and scale was not compensated; deviations hold at the "
-    "temperatures of the test.",
-    de="Temperatur: die Ausdehnung von Stufenendmaß und Maßstab wurde nicht kompensiert; die Abweichungen "
-    "gelten bei den Temperaturen der Messung.",
+    "Temperature: the expansion of gauge and scale was not compensated; deviations hold at the "
+    "temperatures of the test."
 )
-_TEMPERATURE = Words(en="Thermal expansion", de="Wärmeausdehnung")
-_METHOD = Words(
-    en="lengths of the {what} at the reference temperature, L·α·ΔT",
-    de="Längen {what} bei Bezugstemperatur, L·α·ΔT",
-)
-_OF_GAUGE = Words(en="gauge", de="des Stufenendmaßes")
-_OF_BOTH = Words(en="gauge and of the scale", de="des Stufenendmaßes und des Maßstabs")
-_ONE_EXPANSION = Words(
-    en="{which}: α = {alpha} µm/(m·K), ΔT = {difference} K",
-    de="{which}: α = {alpha} µm/(m·K), ΔT = {difference} K",
-)
-_BOTH_EXPANSIONS = Words(en="{gauge}; {scale}", de="{gauge}; {scale}")
-_GAUGE = Words(en="gauge", de="Stufenendmaß")
-_SCALE = Words(en="scale", de="Maßstab")
+_TEMPERATURE = Words("Thermal expansion")
+_METHOD = Words("lengths of the {what} at the reference temperature, L·α·ΔT")
+_OF_GAUGE = Words("gauge", context="genitive")
+_OF_BOTH = Words("gauge and of the scale")
+_ONE_EXPANSION = Words("{which}: α = {alpha} µm/(m·K), ΔT = {difference} K")
+_BOTH_EXPANSIONS = Words("{gauge}; {scale}")
+_GAUGE = Words("gauge")
+_SCALE = Words("scale")
 
 
 def remarks(deviations: Deviations, set_up: GaugeSetUp, *, targets_are_blocks: bool) -> Iterator[Words]:

@@ -267,7 +267,7 @@ class StepGaugeSource:
     """Probed faces of a step gauge: as centres of the tip, or as distances."""
 
     identifier = "step-gauge"
-    title = Words(en="Probed step gauge", de="Angetastetes Stufenendmaß")
+    title = Words("Probed step gauge")
     options: type[Options] = StepGaugeOptions
 
     def read(self, options: StepGaugeOptions, context: SourceContext) -> MeasurementSet:

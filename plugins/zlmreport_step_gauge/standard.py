@@ -36,26 +36,21 @@ from zlmreport.plugin.standard import (
 )
 from zlmreport_step_gauge import equations
 
-_BANDWIDTH = Words(
-    "The largest systematic error of a length between two positions of the line{condition}.",
-    "Die größte systematische Abweichung einer Länge zwischen zwei Positionen der Linie{condition}.",
-)
+_BANDWIDTH = Words("The largest systematic error of a length between two positions of the line{condition}.")
 _REPEATABILITY = Words(
     "How far repeated touches of one face scatter at the worst face{condition}: two standard deviations, to "
-    "either side of the mean.",
-    "Wie weit wiederholte Antastungen einer Fläche an der ungünstigsten Fläche streuen{condition}: zwei "
-    "Standardabweichungen, beiderseits des Mittelwerts.",
+    "either side of the mean."
 )
-_NOTHING = Words("", "")
-_FORWARD = Words(", touched forward", ", vorwärts angetastet")
-_BACKWARD = Words(", touched backward", ", rückwärts angetastet")
+_NOTHING = Words("")
+_FORWARD = Words(", touched forward")
+_BACKWARD = Words(", touched backward")
 
 #: The parameters of the line in the order of the results table.
 PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "W",
         "W",
-        Words("Bandwidth", "Bandbreite"),
+        Words("Bandwidth"),
         QuantityGroup.SYSTEMATIC,
         "max(XF_{i}; XB_{i}) − min(XF_{i}; XB_{i})",
         _BANDWIDTH.given(condition=_NOTHING),
@@ -63,7 +58,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "W_fwd",
         "W↑",
-        Words("Bandwidth, forward", "Bandbreite, vorwärts"),
+        Words("Bandwidth, forward"),
         QuantityGroup.SYSTEMATIC,
         "max(XF_{i}) − min(XF_{i})",
         _BANDWIDTH.given(condition=_FORWARD),
@@ -71,7 +66,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "W_bwd",
         "W↓",
-        Words("Bandwidth, backward", "Bandbreite, rückwärts"),
+        Words("Bandwidth, backward"),
         QuantityGroup.SYSTEMATIC,
         "max(XB_{i}) − min(XB_{i})",
         _BANDWIDTH.given(condition=_BACKWARD),
@@ -79,7 +74,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "S2",
         "2S",
-        Words("Repeatability", "Wiederholpräzision"),
+        Words("Repeatability"),
         QuantityGroup.RANDOM,
         "max(2SF_{i}; 2SB_{i})",
         _REPEATABILITY.given(condition=_NOTHING),
@@ -87,7 +82,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "S2_fwd",
         "2S↑",
-        Words("Repeatability, forward", "Wiederholpräzision, vorwärts"),
+        Words("Repeatability, forward"),
         QuantityGroup.RANDOM,
         "max(2SF_{i})",
         _REPEATABILITY.given(condition=_FORWARD),
@@ -95,7 +90,7 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "S2_bwd",
         "2S↓",
-        Words("Repeatability, backward", "Wiederholpräzision, rückwärts"),
+        Words("Repeatability, backward"),
         QuantityGroup.RANDOM,
         "max(2SB_{i})",
         _REPEATABILITY.given(condition=_BACKWARD),
@@ -103,61 +98,43 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "XR",
         "XR",
-        Words("Largest reversal error", "Größte Umkehrabweichung"),
+        Words("Largest reversal error"),
         QuantityGroup.SYSTEMATIC,
         "max(|XR_{i}|), XR_{i} = XB_{i} − XF_{i}",
-        Words(
-            "The largest difference that the direction of probing makes to a position.",
-            "Der größte Unterschied, den die Antastrichtung an einer Position ausmacht.",
-        ),
+        Words("The largest difference that the direction of probing makes to a position."),
     ),
     Quantity(
         "XR_mean",
         "X̄R",
-        Words("Mean reversal error", "Mittlere Umkehrabweichung"),
+        Words("Mean reversal error", context="step gauge"),
         QuantityGroup.SYSTEMATIC,
         "(1/m) · ∑ XR_{i}",
-        Words(
-            "The difference that the direction of probing makes on average, with sign.",
-            "Der Unterschied, den die Antastrichtung im Mittel ausmacht, mit Vorzeichen.",
-        ),
+        Words("The difference that the direction of probing makes on average, with sign."),
         can_be_limited=False,
     ),
     Quantity(
         "B_mean",
         "B̄",
-        Words(
-            "Mean reversal error with the sign of ISO 230-2",
-            "Mittlere Umkehrabweichung mit dem Vorzeichen von ISO 230-2",
-        ),
+        Words("Mean reversal error with the sign of ISO 230-2"),
         QuantityGroup.SYSTEMATIC,
         "−X̄R",
-        Words(
-            "The same as the mean of the positive minus that of the negative direction.",
-            "Dasselbe als Mittelwert der positiven minus dem der negativen Richtung.",
-        ),
+        Words("The same as the mean of the positive minus that of the negative direction."),
         can_be_limited=False,
     ),
 )
 
 #: The columns of the table by position.
 BY_POSITION: tuple[PositionQuantity, ...] = (
-    PositionQuantity("XF", "XF_{i}", Words("Forward positional error", "Abweichung vorwärts")),
-    PositionQuantity("XB", "XB_{i}", Words("Backward positional error", "Abweichung rückwärts")),
-    PositionQuantity("XM", "XM_{i}", Words("Mean positional error", "Mittlere Abweichung")),
-    PositionQuantity(
-        "S2F", "2SF_{i}", Words("Two standard deviations, forward", "Zwei Standardabweichungen, vorwärts")
-    ),
-    PositionQuantity(
-        "S2B", "2SB_{i}", Words("Two standard deviations, backward", "Zwei Standardabweichungen, rückwärts")
-    ),
-    PositionQuantity("XR", "XR_{i}", Words("Reversal error", "Umkehrabweichung")),
+    PositionQuantity("XF", "XF_{i}", Words("Forward positional error")),
+    PositionQuantity("XB", "XB_{i}", Words("Backward positional error")),
+    PositionQuantity("XM", "XM_{i}", Words("Mean positional error")),
+    PositionQuantity("S2F", "2SF_{i}", Words("Two standard deviations, forward")),
+    PositionQuantity("S2B", "2SB_{i}", Words("Two standard deviations, backward")),
+    PositionQuantity("XR", "XR_{i}", Words("Reversal error", context="step gauge")),
     PositionQuantity(
         "B",
         "B_{i}",
-        Words(
-            "Reversal error with the sign of ISO 230-2", "Umkehrabweichung mit dem Vorzeichen von ISO 230-2"
-        ),
+        Words("Reversal error with the sign of ISO 230-2"),
     ),
 )
 
@@ -166,31 +143,20 @@ NOTES: tuple[Words, ...] = (
     Words(
         "Formulas as in H. Pahk and J. Kim, Development of computer aided calibration module for CMMs and "
         "machine tools using a compensated step gauge, Eq. 1 to 13. Bandwidth and repeatability are defined "
-        "there by example only: the definitions above are those of this program.",
-        "Formeln nach H. Pahk und J. Kim, Development of computer aided calibration module for CMMs and "
-        "machine tools using a compensated step gauge, Gl. 1 bis 13. Bandbreite und Wiederholpräzision sind "
-        "dort nur am Beispiel erklärt: die Definitionen oben sind die dieses Programms.",
+        "there by example only: the definitions above are those of this program."
     ),
     Words(
         "XF, SF at a back face and XB, SB at a front face are interpolated: the mean of the two neighbours "
         "(Eq. 8 to 11). In the table by position they stand where x̄ and s of that direction are missing; in "
-        "the graph marks stand at measured values only. At the ends of the section nothing is extrapolated.",
-        "XF, SF an einer Rückfläche und XB, SB an einer Vorderfläche sind interpoliert: Mittel der beiden "
-        "Nachbarn (Gl. 8 bis 11). In der Tabelle nach Sollposition stehen sie dort, wo x̄ und s dieser "
-        "Richtung fehlen; im Diagramm tragen nur gemessene Werte eine Marke. An den Enden des Abschnitts "
-        "wird nichts extrapoliert.",
+        "the graph marks stand at measured values only. At the ends of the section nothing is extrapolated."
     ),
     Words(
         "S is a single standard deviation (n − 1); what is stated is twice that. XR = XB − XF has the sign "
-        "opposite to that of the reversal value B of ISO 230-2, which stands beside it.",
-        "S ist die einfache Standardabweichung (n − 1); angegeben ist das Doppelte. XR = XB − XF hat das "
-        "entgegengesetzte Vorzeichen der Umkehrspanne B nach ISO 230-2, die daneben steht.",
+        "opposite to that of the reversal value B of ISO 230-2, which stands beside it."
     ),
     Words(
         "All errors are relative to the first face of the section, where the forward error is zero by "
-        "definition.",
-        "Alle Abweichungen beziehen sich auf die erste Fläche des Abschnitts, an der die Abweichung vorwärts "
-        "nach Definition null ist.",
+        "definition."
     ),
 )
 
@@ -205,9 +171,7 @@ class StepGaugeEvaluation:
     designation = "Pahk & Kim 4.1, 4.2"
     is_method = True
     position_index = "i"
-    title = Words(
-        "Linear displacement accuracy by step gauge", "Längenabweichung nach Messung eines Stufenendmaßes"
-    )
+    title = Words("Linear displacement accuracy by step gauge")
     options = Options
     quantities = PARAMETERS
     position_quantities = BY_POSITION
@@ -236,16 +200,13 @@ def _findings(measurements: MeasurementSet) -> Iterator[Finding]:
 def _radius_from_elsewhere(measurements: MeasurementSet) -> Finding:
     """Ask that what parts the directions is the machine and not what was taken for the probe's radius."""
     requirement = Words(
-        "An effective radius of the probe that is known from elsewhere, for the reversal error",
-        "Ein anderweitig bekannter wirksamer Tastkugelradius, für die Umkehrabweichung",
+        "An effective radius of the probe that is known from elsewhere, for the reversal error"
     )
     if not measurements.reversal_is_relative:
-        known = Words("known from elsewhere", "anderweitig bekannt")
+        known = Words("known from elsewhere")
         return Finding(requirement, known, met=True)
     found = Words(
-        "determined from the blocks of the gauge: XR and B are relative to their mean within a block",
-        "aus den Blöcken des Stufenendmaßes bestimmt: XR und B sind relativ zu ihrem Mittel innerhalb eines "
-        "Blocks",
+        "determined from the blocks of the gauge: XR and B are relative to their mean within a block"
     )
     return Finding(requirement, found, met=False)
 
@@ -294,8 +255,8 @@ def _parameters(statistics: PositionStatistics, reversal: FloatArray) -> dict[st
 
 
 _MEAN = {
-    Approach.POSITIVE: Words("Forward error", "Abweichung vorwärts"),
-    Approach.NEGATIVE: Words("Backward error", "Abweichung rückwärts"),
+    Approach.POSITIVE: Words("Forward error"),
+    Approach.NEGATIVE: Words("Backward error"),
 }
 _SYMBOLS = {Approach.POSITIVE: "F", Approach.NEGATIVE: "B"}
 
@@ -330,10 +291,7 @@ class _Graphs:
             arrows=repeatability,
             brackets=[self.diagram.bracket("W", self.mean, self.mean)],
         )
-        title = Words(
-            "Axis {axis}: forward, backward and mean positional error with two standard deviations",
-            "Achse {axis}: Abweichung vorwärts, rückwärts und im Mittel mit zwei Standardabweichungen",
-        )
+        title = Words("Axis {axis}: forward, backward and mean positional error with two standard deviations")
         alternative = alternative_text(
             graph_in_words(self.evaluation),
             *(
@@ -349,13 +307,10 @@ class _Graphs:
         """Return the reversal error by position."""
         values = self.evaluation.column("XR")
         shown = diagram_panel(curves=[self.diagram.curve("XR_{i}", Role.MEAN_BIDIRECTIONAL, values)])
-        title = Words(
-            "Axis {axis}: reversal error XR = XB − XF",
-            "Achse {axis}: Umkehrabweichung XR = XB − XF",
-        )
+        title = Words("Axis {axis}: reversal error XR = XB − XF")
         alternative = alternative_text(
             graph_in_words(self.evaluation),
-            range_in_words(self.diagram.axis, Words("Reversal error", "Umkehrabweichung"), values),
+            range_in_words(self.diagram.axis, Words("Reversal error", context="step gauge"), values),
         )
         return self.diagram.figure("reversal", title.given(axis=self.diagram.axis.name), alternative, [shown])
 

@@ -35,32 +35,18 @@ from zlmreport_step_gauge.set_up import GaugeSetUp
 #: Of the calibrated distances.
 _COVERAGE_FACTOR = 2.0
 
-_FACES = Words(en="Calibration of the faces", de="Kalibrierung der Flächen")
-_FACES_ALONG = Words(
-    en="Calibration of the faces, part that grows with the length",
-    de="Kalibrierung der Flächen, mit der Länge wachsender Teil",
-)
-_OF_FACES = Words(
-    en="U = {low} µm to {high} µm (k = {factor})", de="U = {low} µm bis {high} µm (k = {factor})"
-)
-_RADIUS = Words(en="Effective radius of the probe", de="Wirksamer Tastkugelradius")
-_RADIUS_SOURCE = Words(
-    en="acts by 2u; scatter of the mean of the blocks, without the machine's reversal",
-    de="wirkt mit 2u; Streuung des Mittels der Blöcke, ohne Umkehrspanne der Maschine",
-)
-_REFERENCE = Words(en="Reference face", de="Bezugsfläche")
-_REFERENCE_SOURCE = Words(en="its calibration and its touches", de="ihre Kalibrierung und ihre Antastungen")
-_TOUCH = Words(en="Repeatability of the probe", de="Wiederholpräzision des Tasters")
-_STANDARD = Words(en="u = {value} {unit}", de="u = {value} {unit}")
-_DIRECTION_SOURCE = Words(
-    en="cosine error L·θ²/2 of the direction C1C2, from the initial points",
-    de="Kosinusfehler L·θ²/2 der Richtung C1C2, aus den Anfangspunkten",
-)
-_EXPANSION_SOURCE = Words(
-    en="L·ΔT·u(α), ΔT = {difference} K; calibration of the gauge",
-    de="L·ΔT·u(α), ΔT = {difference} K; Kalibrierung des Stufenendmaßes",
-)
-_EXPANSION_STATED = Words(en="u(α) = {value} µm/(m·K)", de="u(α) = {value} µm/(m·K)")
+_FACES = Words("Calibration of the faces")
+_FACES_ALONG = Words("Calibration of the faces, part that grows with the length")
+_OF_FACES = Words("U = {low} µm to {high} µm (k = {factor})")
+_RADIUS = Words("Effective radius of the probe")
+_RADIUS_SOURCE = Words("acts by 2u; scatter of the mean of the blocks, without the machine's reversal")
+_REFERENCE = Words("Reference face")
+_REFERENCE_SOURCE = Words("its calibration and its touches")
+_TOUCH = Words("Repeatability of the probe")
+_STANDARD = Words("u = {value} {unit}")
+_DIRECTION_SOURCE = Words("cosine error L·θ²/2 of the direction C1C2, from the initial points")
+_EXPANSION_SOURCE = Words("L·ΔT·u(α), ΔT = {difference} K; calibration of the gauge")
+_EXPANSION_STATED = Words("u(α) = {value} µm/(m·K)")
 
 
 def gauge_contributions(

@@ -67,7 +67,7 @@ RESULTS = "json"
 
 #: Files that can be signed.
 PDF = ".pdf"
-_SIGNATURE = Words(en="Electronic signature", de="Elektronische Signatur")
+_SIGNATURE = Words("Electronic signature")
 
 
 @dataclass(frozen=True, slots=True)

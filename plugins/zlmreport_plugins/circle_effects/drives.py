@@ -27,13 +27,9 @@ class ServoLag(CircleEffect):
     """−(T_s² + T_p²)·F²/(2R); T_s of smoothing, T_p of the position loop (JSPE 54 (1988) 1113)."""
 
     identifier = "servo-lag"
-    title = Words(en="Servo lag", de="Schleppabstand")
+    title = Words("Servo lag")
     equation = "−T²·F²/(2R)"
-    explains = Words(
-        en="both drives follow with the same delay: the circle shrinks with the square of the feed",
-        de="beide Antriebe folgen mit gleicher Verzögerung: Der Kreis schrumpft mit dem Quadrat des "
-        "Vorschubs",
-    )
+    explains = Words("both drives follow with the same delay: the circle shrinks with the square of the feed")
     law = Law(Parity.EVEN, feed=2.0, radius=-1.0)
 
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
@@ -49,9 +45,9 @@ class ServoMismatch(CircleEffect):
     """½s·F·(T_u − T_v)·sin2θ; T the lag of an axis."""
 
     identifier = "servo-mismatch"
-    title = Words(en="Servo mismatch", de="Unterschied der Schleppabstände")
+    title = Words("Servo mismatch")
     equation = "½·s·F·(T₁ − T₂)·sin 2θ"
-    explains = Words(en="one drive lags behind the other", de="ein Antrieb läuft dem anderen nach")
+    explains = Words("one drive lags behind the other")
     law = Law(Parity.ODD, feed=1.0)
     is_asked_for = True
 
@@ -91,26 +87,17 @@ def _pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
     return pair_words(estimate.unit.from_si(value), estimate.unit.from_si(estimate.expanded_uncertainty))
 
 
-_LAGS = Words(
-    en="{late} lags behind {early} by {time} ± {u} ms",
-    de="{late} läuft {early} um {time} ± {u} ms nach",
-)
-_ALIKE = Words(
-    en="{one} and {other} follow alike: their lags differ by {time} ± {u} ms",
-    de="{one} und {other} folgen gleich schnell: Ihre Verzögerungen unterscheiden sich um {time} ± {u} ms",
-)
+_LAGS = Words("{late} lags behind {early} by {time} ± {u} ms")
+_ALIKE = Words("{one} and {other} follow alike: their lags differ by {time} ± {u} ms")
 
 
 class DynamicCrossTalk(CircleEffect):
     """½c·(F²/R)·sin2θ: an axis that accelerates bends the machine across."""
 
     identifier = "dynamic-cross-talk"
-    title = Words(en="Dynamic cross-talk", de="Dynamisches Übersprechen")
+    title = Words("Dynamic cross-talk")
     equation = "½·c·(F²/R)·sin 2θ"
-    explains = Words(
-        en="the acceleration of an axis bends the machine across it",
-        de="die Beschleunigung einer Achse biegt die Maschine quer dazu",
-    )
+    explains = Words("the acceleration of an axis bends the machine across it")
     law = Law(Parity.EVEN, feed=2.0, radius=-1.0)
 
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
@@ -129,12 +116,9 @@ class DriveCompliance(CircleEffect):
     """(F²/R)·(k_u·cos²θ + k_v·sin²θ): a drive that gives way to the acceleration of its axis."""
 
     identifier = "drive-compliance"
-    title = Words(en="Drive compliance", de="Nachgiebigkeit der Antriebe")
+    title = Words("Drive compliance")
     equation = "½·(F²/R)·(k₁ − k₂)·cos 2θ"
-    explains = Words(
-        en="a drive gives way to the acceleration of its axis",
-        de="ein Antrieb gibt der Beschleunigung seiner Achse nach",
-    )
+    explains = Words("a drive gives way to the acceleration of its axis")
     law = Law(Parity.EVEN, feed=2.0, radius=-1.0)
 
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:

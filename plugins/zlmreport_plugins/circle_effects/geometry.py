@@ -27,9 +27,9 @@ class ScaleMismatch(CircleEffect):
     """R·(α_u·cos²θ + α_v·sin²θ): ½R(α_u − α_v)·cos2θ in one plane."""
 
     identifier = "scale-mismatch"
-    title = Words(en="Scale mismatch", de="Maßstabsunterschied")
+    title = Words("Scale mismatch")
     equation = "½·R·(α₁ − α₂)·cos 2θ"
-    explains = Words(en="the scales of the axes differ", de="die Maßstäbe der Achsen unterscheiden sich")
+    explains = Words("the scales of the axes differ")
     law = Law(Parity.EVEN, radius=1.0)
     is_asked_for = True
 
@@ -65,14 +65,8 @@ def _pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
     return pair_words(unit.from_si(value), unit.from_si(estimate.expanded_uncertainty))
 
 
-_LONGER = Words(
-    en="the scale of {longer} is longer than that of {shorter} by {value} ± {u} µm/m",
-    de="der Maßstab von {longer} ist um {value} ± {u} µm/m länger als der von {shorter}",
-)
-_AGREE = Words(
-    en="the scales of {one} and {other} agree: they differ by {value} ± {u} µm/m",
-    de="die Maßstäbe von {one} und {other} stimmen überein: Sie unterscheiden sich um {value} ± {u} µm/m",
-)
+_LONGER = Words("the scale of {longer} is longer than that of {shorter} by {value} ± {u} µm/m")
+_AGREE = Words("the scales of {one} and {other} agree: they differ by {value} ± {u} µm/m")
 
 #: The squareness error of a plane, its axes, and the sign with which it turns sin 2θ.
 _SQUARENESS = {"XY": ("C0Y", -1.0), "YZ": ("A0Z", -1.0), "ZX": ("B0Z", 1.0)}
@@ -82,12 +76,9 @@ class Squareness(CircleEffect):
     """−½R·C0Y·sin2θ in XY, −½R·A0Z·sin2θ in YZ, +½R·B0Z·sin2θ in ZX."""
 
     identifier = "squareness"
-    title = Words(en="Squareness", de="Rechtwinkligkeit")
+    title = Words("Squareness")
     equation = "−½·R·C0Y·sin 2θ"
-    explains = Words(
-        en="the axes are not square, or less so than was measured",
-        de="die Achsen stehen nicht rechtwinklig, oder anders als gemessen",
-    )
+    explains = Words("the axes are not square, or less so than was measured")
     law = Law(Parity.EVEN, radius=1.0)
     is_asked_for = True
 
@@ -121,15 +112,9 @@ def _of_planes(estimates: Sequence[Estimate], words: Words) -> Iterator[Words]:
 
 
 _OUT_OF_SQUARE = Words(
-    en="{one} and {other} are out of square: {name} ({value} ± {u})″ beyond what the axes' errors hold",
-    de="{one} und {other} stehen nicht rechtwinklig: {name} ({value} ± {u})″ über das hinaus, was die "
-    "Abweichungen der Achsen enthalten",
+    "{one} and {other} are out of square: {name} ({value} ± {u})″ beyond what the axes' errors hold"
 )
-_SQUARE = Words(
-    en="{one} and {other} are square: {name} ({value} ± {u})″ beyond what the axes' errors hold",
-    de="{one} und {other} stehen rechtwinklig: {name} ({value} ± {u})″ über das hinaus, was die "
-    "Abweichungen der Achsen enthalten",
-)
+_SQUARE = Words("{one} and {other} are square: {name} ({value} ± {u})″ beyond what the axes' errors hold")
 
 #: Powers of the coordinate to which guides bend.
 _POWERS = (2.0, 3.0, 4.0)
@@ -142,12 +127,9 @@ class Bow(CircleEffect):
     """
 
     identifier = "bow"
-    title = Words(en="Bow", de="Krümmung")
+    title = Words("Bow")
     equation = "k·(x/R₀)^n·sinθ; k·(y/R₀)^n·cosθ; n = 2, 3, 4"
-    explains = Words(
-        en="a guide is bent, or the other axis' scale is, which is one thing on a circle",
-        de="eine Führung ist krumm oder der Maßstab der anderen Achse; auf dem Kreis ist das dasselbe",
-    )
+    explains = Words("a guide is bent, or the other axis' scale is, which is one thing on a circle")
     law = Law(Parity.EVEN, radius=None)
     searched = (SearchedParameter("power", ONE),)
     is_single = True
@@ -177,12 +159,9 @@ class CyclicError(CircleEffect):
     """cosθ·(p·sin + q·cos)(2π·x/P), x = x₀ + R·cosθ: periodic in the position of an axis."""
 
     identifier = "cyclic-error"
-    title = Words(en="Cyclic error", de="Periodischer Fehler")
+    title = Words("Cyclic error")
     equation = "cosθ·(p·sin + q·cos)(2π·x/P); Y likewise"
-    explains = Words(
-        en="an error that repeats with the position of an axis: screw pitch, scale",
-        de="ein Fehler, der sich mit der Position einer Achse wiederholt: Spindelsteigung, Maßstab",
-    )
+    explains = Words("an error that repeats with the position of an axis: screw pitch, scale")
     law = Law(Parity.EVEN, radius=None)
     searched = (SearchedParameter("pitch", MILLIMETRE, is_refined=True),)
 

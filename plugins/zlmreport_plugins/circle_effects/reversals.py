@@ -47,9 +47,9 @@ class CircleBacklash(CircleEffect):
     """−½B·d·cosθ of the first axis, −½B·d·sinθ of the second; lost motion B > 0."""
 
     identifier = "circle-backlash"
-    title = Words(en="Backlash", de="Umkehrspiel")
+    title = Words("Backlash")
     equation = "−½·B₁·d₁·cosθ − ½·B₂·d₂·sinθ, B > 0; both ends alike, or each its own"
-    explains = Words(en="an axis loses motion where it turns", de="eine Achse verliert beim Umkehren Weg")
+    explains = Words("an axis loses motion where it turns")
     law = Law(Parity.ODD)
     searched = (SearchedParameter("each end", ONE),)
     is_asked_for = True
@@ -73,12 +73,9 @@ class OverCompensation(CircleEffect):
     """As lost motion, with B < 0: the control takes off more than there is."""
 
     identifier = "over-compensation"
-    title = Words(en="Over-compensated backlash", de="Überkompensiertes Umkehrspiel")
+    title = Words("Over-compensated backlash")
     equation = "as backlash, B < 0"
-    explains = Words(
-        en="the control's backlash compensation takes off more than there is",
-        de="die Umkehrspielkompensation der Steuerung nimmt mehr weg, als da ist",
-    )
+    explains = Words("the control's backlash compensation takes off more than there is")
     law = Law(Parity.ODD)
     searched = (SearchedParameter("each end", ONE),)
 
@@ -103,25 +100,17 @@ def _pair(estimate: Estimate) -> tuple[Words, Words]:
     return pair_words(unit.from_si(estimate.value), unit.from_si(estimate.expanded_uncertainty))
 
 
-_NO_BACKLASH = Words(
-    en="no backlash of {axis}: {value} ± {u} µm", de="kein Umkehrspiel von {axis}: {value} ± {u} µm"
-)
-_OVER = Words(
-    en="{axis} is over-compensated: lost motion {value} ± {u} µm",
-    de="{axis} ist überkompensiert: Umkehrspiel {value} ± {u} µm",
-)
+_NO_BACKLASH = Words("no backlash of {axis}: {value} ± {u} µm")
+_OVER = Words("{axis} is over-compensated: lost motion {value} ± {u} µm")
 
 
 class LateralPlay(CircleEffect):
     """½L·d across the axis that moves: ½L_x·d_x·sinθ, ½L_y·d_y·cosθ."""
 
     identifier = "lateral-play"
-    title = Words(en="Lateral play", de="Seitliches Spiel")
+    title = Words("Lateral play")
     equation = "½·L₁·d₁·sinθ + ½·L₂·d₂·cosθ"
-    explains = Words(
-        en="a carriage shifts sideways where it turns",
-        de="ein Schlitten versetzt sich beim Umkehren quer",
-    )
+    explains = Words("a carriage shifts sideways where it turns")
     law = Law(Parity.ODD)
     is_asked_for = True
 
@@ -142,9 +131,7 @@ class LateralPlay(CircleEffect):
             yield _NO_PLAY.given(axis=each.name, value=value, u=u)
 
 
-_NO_PLAY = Words(
-    en="no lateral play of {axis}: {value} ± {u} µm", de="kein seitliches Spiel von {axis}: {value} ± {u} µm"
-)
+_NO_PLAY = Words("no lateral play of {axis}: {value} ± {u} µm")
 
 
 def _let_go(since: FloatArray, width: float) -> FloatArray:
@@ -171,12 +158,9 @@ class ReversalSpikes(CircleEffect):
     """A·g(φ/w) ≥ 0 after each reversal, in three shapes; the size constant, or growing with F²/R."""
 
     identifier = "reversal-spikes"
-    title = Words(en="Reversal spikes", de="Umkehrspitzen")
+    title = Words("Reversal spikes")
     equation = "A·g(φ/w) ≥ 0, three shapes; constant, or as F²/R"
-    explains = Words(
-        en="an axis stands still for a moment where it turns: friction",
-        de="eine Achse steht beim Umkehren einen Augenblick still: Reibung",
-    )
+    explains = Words("an axis stands still for a moment where it turns: friction")
     law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
     searched = (
         SearchedParameter("shape", ONE),
@@ -211,9 +195,9 @@ class StickSlip(CircleEffect):
     """exp(−φ/w)·(p·sin + q·cos)(2πφ/λ): an oscillation that dies after each reversal."""
 
     identifier = "stick-slip"
-    title = Words(en="Stick-slip", de="Stick-Slip")
+    title = Words("Stick-slip")
     equation = "exp(−φ/w)·(p·sin + q·cos)(2πφ/λ)"
-    explains = Words(en="an axis oscillates after it has turned", de="eine Achse schwingt nach dem Umkehren")
+    explains = Words("an axis oscillates after it has turned")
     law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
     searched = (
         SearchedParameter("decay", DEGREE),

@@ -23,12 +23,9 @@ class CentreOffset(CircleEffect):
     """One centre for each turn: a shift between turns is no error of the machine."""
 
     identifier = "centre-offset"
-    title = Words(en="Centre offset", de="Mittelpunktversatz")
+    title = Words("Centre offset")
     equation = "a·cosθ + b·sinθ"
-    explains = Words(
-        en="the bar's ball does not stand in the programmed centre",
-        de="die Kugel des Stabs steht nicht im programmierten Mittelpunkt",
-    )
+    explains = Words("the bar's ball does not stand in the programmed centre")
     law = Law(Parity.EVEN)
     is_base = True
 
@@ -50,12 +47,9 @@ class Radius(CircleEffect):
     """One radius for each length of the bar: both senses and all feeds share it."""
 
     identifier = "radius"
-    title = Words(en="Radius", de="Radius")
+    title = Words("Radius")
     equation = "r₀"
-    explains = Words(
-        en="the bar is not as long as stated, or machine and bar differ in temperature",
-        de="der Stab ist nicht so lang wie angegeben, oder Maschine und Stab sind verschieden warm",
-    )
+    explains = Words("the bar is not as long as stated, or machine and bar differ in temperature")
     law = Law(Parity.EVEN, radius=None)
     is_base = True
 
@@ -74,12 +68,9 @@ class RadiusDrift(CircleEffect):
     """Radius and centre move in time while the turns of a test are run."""
 
     identifier = "radius-drift"
-    title = Words(en="Drift of radius or centre", de="Drift von Radius oder Mittelpunkt")
+    title = Words("Drift of radius or centre")
     equation = "r₁·t; (a₁·cosθ + b₁·sinθ)·t"
-    explains = Words(
-        en="bar or machine grow or move during the test",
-        de="Stab oder Maschine wachsen oder wandern während der Prüfung",
-    )
+    explains = Words("bar or machine grow or move during the test")
     law = Law(Parity.IN_TIME)
 
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:

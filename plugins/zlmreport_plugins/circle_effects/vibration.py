@@ -26,9 +26,9 @@ class Vibration(CircleEffect):
     """A·sin(2πf·t + ψ), ψ of each turn its own: fixed in Hz, so that its order falls with the feed."""
 
     identifier = "vibration"
-    title = Words(en="Vibration", de="Schwingung")
+    title = Words("Vibration")
     equation = "A·sin(2πf·t + ψ), each turn its own"
-    explains = Words(en="an oscillation of a fixed frequency", de="eine Schwingung fester Frequenz")
+    explains = Words("an oscillation of a fixed frequency")
     law = Law(Parity.IN_TIME, feed=None, radius=None)
     searched = (SearchedParameter("frequency", HERTZ, is_refined=True),)
 

@@ -38,7 +38,7 @@ class LinuxCnc:
     """LinuxCNC, `COMP_FILE` of a joint."""
 
     identifier = "linuxcnc"
-    title = Words(en="LinuxCNC (COMP_FILE)", de="LinuxCNC (COMP_FILE)")
+    title = Words("LinuxCNC (COMP_FILE)")
     options: type[Options] = LinuxCncOptions
     confidence = "verified"
     is_directional = True
@@ -46,15 +46,10 @@ class LinuxCnc:
     most_rows = _MOST_ROWS
     notes: tuple[Words, ...] = (
         Words(
-            en="In the section of the joint state COMP_FILE and COMP_FILE_TYPE, and start LinuxCNC again. "
-            "BACKLASH is ignored then: the table has both directions.",
-            de="Im Abschnitt des Gelenks COMP_FILE und COMP_FILE_TYPE angeben und LinuxCNC neu starten. "
-            "BACKLASH gilt dann nicht: die Tabelle enthält beide Richtungen.",
+            "In the section of the joint state COMP_FILE and COMP_FILE_TYPE, and start LinuxCNC again. "
+            "BACKLASH is ignored then: the table has both directions."
         ),
-        Words(
-            en="Between two rows LinuxCNC interpolates; outside the table the end value holds.",
-            de="Zwischen zwei Zeilen interpoliert LinuxCNC; außerhalb der Tabelle gilt der Endwert.",
-        ),
+        Words("Between two rows LinuxCNC interpolates; outside the table the end value holds."),
     )
 
     def files(self, table: CompensationTable, options: LinuxCncOptions) -> Mapping[str, str]:

@@ -20,17 +20,10 @@ from zlmreport.plugin.controller import CompensationTable, Controller
 
 _NUMBER = r"([-+]?\d+(?:\.\d+)?)"
 _NO_TRIAL = Words(
-    en="This format was never tried on the control. Load it with the axis clear, and check one point first.",
-    de="Dieses Format wurde nie an der Steuerung erprobt. Bei freier Achse laden, einen Punkt prüfen.",
+    "This format was never tried on the control. Load it with the axis clear, and check one point first."
 )
-_MEAN_ONLY = Words(
-    en="The table has the mean of both directions; the play is left to the backlash parameter.",
-    de="Die Tabelle enthält das Mittel beider Richtungen; das Spiel bleibt der Losekompensation.",
-)
-_ZERO_AT_THE_START = Words(
-    en="The first row is zero: the constant before it was taken out.",
-    de="Die erste Zeile ist null: die Konstante davor wurde herausgenommen.",
-)
+_MEAN_ONLY = Words("The table has the mean of both directions; the play is left to the backlash parameter.")
+_ZERO_AT_THE_START = Words("The first row is zero: the constant before it was taken out.")
 
 
 class _OnPaper:
@@ -101,17 +94,15 @@ class Siemens840d(_OnPaper):
     """SINUMERIK 840D, encoder compensation (EEC, ``$AA_ENC_COMP``): a positive value is +e."""
 
     identifier = "siemens-840d"
-    title = Words(en="Siemens SINUMERIK 840D (EEC)", de="Siemens SINUMERIK 840D (EEC)")
+    title = Words("Siemens SINUMERIK 840D (EEC)")
     confidence = "documented"
     is_equidistant = True
     options: type[Options] = SiemensOptions
     notes: tuple[Words, ...] = (
         *_OnPaper.notes,
         Words(
-            en="MD38000 holds the number of points; MD32700 is 0 while the table is loaded, then 1; the "
-            "table is zero at the reference point.",
-            de="MD38000 enthält die Zahl der Punkte; MD32700 ist beim Laden 0, danach 1; am Referenzpunkt "
-            "ist die Tabelle null.",
+            "MD38000 holds the number of points; MD32700 is 0 while the table is loaded, then 1; the "
+            "table is zero at the reference point."
         ),
     )
 
@@ -148,17 +139,15 @@ class Siemens840dCec(_OnPaper):
     """
 
     identifier = "siemens-840d-cec"
-    title = Words(en="Siemens SINUMERIK 840D (CEC)", de="Siemens SINUMERIK 840D (CEC)")
+    title = Words("Siemens SINUMERIK 840D (CEC)")
     is_directional = True
     is_equidistant = True
     options: type[Options] = SiemensOptions
     notes: tuple[Words, ...] = (
         _NO_TRIAL,
         Words(
-            en="The sign of these tables was not found in print; it is taken for that of EEC. MD18342 holds "
-            "the number of points; MD32710 is 0 while the tables are loaded, then 1.",
-            de="Das Vorzeichen dieser Tabellen war gedruckt nicht zu finden; angenommen ist das von EEC. "
-            "MD18342 enthält die Zahl der Punkte; MD32710 ist beim Laden 0, danach 1.",
+            "The sign of these tables was not found in print; it is taken for that of EEC. MD18342 holds "
+            "the number of points; MD32710 is 0 while the tables are loaded, then 1."
         ),
     )
 
@@ -197,7 +186,7 @@ class Isg(_OnPaper):
     """ISG and TwinCAT CNC (TF5200): ``kw.ssfk`` lists, +e by direction in whole 0.1 µm."""
 
     identifier = "isg"
-    title = Words(en="ISG, TwinCAT CNC (kw.ssfk)", de="ISG, TwinCAT CNC (kw.ssfk)")
+    title = Words("ISG, TwinCAT CNC (kw.ssfk)")
     confidence = "documented"
     is_directional = True
     notes: tuple[Words, ...] = (_NO_TRIAL,)
@@ -249,7 +238,7 @@ class Fanuc(_OnPaper):
     """Fanuc pitch error compensation: −Δe of each interval in units of 1 µm times parameter 3623."""
 
     identifier = "fanuc"
-    title = Words(en="Fanuc (pitch error compensation)", de="Fanuc (Steigungsfehlerkompensation)")
+    title = Words("Fanuc (pitch error compensation)")
     most_rows = 128  # of old controls
     is_equidistant = True
     options: type[Options] = FanucOptions
@@ -257,12 +246,9 @@ class Fanuc(_OnPaper):
         _NO_TRIAL,
         _ZERO_AT_THE_START,
         Words(
-            en="One table has the mean of both directions, and the play is left to parameter 1851. With the "
+            "One table has the mean of both directions, and the play is left to parameter 1851. With the "
             "key reverse there are two, and 1851 must be 0: their parameters stand in the second file, and "
-            "the sign of 3627 is not confirmed. Power off and a reference return make them effective.",
-            de="Eine Tabelle enthält das Mittel beider Richtungen, das Spiel bleibt Parameter 1851. Mit dem "
-            "Schlüssel reverse sind es zwei, und 1851 muss 0 sein: ihre Parameter stehen in der zweiten "
-            "Datei, das Vorzeichen von 3627 ist nicht bestätigt. Wirksam nach Ausschalten und Referenzfahrt.",
+            "the sign of 3627 is not confirmed. Power off and a reference return make them effective."
         ),
     )
 
@@ -316,7 +302,7 @@ class Mitsubishi(_OnPaper):
     """Mitsubishi memory pitch error compensation: −Δe times 2 in output units of 0.001 mm, ± 127."""
 
     identifier = "mitsubishi"
-    title = Words(en="Mitsubishi (memory pitch error)", de="Mitsubishi (Steigungsfehler)")
+    title = Words("Mitsubishi (memory pitch error)")
     confidence = "documented"
     is_equidistant = True
     notes: tuple[Words, ...] = (*_OnPaper.notes, _ZERO_AT_THE_START)
@@ -340,16 +326,14 @@ class Heidenhain(_OnPaper):
     """
 
     identifier = "heidenhain"
-    title = Words(en="HEIDENHAIN (.COM)", de="HEIDENHAIN (.COM)")
+    title = Words("HEIDENHAIN (.COM)")
     most_rows = 256
     is_directional = True
     notes: tuple[Words, ...] = (
         _NO_TRIAL,
         Words(
-            en="The .CMA file names this table for the axis alone: add its line to that of the control, "
-            "which may name tables of other axes, and mark it active (*).",
-            de="Die .CMA-Datei nennt diese Tabelle nur für diese Achse: ihre Zeile in die der Steuerung "
-            "übernehmen, die Tabellen anderer Achsen nennen kann, und als aktiv kennzeichnen (*).",
+            "The .CMA file names this table for the axis alone: add its line to that of the control, "
+            "which may name tables of other axes, and mark it active (*)."
         ),
     )
 
@@ -382,7 +366,7 @@ class Etalon(_OnPaper):
     """The exchange format of Etalon: grid points and deviations, mm."""
 
     identifier = "etalon"
-    title = Words(en="Etalon exchange format", de="Etalon-Austauschformat")
+    title = Words("Etalon exchange format")
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the one file; its section is named by the axis: EXX for X."""
@@ -409,7 +393,7 @@ class Beckhoff(_OnPaper):
     """Beckhoff NC PTP: elements of ``ST_CompensationElement`` by direction, the correction −e in mm."""
 
     identifier = "beckhoff"
-    title = Words(en="Beckhoff TwinCAT NC PTP", de="Beckhoff TwinCAT NC PTP")
+    title = Words("Beckhoff TwinCAT NC PTP")
     is_directional = True
     notes: tuple[Words, ...] = (_NO_TRIAL,)
 

@@ -24,17 +24,15 @@ class TableCsv:
     """Position, forward and reverse deviation (actual − target), without a sign turned."""
 
     identifier = "csv"
-    title = Words(en="CSV table of deviations", de="CSV-Tabelle der Abweichungen")
+    title = Words("CSV table of deviations")
     options: type[Options] = TableCsvOptions
     confidence = "verified"
     is_directional = True
     is_equidistant = False
     notes: tuple[Words, ...] = (
         Words(
-            en="Deviations are actual − target: whoever makes a table for a control of them turns the sign "
-            "if it asks for corrections.",
-            de="Abweichungen sind Ist − Soll: wer daraus eine Tabelle für eine Steuerung macht, kehrt das "
-            "Vorzeichen um, wenn sie Korrekturen verlangt.",
+            "Deviations are actual − target: whoever makes a table for a control of them turns the sign "
+            "if it asks for corrections."
         ),
     )
 

@@ -43,36 +43,22 @@ class Polynomial(Effect):
     """The full polynomial from its constant up, over the position scaled to −1 … 1 of the measured travel."""
 
     identifier = "polynomial"
-    title = Words(en="Polynomial over the position", de="Polynom über der Position")
+    title = Words("Polynomial over the position")
     equation = "Σ c_{k}·p^k, k = 0 … n;  p = (P − P_{mid}) / (L/2)"
     shape = Shape.POSITION
     physics = Words(
-        en="The full polynomial from its constant up, over the position scaled to −1 … 1 of the measured "
+        "The full polynomial from its constant up, over the position scaled to −1 … 1 of the measured "
         "travel. It describes and explains nothing: guideways, a screw's lead and a table's bow all look "
         "like this. Its constant and its slope are those of `offset` and `scale-error`, which cannot stand "
-        "beside it. An order above 3 swallows Abbe errors and kinks.",
-        de="Das volle Polynom von seiner Konstanten an, über der auf −1 … 1 des gemessenen Verfahrwegs "
-        "bezogenen Position. Es beschreibt und erklärt nichts: Führungen, die Steigung einer Spindel und der "
-        "Bogen eines Tisches sehen alle so aus. Seine Konstante und seine Steigung sind die von `offset` und "
-        "`scale-error`, die nicht neben ihm stehen können. Eine Ordnung über 3 schluckt Abbe-Fehler und "
-        "Knicke.",
+        "beside it. An order above 3 swallows Abbe errors and kinks."
     )
-    look = Words(
-        en="The residuals follow a smooth bow over the position, the same in both directions.",
-        de="Die Residuen folgen über der Position einem glatten Bogen, in beiden Richtungen demselben.",
-    )
+    look = Words("The residuals follow a smooth bow over the position, the same in both directions.")
     remedy = Words(
-        en="It names no cause: the lead of the screw, bent guideways and the bow of a mounted scale look "
+        "It names no cause: the lead of the screw, bent guideways and the bow of a mounted scale look "
         "like this. Check level, straightness and tension. A pitch table with rows at the targets removes"
-        " what stays, in the measured line.",
-        de="Es nennt keine Ursache: Spindelsteigung, krumme Führungen und der Bogen eines montierten "
-        "Maßstabs sehen so aus. Aufstellung, Geradheit und Spannung prüfen. Eine Spindelfehlertabelle mit"
-        " Zeilen an den Zielpositionen beseitigt, was bleibt, in der gemessenen Linie.",
+        " what stays, in the measured line."
     )
-    source = Words(
-        en="a series; M. Halaj and others describe axes by one of third order",
-        de="eine Reihe; M. Halaj und andere beschreiben Achsen durch eine dritter Ordnung",
-    )
+    source = Words("a series; M. Halaj and others describe axes by one of third order")
     contains = ("offset", "scale-error")
     measurands = (POSITIONING, STRAIGHTNESS)
     options = PolynomialOptions
@@ -112,7 +98,7 @@ def _coefficient(power: int) -> Parameter:
         f"c{power}",
         f"c_{{{power}}}",
         Dimension.DEVIATION,
-        Words(en="coefficient of power {power}", de="Koeffizient der {power}. Potenz").given(power=power),
+        Words("coefficient of power {power}").given(power=power),
         None if bound is None else -bound,
         bound,
     )

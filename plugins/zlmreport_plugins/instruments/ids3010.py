@@ -278,7 +278,7 @@ class Ids3010:
     """
 
     identifier = "ids3010"
-    title = Words(en="attocube interferometer IDS3010", de="attocube-Interferometer IDS3010")
+    title = Words("attocube interferometer IDS3010")
     options: type[Options] = Ids3010Options
 
     def open(self, options: Ids3010Options) -> LiveConnection:

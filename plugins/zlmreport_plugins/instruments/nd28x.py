@@ -196,7 +196,7 @@ class Nd28x:
     """
 
     identifier = "nd28x"
-    title = Words(en="HEIDENHAIN position display ND 28x", de="HEIDENHAIN-Positionsanzeige ND 28x")
+    title = Words("HEIDENHAIN position display ND 28x")
     options: type[Options] = Nd28xOptions
 
     def open(self, options: Nd28xOptions) -> LiveConnection:

@@ -182,7 +182,7 @@ class TextReadout:
     """
 
     identifier = "text-readout"
-    title = Words(en="Any readout with a number a line", de="Jede Anzeige mit einer Zahl je Zeile")
+    title = Words("Any readout with a number a line")
     options: type[Options] = TextReadoutOptions
 
     def open(self, options: TextReadoutOptions) -> LiveConnection:

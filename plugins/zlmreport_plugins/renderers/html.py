@@ -27,7 +27,7 @@ class HtmlRenderer:
     """Certificates as HTML, for screens and for printing from a browser."""
 
     identifier = "html"
-    title = Words(en="HTML in one file", de="HTML in einer Datei")
+    title = Words("HTML in one file")
     suffix = ".html"
 
     def render(self, certificate: Certificate) -> bytes:

@@ -37,15 +37,10 @@ from zlmreport.plugin.source import (
     collect_readings,
 )
 
-_HELD = Words(
-    en="At the end the axis came back to the datum; closure: {difference} {unit}.",
-    de="Am Ende kehrte die Achse zum Bezug zurück; Schlussabweichung: {difference} {unit}.",
-)
+_HELD = Words("At the end the axis came back to the datum; closure: {difference} {unit}.")
 _SLIPPED = Words(
-    en="The datum slipped: at the end the axis read {difference} {unit} there. This marks the readings of "
-    "the runs since it was taken: {runs}.",
-    de="Der Bezug hat sich verschoben: Am Ende zeigte die Achse dort {difference} {unit}. Das kennzeichnet "
-    "die Messwerte der Durchläufe seit seiner Aufnahme: {runs}.",
+    "The datum slipped: at the end the axis read {difference} {unit} there. This marks the readings of "
+    "the runs since it was taken: {runs}."
 )
 
 
@@ -99,10 +94,8 @@ def remarks(
     """Yield what a reader of the results must know of a capture."""
     header = history.header
     yield Words(
-        en="Captured live with {instrument} ({tool}). A reading is the mean over {dwell} s in which the axis "
-        "stood still within {stability} {fine}, at most {tolerance} {unit} from the target.",
-        de="Live erfasst mit {instrument} ({tool}). Ein Messwert ist das Mittel über {dwell} s, in denen die "
-        "Achse innerhalb von {stability} {fine} stillstand, höchstens {tolerance} {unit} vom Sollwert.",
+        "Captured live with {instrument} ({tool}). A reading is the mean over {dwell} s in which the axis "
+        "stood still within {stability} {fine}, at most {tolerance} {unit} from the target."
     ).given(
         instrument=str(header.instrument.get("plugin", "")),
         tool=header.tool,
@@ -114,18 +107,14 @@ def remarks(
     )
     if header.settings.settle:
         yield Words(
-            en="The reading of a visit is the last standstill of at least {settle} s before the axis left.",
-            de="Der Messwert eines Messpunkts ist der letzte Stillstand von mindestens {settle} s, bevor die "
-            "Achse weiterfuhr.",
+            "The reading of a visit is the last standstill of at least {settle} s before the axis left."
         ).given(settle=header.settings.settle)
     yield _datum(header.datum, axis)
     held = sum(isinstance(entry.event, BeamHeld) for entry in history.entries)
     if held:
         yield Words(
-            en="The beam was broken for a moment {held} times while the axis stood still; each time the "
-            "display showed afterwards what it had shown before.",
-            de="Der Strahl war {held}-mal kurz unterbrochen, während die Achse stillstand; jedes Mal zeigte "
-            "die Anzeige danach, was sie zuvor gezeigt hatte.",
+            "The beam was broken for a moment {held} times while the axis stood still; each time the "
+            "display showed afterwards what it had shown before."
         ).given(held=held)
     yield from _failed_displays(history)
     yield from _interruptions(history, axis)
@@ -134,15 +123,11 @@ def remarks(
     yield from _orders(history)
     missing = len(header.visits) - len(taken)
     if missing:
-        yield Words(
-            en="{missing} of {all} visits of the plan have no reading.",
-            de="{missing} von {all} geplanten Messpunkten haben keinen Messwert.",
-        ).given(missing=missing, all=len(header.visits))
-    if missing and any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
-        yield Words(
-            en="The operator closed the test before the plan was done.",
-            de="Die Messung wurde beendet, bevor der Plan abgearbeitet war.",
+        yield Words("{missing} of {all} visits of the plan have no reading.").given(
+            missing=missing, all=len(header.visits)
         )
+    if missing and any(isinstance(entry.event, CaptureEnded) for entry in history.entries):
+        yield Words("The operator closed the test before the plan was done.")
 
 
 def _failed_displays(history: JournalHistory) -> Iterator[Words]:
@@ -151,30 +136,21 @@ def _failed_displays(history: JournalHistory) -> Iterator[Words]:
     switched = sum(isinstance(event, ScaleChanged) for event in events)
     if switched:
         yield Words(
-            en="The display was switched to another unit (times: {count}). What it showed then is not used.",
-            de="Die Anzeige wurde auf eine andere Einheit umgestellt (Anzahl: {count}). Was sie dann zeigte, "
-            "wird nicht verwendet.",
+            "The display was switched to another unit (times: {count}). What it showed then is not used."
         ).given(count=switched)
     shares = [event.share for event in events if isinstance(event, VisitPresumed)]
     if shares:
         yield Words(
-            en="Which visit a reading is was nearly certain by what went before (readings: {count}); of the "
-            "least certain it was so to {share} %.",
-            de="Zu welchem Messpunkt ein Messwert gehört, war nach dem vorherigen Weg der Achse nahezu "
-            "sicher (Messwerte: {count}); beim unsichersten zu {share} %.",
+            "Which visit a reading is was nearly certain by what went before (readings: {count}); of the "
+            "least certain it was so to {share} %."
         ).given(count=len(shares), share=math.floor(1000 * min(shares)) / 10)
 
 
 def _datum(datum: float | None, axis: Axis) -> Words:
     if datum is None:
-        return Words(
-            en="Positions are counted from the instrument's own zero.",
-            de="Positionen zählen vom Nullpunkt des Messgeräts.",
-        )
+        return Words("Positions are counted from the instrument's own zero.")
     return Words(
-        en="The reading at {position} {unit} was taken for that position: deviations are relative to it.",
-        de="Die Anzeige bei {position} {unit} wurde dieser Position gleichgesetzt: Abweichungen sind auf sie "
-        "bezogen.",
+        "The reading at {position} {unit} was taken for that position: deviations are relative to it."
     ).given(position=axis.position_unit.from_si(datum), unit=axis.position_unit.symbol)
 
 
@@ -201,24 +177,19 @@ def _interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
     lost = sum(isinstance(event, ZeroLost | DatumMoved) for event in events)
     resumed = sum(isinstance(event, CaptureResumed) for event in events)
     if resumed > lost:
-        yield Words(
-            en="The capture was interrupted and went on (interruptions: {count}).",
-            de="Die Erfassung wurde unterbrochen und fortgesetzt (Unterbrechungen: {count}).",
-        ).given(count=resumed - lost)
+        yield Words("The capture was interrupted and went on (interruptions: {count}).").given(
+            count=resumed - lost
+        )
     held = [abs(event.difference) for event in events if isinstance(event, DatumHolds)]
     if held:
         yield Words(
-            en="After an interruption the datum was held against an earlier reading; largest difference: "
-            "{difference} {unit}.",
-            de="Nach einer Unterbrechung wurde der Bezug an einem früheren Messwert geprüft; größte "
-            "Differenz: {difference} {unit}.",
+            "After an interruption the datum was held against an earlier reading; largest difference: "
+            "{difference} {unit}."
         ).given(difference=axis.deviation_unit.from_si(max(held)), unit=axis.deviation_unit.symbol)
     if lost:
         yield Words(
-            en="The instrument's zero was lost (times: {count}). What it showed from then on, until the "
-            "datum was taken anew, is not used.",
-            de="Der Nullpunkt des Messgeräts ging verloren (Anzahl: {count}). Was es von da an bis zum neuen "
-            "Bezug anzeigte, ist nicht verwendet.",
+            "The instrument's zero was lost (times: {count}). What it showed from then on, until the "
+            "datum was taken anew, is not used."
         ).given(count=lost)
 
 
@@ -226,12 +197,9 @@ def _repetitions(parts: Sequence[Part]) -> Iterator[Words]:
     for part in parts:
         if part.attempts > 1:
             yield Words(
-                en="Part {part} of the test (a run, or all of it) was taken {attempts} times, each "
+                "Part {part} of the test (a run, or all of it) was taken {attempts} times, each "
                 "time from a datum of its own; attempt {attempt}, the most complete, counts; what was "
-                "read in the others stays in the journal (readings: {left_out}).",
-                de="Teil {part} der Messung (ein Durchlauf oder die ganze) wurde {attempts}-mal aufgenommen, "
-                "jedes Mal mit eigenem Bezug; Versuch {attempt}, der vollständigste, zählt; was in den "
-                "anderen gelesen wurde, bleibt im Protokoll (Messwerte: {left_out}).",
+                "read in the others stays in the journal (readings: {left_out})."
             ).given(part=part.number, attempts=part.attempts, attempt=part.attempt, left_out=part.left_out)
 
 
@@ -244,21 +212,13 @@ def _orders(history: JournalHistory) -> Iterator[Words]:
                 visit = event.visit.number
             case OperatorRetake(first=first, last=last):
                 yield Words(
-                    en="Taken again as the operator ordered: visits {visits}; of each the last reading "
-                    "counts, and the earlier ones stay in the journal.",
-                    de="Auf Anweisung noch einmal aufgenommen: Messpunkte {visits}; von jedem zählt der "
-                    "letzte Messwert, die früheren bleiben im Protokoll.",
+                    "Taken again as the operator ordered: visits {visits}; of each the last reading "
+                    "counts, and the earlier ones stay in the journal."
                 ).given(visits=f"{first.number}–{last.number}" if last != first else first.number)
             case OperatorSkipped(visit=skipped):
-                yield Words(
-                    en="The operator left out visit {visit}.",
-                    de="Messpunkt {visit} wurde auf Anweisung ausgelassen.",
-                ).given(visit=skipped.number)
+                yield Words("The operator left out visit {visit}.").given(visit=skipped.number)
             case OperatorCommented(text=text):
-                yield Words(
-                    en="The operator after visit {visit}: {text}",
-                    de="Anmerkung bei der Aufnahme, nach Messpunkt {visit}: {text}",
-                ).given(visit=visit, text=text)
+                yield Words("The operator after visit {visit}: {text}").given(visit=visit, text=text)
 
 
 _COMMAND = "zlmreport capture JOB.yaml"
@@ -272,7 +232,7 @@ class SerialInterferometer:
     """
 
     identifier = "serial-interferometer"
-    title = Words(en="Live capture from an instrument", de="Live-Erfassung von einem Messgerät")
+    title = Words("Live capture from an instrument")
     options: type[Options] = CaptureOptions
 
     def read(self, options: CaptureOptions, context: SourceContext) -> MeasurementSet:

@@ -71,102 +71,81 @@ PARAMETERS: tuple[Quantity, ...] = (
     Quantity(
         "P",
         "P",
-        Words("Position uncertainty", "Positionsunsicherheit"),
+        Words("Position uncertainty"),
         QuantityGroup.COMPOSITE,
         f"max[{_MEAN} + {_HALF_SPREAD}] − min[{_MEAN} − {_HALF_SPREAD}]",
         Words(
             "The largest error, systematic and random together, that positioning is expected to bring into a "
-            "dimension of a part, whichever the direction of approach.",
-            "Die größte Abweichung, systematisch und zufällig zusammen, die das Positionieren in einem Maß "
-            "des Werkstücks erwarten lässt, gleich aus welcher Richtung angefahren wird.",
+            "dimension of a part, whichever the direction of approach."
         ),
     ),
     Quantity(
         "Pa",
         "P_{a}",
-        Words("Position deviation", "Positionsabweichung"),
+        Words("Position deviation"),
         QuantityGroup.SYSTEMATIC,
         f"max[{_MEAN}] − min[{_MEAN}], {_MEAN} = 1/(2z) · ∑(x_{{ij}}↑ + x_{{ij}}↓)",
-        Words(
-            "The largest error of a dimension that remains on average over many like parts.",
-            "Die größte Abweichung eines Maßes, die im Mittel über viele gleiche Werkstücke bleibt.",
-        ),
+        Words("The largest error of a dimension that remains on average over many like parts."),
     ),
     Quantity(
         "Ps_max",
         "P_{s max}",
-        Words("Largest position spread", "Größte Positionsstreubreite"),
+        Words("Largest position spread"),
         QuantityGroup.RANDOM,
         f"max[P_{{sj}}], {_SPREAD}",
         Words(
             "The scatter to expect of a feature's place among like parts, the effect of the direction of "
-            "approach included, at the position where it is largest.",
-            "Die zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken "
-            "einschließlich des Einflusses der Anfahrrichtung, an der Position mit der größten Streuung.",
+            "approach included, at the position where it is largest."
         ),
     ),
     Quantity(
         "Ps_mean",
         "P_{s mit}",
-        Words("Mean position spread", "Mittlere Positionsstreubreite"),
+        Words("Mean position spread"),
         QuantityGroup.RANDOM,
         "(1/n) · ∑ P_{sj}",
         Words(
             "The scatter to expect of a feature's place among like parts, the effect of the direction of "
-            "approach included, averaged over the positions.",
-            "Die zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken "
-            "einschließlich des Einflusses der Anfahrrichtung, gemittelt über die Positionen.",
+            "approach included, averaged over the positions."
         ),
     ),
     Quantity(
         "O",
         "O",
-        Words("Offset", "Nullpunktverschiebung"),
+        Words("Offset"),
         QuantityGroup.SYSTEMATIC,
         f"−½(max[{_MEAN} + {_HALF_SPREAD}] + min[{_MEAN} − {_HALF_SPREAD}])",
         Words(
             "What to add to every deviation so that parts scatter evenly about the intended place: the band "
-            "is then ± P/2.",
-            "Was zu jeder Abweichung zu addieren ist, damit die Werkstücke gleichmäßig um die Solllage "
-            "streuen: das Band ist dann ± P/2.",
+            "is then ± P/2."
         ),
     ),
 )
 
 #: The columns that the recommendation adds to the table by position.
 BY_POSITION: tuple[PositionQuantity, ...] = (
-    PositionQuantity("X", _MEAN, Words("Mean of all readings", "Mittelwert aller Messwerte")),
-    PositionQuantity("Ps", "P_{sj}", Words("Position spread", "Positionsstreubreite")),
+    PositionQuantity("X", _MEAN, Words("Mean of all readings")),
+    PositionQuantity("Ps", "P_{sj}", Words("Position spread")),
 )
 
 #: What a reader of the results must know.
 NOTES: tuple[Words, ...] = (
     Words(
         "P is the full width of the band; the recommendation quotes accuracy as ± P/2 after the offset O. "
-        "The limits lie three standard deviations to either side of the mean of all readings.",
-        "P ist die volle Breite des Bandes; die Empfehlung gibt die Genauigkeit als ± P/2 nach der "
-        "Nullpunktverschiebung O an. Die Grenzen liegen drei Standardabweichungen beiderseits des "
-        "Mittelwerts aller Messwerte.",
+        "The limits lie three standard deviations to either side of the mean of all readings."
     ),
     Words(
         "The readings of both directions form one sample (2z − 1 degrees of freedom): the reversal is part "
-        "of the spread and has no parameter of its own.",
-        "Die Messwerte beider Richtungen bilden eine Stichprobe (2z − 1 Freiheitsgrade): die Umkehrspanne "
-        "ist Teil der Streubreite und hat keine eigene Kenngröße.",
+        "of the spread and has no parameter of its own."
     ),
-    Words(
-        "The index mit marks a mean over the positions.",
-        "Der Index mit (mittel) bezeichnet ein Mittel über die Positionen.",
-    ),
+    Words("The index mit marks a mean over the positions."),
     Words(
         "Formulas as in the manual of the program ZLM Position, G 1.3; corrected: bar over X in the formulas "
-        "of the parameters.",
-        "Formeln nach dem Handbuch des Programms ZLM Position, G 1.3; berichtigt: Querstrich über X in den "
-        "Formeln der Kenngrößen.",
+        "of the parameters."
     ),
 )
 
-_MEAN_DEVIATION = Words("Mean deviation", "Mittlere Abweichung")
+_MEAN_DEVIATION = Words("Mean deviation")
 
 
 class Nmtba:
@@ -175,10 +154,7 @@ class Nmtba:
     identifier = "nmtba"
     designation = "NMTBA (1972)"
     position_index = "j"
-    title = Words(
-        "Positioning accuracy of numerically controlled machine tools",
-        "Positioniergenauigkeit numerisch gesteuerter Werkzeugmaschinen",
-    )
+    title = Words("Positioning accuracy of numerically controlled machine tools")
     options = Options
     quantities = PARAMETERS
     position_quantities = BY_POSITION
@@ -201,8 +177,7 @@ class Nmtba:
 
 _RUNS_FOR_A_SCATTER = 2
 _ONE_DIRECTION_ONLY = Words(
-    "the formulas pool both: here the readings of this direction alone are the sample",
-    "die Formeln fassen beide zusammen: hier bilden die Messwerte dieser Richtung allein die Stichprobe",
+    "the formulas pool both: here the readings of this direction alone are the sample"
 )
 
 
@@ -221,14 +196,8 @@ def findings(measurements: MeasurementSet) -> Iterator[Finding]:
 
 def _number_of_positions(measurements: MeasurementSet) -> Finding:
     """Return the open finding on the number of positions, for which no number is known."""
-    requirement = Words(
-        "Number of target positions as the recommendation asks",
-        "Anzahl der Sollpositionen nach der Empfehlung",
-    )
-    found = Words(
-        "{positions}; no number known to hold them against",
-        "{positions}; keine Zahl bekannt, an der sie zu messen wären",
-    )
+    requirement = Words("Number of target positions as the recommendation asks")
+    found = Words("{positions}; no number known to hold them against")
     number = len(measurements.target_positions)
     return Finding(requirement, found.given(positions=positions_in_words(number)), met=None)
 
@@ -312,10 +281,7 @@ class _Graphs:
             curves=[self._curve()],
             arrows=[self.diagram.arrow("P_{sj}/2", worst_position(self.spread), self.mean, self.upper)],
         )
-        title = Words(
-            "Axis {axis}: mean deviations and position spread",
-            "Achse {axis}: mittlere Abweichungen und Positionsstreubreite",
-        )
+        title = Words("Axis {axis}: mean deviations and position spread")
         return self._figure("means", title, shown, marks_in_words(self.diagram.axis, shown.arrows))
 
     def overall(self) -> Figure:
@@ -330,10 +296,7 @@ class _Graphs:
             ],
             levels=[self._middle()],
         )
-        title = Words(
-            "Axis {axis}: position uncertainty, position deviation and offset",
-            "Achse {axis}: Positionsunsicherheit, Positionsabweichung und Nullpunktverschiebung",
-        )
+        title = Words("Axis {axis}: position uncertainty, position deviation and offset")
         sentences = marks_in_words(self.diagram.axis, shown.brackets), self._offset_sentence()
         return self._figure("overall", title, shown, *sentences)
 
@@ -362,10 +325,7 @@ class _Graphs:
         offset = self.evaluation.value("O")
         if offset is None:
             return None
-        return Words(
-            "The band's middle lies at {middle}, so that O = {offset}.",
-            "Die Mitte des Bandes liegt bei {middle}, also ist O = {offset}.",
-        ).given(
+        return Words("The band's middle lies at {middle}, so that O = {offset}.").given(
             middle=deviation_in_words(self.diagram.axis, -offset),
             offset=deviation_in_words(self.diagram.axis, offset),
         )

@@ -169,19 +169,16 @@ def _values(planned: PlannedPath) -> dict[str, Any]:
 
 
 _ALTERNATIVE = Words(
-    en="Path of the probe over {faces} faces of {gauge}, {kind}: {points} points in {moves} moves, "
-    "{length} m.",
-    de="Weg des Tasters über {faces} Flächen von {gauge}, {kind}: {points} Punkte in {moves} Bewegungen, "
-    "{length} m.",
+    "Path of the probe over {faces} faces of {gauge}, {kind}: {points} points in {moves} moves, {length} m."
 )
 _DRAWN_KINDS = {
-    PathKind.VERTICAL: Words(en="over the top of the blocks", de="über die Blöcke hinweg"),
-    PathKind.HORIZONTAL: Words(en="round the side of the blocks", de="seitlich um die Blöcke herum"),
+    PathKind.VERTICAL: Words("over the top of the blocks"),
+    PathKind.HORIZONTAL: Words("round the side of the blocks"),
 }
-_WAY = Words(en="path of the tip's centre, first cycle", de="Weg der Tastkugelmitte, erster Zyklus")
+_WAY = Words("path of the tip's centre, first cycle")
 _TOUCHES = {
-    Side.FRONT: Words(en="measuring move, front face", de="Antastung, Vorderfläche"),
-    Side.BACK: Words(en="measuring move, back face", de="Antastung, Rückfläche"),
+    Side.FRONT: Words("measuring move, front face"),
+    Side.BACK: Words("measuring move, back face"),
 }
 _COLOURS = {
     Side.FRONT: ROLE_STYLES[Role.MEAN_POSITIVE].stroke.colour,

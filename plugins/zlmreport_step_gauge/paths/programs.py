@@ -121,7 +121,7 @@ class MvMs:
     """
 
     identifier = "mv-ms"
-    title = Words(en="MV, MS, PO, END code (Pahk and Kim)", de="Code aus MV, MS, PO, END (Pahk und Kim)")
+    title = Words("MV, MS, PO, END code (Pahk and Kim)")
     suffix = ".mvms"
     options: Any = MvMsOptions
     takes = ProbingPath
@@ -170,7 +170,7 @@ class Dmis:
     """
 
     identifier = "dmis"
-    title = Words(en="DMIS", de="DMIS")
+    title = Words("DMIS")
     suffix = ".dmi"
     options: Any = DmisOptions
     takes = ProbingPath
@@ -249,7 +249,7 @@ class IppDme:
     """
 
     identifier = "ippdme"
-    title = Words(en="I++ DME commands", de="I++-DME-Befehle")
+    title = Words("I++ DME commands")
     suffix = ".prg"
     options: Any = IppDmeOptions
     takes = ProbingPath

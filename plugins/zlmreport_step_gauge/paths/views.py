@@ -19,11 +19,11 @@ from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.paths.path import PathKind, Point, Probing
 from zlmreport_step_gauge.paths.plan import PlannedPath
 
-_AXONOMETRIC = Words(en="Axonometric view", de="Axonometrische Ansicht")
-_FROM_THE_SIDE = Words(en="From the side", de="Von der Seite")
-_FROM_ABOVE = Words(en="From above", de="Von oben")
-_IN_THE_MACHINE = Words(en="In the coordinates of the machine", de="In den Koordinaten der Maschine")
-_SAFE = Words(en="safe position", de="sichere Position")
+_AXONOMETRIC = Words("Axonometric view")
+_FROM_THE_SIDE = Words("From the side")
+_FROM_ABOVE = Words("From above")
+_IN_THE_MACHINE = Words("In the coordinates of the machine")
+_SAFE = Words("safe position")
 #: Azimuth and elevation of the axonometric views.
 _AT_GAUGE = (math.radians(14), math.radians(32))
 _AT_MACHINE = (math.radians(25), math.radians(24))

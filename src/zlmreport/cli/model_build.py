@@ -16,10 +16,7 @@ from zlmreport.model.diagnosis.report import verdict_statement
 from zlmreport.model.effects import wording
 
 _ENGLISH = Language.ENGLISH
-_LEFT = Words(
-    en="Beside that something is left without a name: {shape}, {where}; root mean square {size}.",
-    de="Daneben bleibt etwas ohne Namen: {shape}, {where}; quadratischer Mittelwert {size}.",
-)
+_LEFT = Words("Beside that something is left without a name: {shape}, {where}; root mean square {size}.")
 
 
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:

@@ -48,26 +48,23 @@ _LONGEST_QUOTE = 200
 #: Steps of a value's path that say nothing to people.
 _CONTAINERS = frozenset({"evaluations", "parameters", "positions"})
 _SAID = {
-    VerificationVerdict.HOLDS: Words(en="holds", de="stimmt"),
-    VerificationVerdict.DIFFERS: Words(en="differs", de="weicht ab"),
-    VerificationVerdict.OPEN: Words(en="not compared", de="nicht verglichen"),
-    VerificationOutcome.HOLDS: Words(en="holds", de="bestätigt"),
-    VerificationOutcome.DOES_NOT_HOLD: Words(en="does not hold", de="nicht bestätigt"),
-    VerificationOutcome.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
+    VerificationVerdict.HOLDS: Words("holds"),
+    VerificationVerdict.DIFFERS: Words("differs"),
+    VerificationVerdict.OPEN: Words("not compared"),
+    VerificationOutcome.HOLDS: Words("holds", context="confirmed"),
+    VerificationOutcome.DOES_NOT_HOLD: Words("does not hold"),
+    VerificationOutcome.UNDECIDED: Words("not decided"),
 }
 _PARTS = {
-    "signature": Words(en="signature", de="Signatur"),
-    "files": Words(en="files", de="Dateien"),
-    "values": Words(en="values", de="Werte"),
-    "pages": Words(en="pages", de="Seiten"),
-    "document": Words(en="document", de="Dokument"),
+    "signature": Words("signature"),
+    "files": Words("files"),
+    "values": Words("values"),
+    "pages": Words("pages"),
+    "document": Words("document"),
 }
-_OWN_WORDS = Words(
-    en="Words that somebody wrote; no reading gives them:",
-    de="Worte, die jemand geschrieben hat; kein Messwert ergibt sie:",
-)
-_IN = Words(en="{key} (in {names})", de="{key} (in {names})")
-_ALSO_IN = Words(en="{key} (also in {names})", de="{key} (auch in {names})")
+_OWN_WORDS = Words("Words that somebody wrote; no reading gives them:")
+_IN = Words("{key} (in {names})")
+_ALSO_IN = Words("{key} (also in {names})")
 #: Last steps by which a key is known again within a measurement; measurements that are named one by one.
 _STEPS_OF_A_KEY, _MOST_PLACES = 2, 3
 _Say: TypeAlias = Callable[[Words | str], str]
@@ -101,20 +98,15 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
     digest = f"  {visible(identity.digest)}" if is_told else ""
     yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found, say)}{digest}"
     if identity.number:
-        issued = Words(en=", issued {date}", de=", ausgestellt {date}").given(date=identity.issued)
-        made_by = Words(en="made by {program}", de="hergestellt von {program}").given(
-            program=identity.generator
-        )
+        issued = Words(", issued {date}").given(date=identity.issued)
+        made_by = Words("made by {program}").given(program=identity.generator)
         date = say(issued) if identity.issued else ""
         yield visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
     yield ""
-    stated = Words(
-        en="{of} attached files as the certificate states",
-        de="{of} angehängten Dateien wie im Schein angegeben",
-    )
-    pages = Words(en="{of} pages as printed again", de="{of} Seiten wie erneut gedruckt")
-    parts = Words(en="{of} parts as printed again", de="{of} Teilen wie erneut gedruckt")
-    note = say(Words(en="note", de="Hinweis"))
+    stated = Words("{of} attached files as the certificate states")
+    pages = Words("{of} pages as printed again")
+    parts = Words("{of} parts as printed again")
+    note = say(Words("note"))
     yield from table(
         [
             (say(_PARTS["signature"]), _COLOURS[signature.verdict].of(visible(say(signature.detail)))),
@@ -138,22 +130,18 @@ def _verdict(found: Verification, say: _Say) -> str:
     outcome, count = say(_SAID[found.outcome]), found.differences
     match found.outcome:
         case VerificationOutcome.HOLDS if found.is_trusted:
-            trusted = Words(
-                en="signed by a key that is trusted", de="signiert mit einem Schlüssel, dem vertraut wird"
-            )
+            trusted = Words("signed by a key that is trusted")
             return f"{Colour.GREEN.of(outcome)}: {say(trusted)}"
         case VerificationOutcome.HOLDS:
-            unknown = Words(en="consistent, origin unknown", de="in sich stimmig, Herkunft unbekannt")
+            unknown = Words("consistent, origin unknown")
             return f"{Colour.GREEN.of(outcome)}: {say(unknown)}"
         case VerificationOutcome.UNDECIDED:
-            names = say(Words(en=" and ", de=" und ")).join(say(_PARTS[each]) for each in found.undecided)
-            open_parts = Words(
-                en="{names} could not be compared whole", de="{names} nicht vollständig vergleichbar"
-            )
+            names = say(Words(" and ")).join(say(_PARTS[each]) for each in found.undecided)
+            open_parts = Words("{names} could not be compared whole")
             return f"{Colour.YELLOW.of(outcome)}: {say(open_parts.given(names=names))}"
     one, more = (
-        Words(en="1 difference", de="1 Abweichung"),
-        Words(en="{n} differences", de="{n} Abweichungen"),
+        Words("1 difference"),
+        Words("{n} differences"),
     )
     return f"{Colour.RED.of(outcome)}: {say(one if count == 1 else more.given(n=count))}"
 
@@ -170,12 +158,12 @@ def _summary(
         verdict = _COLOURS[each.verdict].of(say(_SAID[each.verdict]))
         yield "", f"{verdict}  {visible(f'{each.subject}: {say(each.detail)}')}"
     if len(others) > _MOST_LINES:
-        more = Words(en="and {n} more: see --json", de="und {n} weitere: siehe --json")
+        more = Words("and {n} more: see --json")
         yield "", say(more.given(n=len(others) - _MOST_LINES))
 
 
 def _of(number: int, total: int) -> Words:
-    return Words(en="{number} of {total}", de="{number} von {total}").given(number=number, total=total)
+    return Words("{number} of {total}").given(number=number, total=total)
 
 
 def _numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[str, str]]:
@@ -184,10 +172,8 @@ def _numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[str, 
     if not numbers:
         return
     holding = sum(value.is_number and value.verdict is VerificationVerdict.HOLDS for value in values)
-    given = Words(
-        en="{of} as the attached readings give them", de="{of} wie aus den angehängten Messwerten berechnet"
-    )
-    yield say(Words(en="numbers", de="Zahlen")), say(given.given(of=_of(holding, numbers)))
+    given = Words("{of} as the attached readings give them")
+    yield say(Words("numbers")), say(given.given(of=_of(holding, numbers)))
     elsewhere = [
         CheckedStatement(
             " ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _both(value)
@@ -234,7 +220,7 @@ def _places(keys: Sequence[str], say: _Say) -> Iterator[str]:
 def _few(names: Sequence[str], say: _Say) -> str:
     if len(names) <= _MOST_PLACES + 1:
         return ", ".join(names)
-    more = say(Words(en="and {n} more", de="und {n} weiteren").given(n=len(names) - _MOST_PLACES))
+    more = say(Words("and {n} more").given(n=len(names) - _MOST_PLACES))
     return f"{', '.join(names[:_MOST_PLACES])} {more}"
 
 
@@ -262,7 +248,7 @@ def _parameters(standard: str, values: Sequence[ComparedValue], say: _Say) -> It
                 _COLOURS[verdict].of(say(_SAID[verdict])) + visible(f"  {others}" if others else ""),
             )
         )
-    stated, recomputed = Words(en="stated", de="angegeben"), Words(en="recomputed", de="berechnet")
+    stated, recomputed = Words("stated"), Words("recomputed")
     head = visible(standard), say(stated), say(recomputed), unit
     yield from table([head, *rows], right=(1, 2), indent="  ")
 

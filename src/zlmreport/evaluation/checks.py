@@ -19,21 +19,17 @@ _ROUNDING = 1e-9
 _RIGHT_ANGLE = math.pi / 2
 _LENGTH_WITH_A_RULE = 2.0
 _MEASURED = {
-    (Approach.POSITIVE, Approach.NEGATIVE): Words("both directions", "beide Richtungen"),
-    (Approach.POSITIVE,): Words("positive direction only", "nur positive Richtung"),
-    (Approach.NEGATIVE,): Words("negative direction only", "nur negative Richtung"),
-    (): Words("no reading at all", "kein einziger Messwert"),
+    (Approach.POSITIVE, Approach.NEGATIVE): Words("both directions"),
+    (Approach.POSITIVE,): Words("positive direction only"),
+    (Approach.NEGATIVE,): Words("negative direction only"),
+    (): Words("no reading at all"),
 }
 _ONE_SIDED = Words(
-    "each target in one direction only; what needs both directions at one target is not reported",
-    "jede Sollposition nur in einer Richtung; was beide Richtungen an einer Sollposition braucht, ist nicht "
-    "angegeben",
+    "each target in one direction only; what needs both directions at one target is not reported"
 )
 _RELATIVE = Words(
     "both directions, brought together by means of the readings themselves: reversal values are relative to "
-    "their mean",
-    "beide Richtungen, durch die Messwerte selbst zusammengeführt: Umkehrspannen sind relativ zu ihrem "
-    "Mittel",
+    "their mean"
 )
 #: Phases that agree within this part of a period show the same point of a periodic deviation.
 _SAME_PHASE = 0.01
@@ -54,20 +50,20 @@ def deviation_in_words(axis: Axis, value: float) -> Words:
 def positions_in_words(number: int) -> Words:
     """Return a number of target positions: ``1 position``, ``21 positions``."""
     if number == 1:
-        return Words("1 position", "1 Position")
-    return Words("{number} positions", "{number} Positionen").given(number=number)
+        return Words("1 position")
+    return Words("{number} positions").given(number=number)
 
 
 def runs_in_words(number: int) -> Words:
     """Return a number of runs: ``1 run``, ``5 runs``."""
     if number == 1:
-        return Words("1 run", "1 Durchlauf")
-    return Words("{number} runs", "{number} Durchläufe").given(number=number)
+        return Words("1 run")
+    return Words("{number} runs").given(number=number)
 
 
 def _with_unit(unit: Unit, value: float) -> Words:
     phrase = with_unit("{value}", unit.symbol)
-    return Words(phrase, phrase).given(value=float(unit.from_si(value)))
+    return Words(phrase).given(value=float(unit.from_si(value)))
 
 
 def measured_length(measurements: MeasurementSet) -> float:
@@ -83,7 +79,7 @@ def exceeds(value: float, limit: float) -> bool:
 def positions_in_all(measurements: MeasurementSet, minimum: int, basis: Basis) -> Finding:
     """Ask for a number of target positions, whatever the length."""
     number = len(measurements.target_positions)
-    requirement = Words("At least {positions}", "Mindestens {positions}")
+    requirement = Words("At least {positions}")
     return Finding(
         requirement.given(positions=positions_in_words(minimum)),
         positions_in_words(number),
@@ -117,27 +113,19 @@ def positions_per_metre(
     """
     number = len(measurements.target_positions)
     length = measured_length(measurements)
-    requirement = Words(
-        "At least {density}{further}{minimum}", "Mindestens {density}{further}{minimum}"
-    ).given(
-        density=Words("{n} positions per metre", "{n} Positionen je Meter").given(n=per_metre),
-        further=Words(" and {n} more", " und {n} weitere").given(n=further) if further else "",
-        minimum=Words(", {n} in all", ", insgesamt {n}").given(n=minimum) if minimum else "",
+    requirement = Words("At least {density}{further}{minimum}").given(
+        density=Words("{n} positions per metre").given(n=per_metre),
+        further=Words(" and {n} more").given(n=further) if further else "",
+        minimum=Words(", {n} in all").given(n=minimum) if minimum else "",
     )
     if measurements.axis.kind is not AxisKind.LINEAR:
-        not_for_angles = Words(
-            "{positions}; the rule is stated for lengths only",
-            "{positions}; die Regel ist nur für Längen angegeben",
-        )
+        not_for_angles = Words("{positions}; the rule is stated for lengths only")
         return Finding(requirement, not_for_angles.given(positions=positions_in_words(number)), None, basis)
-    on_length = Words("{positions} on {length}", "{positions} auf {length}").given(
+    on_length = Words("{positions} on {length}").given(
         positions=positions_in_words(number), length=position_in_words(measurements.axis, length)
     )
     if exceeds(length, _LENGTH_WITH_A_RULE):
-        beyond = Words(
-            "{on_length}; the rule is stated up to {limit}",
-            "{on_length}; die Regel ist bis {limit} angegeben",
-        )
+        beyond = Words("{on_length}; the rule is stated up to {limit}")
         limit = position_in_words(measurements.axis, _LENGTH_WITH_A_RULE)
         return Finding(requirement, beyond.given(on_length=on_length, limit=limit), None, basis)
     needed = max(minimum, math.ceil(per_metre * length - _ROUNDING) + further)
@@ -151,17 +139,12 @@ def positions_per_scale_element(measurements: MeasurementSet, minimum: int, basi
     stated; a target where two elements meet belongs to both, and a last element that the measured length
     covers in part does not count.
     """
-    requirement = Words(
-        "At least {positions} on each scale element", "Mindestens {positions} je Maßstabselement"
-    )
+    requirement = Words("At least {positions} on each scale element")
     requirement = requirement.given(positions=positions_in_words(minimum))
     targets = measurements.target_positions
     element = measurements.axis.scale_element
     if element is None:
-        one_piece = Words(
-            "{positions}; scale taken as one piece, no element stated",
-            "{positions}; Maßstab als ein Stück angenommen, kein Element angegeben",
-        )
+        one_piece = Words("{positions}; scale taken as one piece, no element stated")
         found = one_piece.given(positions=positions_in_words(len(targets)))
         return Finding(requirement, found, len(targets) >= minimum, basis)
     travel = measurements.axis.travel
@@ -171,10 +154,9 @@ def positions_per_scale_element(measurements: MeasurementSet, minimum: int, basi
     slack = _ROUNDING * max(element, end - start)
     inside = (targets >= starts - slack) & (targets <= starts + element + slack)
     fewest = int(np.count_nonzero(inside, axis=1).min())
-    found = Words(
-        "{fewest} on the element of {element} that has fewest",
-        "{fewest} auf dem am schwächsten besetzten Element von {element}",
-    ).given(fewest=positions_in_words(fewest), element=position_in_words(measurements.axis, element))
+    found = Words("{fewest} on the element of {element} that has fewest").given(
+        fewest=positions_in_words(fewest), element=position_in_words(measurements.axis, element)
+    )
     return Finding(requirement, found, fewest >= minimum, basis)
 
 
@@ -198,7 +180,7 @@ def positions_by_angle(
     number = len(measurements.target_positions)
     needed = next((least for limit, least in numbers.items() if not exceeds(angle, limit)), more)
     written = position_in_words(measurements.axis, angle)
-    requirement = Words("At least {positions} on {angle}", "Mindestens {positions} auf {angle}")
+    requirement = Words("At least {positions} on {angle}")
     return Finding(
         requirement.given(positions=positions_in_words(needed), angle=written),
         positions_in_words(number),
@@ -217,14 +199,11 @@ def principal_angles(measurements: MeasurementSet, basis: Basis) -> Finding:
     turns = np.rint(targets / _RIGHT_ANGLE)
     among = {int(turn) % 4 for turn in turns[np.abs(targets - turns * _RIGHT_ANGLE) <= slack]}
     lacking = sorted(asked - among)
-    requirement = Words(
-        "0°, 90°, 180° and 270° among the targets, where the measured angle holds them",
-        "0°, 90°, 180° und 270° unter den Sollpositionen, soweit der Messbereich sie enthält",
-    )
+    requirement = Words("0°, 90°, 180° and 270° among the targets, where the measured angle holds them")
     if not lacking:
-        return Finding(requirement, Words("they are", "enthalten"), met=True, basis=basis)
+        return Finding(requirement, Words("they are"), met=True, basis=basis)
     angles = ", ".join(f"{90 * turn}°" for turn in lacking)
-    found = Words("lacking: {angles}", "es fehlen: {angles}").given(angles=angles)
+    found = Words("lacking: {angles}").given(angles=angles)
     return Finding(requirement, found, met=False, basis=basis)
 
 
@@ -233,23 +212,21 @@ def positions_over_travel(measurements: MeasurementSet) -> Finding:
 
     They are where no more is left at either end than lies between two neighbouring targets.
     """
-    requirement = Words(
-        "Target positions spread over the whole travel", "Sollpositionen über den ganzen Verfahrweg verteilt"
-    )
+    requirement = Words("Target positions spread over the whole travel")
     axis, targets = measurements.axis, measurements.target_positions
-    covered = Words("{first} to {last}", "{first} bis {last}").given(
+    covered = Words("{first} to {last}").given(
         first=position_in_words(axis, float(targets[0])), last=position_in_words(axis, float(targets[-1]))
     )
     if axis.travel is None:
-        found = Words("{covered}; travel not stated", "{covered}; Verfahrweg nicht angegeben")
+        found = Words("{covered}; travel not stated")
         return Finding(requirement, found.given(covered=covered), met=None)
     start, end = min(axis.travel), max(axis.travel)
     interval = float(np.diff(targets).max(initial=0.0))
     left = max(float(targets[0]) - start, end - float(targets[-1]))
-    travel = Words("{start} to {end}", "{start} bis {end}").given(
+    travel = Words("{start} to {end}").given(
         start=position_in_words(axis, start), end=position_in_words(axis, end)
     )
-    found = Words("{covered} of {travel}", "{covered} von {travel}").given(covered=covered, travel=travel)
+    found = Words("{covered} of {travel}").given(covered=covered, travel=travel)
     return Finding(requirement, found, not exceeds(left, interval))
 
 
@@ -274,10 +251,7 @@ def both_directions(measurements: MeasurementSet, consequence: Words, basis: Bas
     basis
         Where the requirement is known from.
     """
-    requirement = Words(
-        "Targets approached in the positive and in the negative direction",
-        "Anfahren der Sollpositionen in positiver und in negativer Richtung",
-    )
+    requirement = Words("Targets approached in the positive and in the negative direction")
     approaches = measured_approaches(measurements)
     measured = _MEASURED[approaches]
     if measurements.one_sided_targets:
@@ -286,7 +260,7 @@ def both_directions(measurements: MeasurementSet, consequence: Words, basis: Bas
         return Finding(requirement, _RELATIVE, met=False, basis=basis)
     if len(approaches) == len(Approach):
         return Finding(requirement, measured, met=True, basis=basis)
-    found = Words("{measured}; {consequence}", "{measured}; {consequence}")
+    found = Words("{measured}; {consequence}")
     given = found.given(measured=measured, consequence=consequence)
     return Finding(requirement, given, met=False, basis=basis)
 
@@ -294,7 +268,7 @@ def both_directions(measurements: MeasurementSet, consequence: Words, basis: Bas
 def number_of_runs(measurements: MeasurementSet, minimum: int, basis: Basis) -> Finding:
     """Ask for a number of runs in each direction that was measured."""
     number = fewest_runs(measurements)
-    requirement = Words("At least {runs} in each direction", "Mindestens {runs} je Richtung")
+    requirement = Words("At least {runs} in each direction")
     return Finding(
         requirement.given(runs=runs_in_words(minimum)), runs_in_words(number), number >= minimum, basis
     )
@@ -309,20 +283,15 @@ def fewest_runs(measurements: MeasurementSet) -> int:
 
 def no_missing_readings(measurements: MeasurementSet) -> Finding:
     """Ask for a reading at every target in every run; a gap lowers n at its position only."""
-    requirement = Words(
-        "A reading at every target in every run", "Ein Messwert je Sollposition und Durchlauf"
-    )
+    requirement = Words("A reading at every target in every run")
     missing = len(measurements.missing())
     present = ~np.isnan(measurements.deviations())
     total = int(np.count_nonzero(present)) + missing
     if not missing:
-        complete = Words("all {total} readings", "alle {total} Messwerte").given(total=total)
+        complete = Words("all {total} readings").given(total=total)
         return Finding(requirement, complete, met=True)
     count = np.count_nonzero(present, axis=-1)[[approach.index for approach in measurements.approaches]]
-    found = Words(
-        "{missing} of {total} missing; n from {least} to {most}, evaluated by what is there",
-        "{missing} von {total} fehlen; n von {least} bis {most}, ausgewertet wird, was vorliegt",
-    )
+    found = Words("{missing} of {total} missing; n from {least} to {most}, evaluated by what is there")
     given = found.given(missing=missing, total=total, least=int(count.min()), most=int(count.max()))
     return Finding(requirement, given, met=False)
 
@@ -334,38 +303,31 @@ def spacing_against_periods(measurements: MeasurementSet, basis: Basis) -> tuple
     """
     axis = measurements.axis
     periods = (
-        (Words("pitch", "Steigung"), axis.screw_pitch),
-        (Words("signal period", "Signalperiode"), axis.signal_period),
+        (Words("pitch"), axis.screw_pitch),
+        (Words("signal period"), axis.signal_period),
     )
     stated = tuple(
         _spacing_against(measurements, name, period, basis) for name, period in periods if period is not None
     )
     if stated:
         return stated
-    requirement = Words(
-        "Spacing no integer multiple of a period of the axis",
-        "Abstand kein ganzzahliges Vielfaches einer Periode der Achse",
-    )
-    return (Finding(requirement, Words("no period stated", "keine Periode angegeben"), None, basis),)
+    requirement = Words("Spacing no integer multiple of a period of the axis")
+    return (Finding(requirement, Words("no period stated"), None, basis),)
 
 
 def _spacing_against(measurements: MeasurementSet, name: Words, period: float, basis: Basis) -> Finding:
     """Hold the spacing against one period: the phases of all targets, as seen from the first."""
-    requirement = Words(
-        "Spacing no integer multiple of the {name} ({period})",
-        "Abstand kein ganzzahliges Vielfaches der {name} ({period})",
-    ).given(name=name, period=position_in_words(measurements.axis, period))
+    requirement = Words("Spacing no integer multiple of the {name} ({period})").given(
+        name=name, period=position_in_words(measurements.axis, period)
+    )
     turns = (measurements.target_positions - measurements.target_positions[0]) / period
     if len(turns) < 2:
-        return Finding(requirement, Words("a single position", "eine einzige Position"), None, basis)
+        return Finding(requirement, Words("a single position"), None, basis)
     from_first = np.abs(turns - np.rint(turns))
     if from_first.max() > _SAME_PHASE:
-        found = Words("targets at differing phases", "Sollpositionen bei unterschiedlicher Phase")
+        found = Words("targets at differing phases")
         return Finding(requirement, found, met=True, basis=basis)
-    found = Words(
-        "all targets at the same phase: a deviation of this period stays hidden",
-        "alle Sollpositionen bei gleicher Phase: eine Abweichung dieser Periode bleibt verborgen",
-    )
+    found = Words("all targets at the same phase: a deviation of this period stays hidden")
     return Finding(requirement, found, met=False, basis=basis)
 
 
@@ -382,20 +344,17 @@ def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -
         Where the requirement is known from.
     """
     axis = measurements.axis
-    requirement = Words(
-        "Targets {formula} with a random fraction r at each",
-        "Sollpositionen {formula} mit zufälligem Anteil r",
-    ).given(formula=formula)
+    requirement = Words("Targets {formula} with a random fraction r at each").given(formula=formula)
     intervals = np.diff(measurements.target_positions)
     if len(intervals) < 2:
-        too_few = Words("too few positions to tell", "zu wenige Positionen für eine Aussage")
+        too_few = Words("too few positions to tell")
         return Finding(requirement, too_few, met=None, basis=basis)
     shortest, longest = float(intervals.min()), float(intervals.max())
     if longest - shortest <= _ALIKE * longest:
-        found = Words("all intervals alike: {interval}", "alle Abstände gleich: {interval}")
+        found = Words("all intervals alike: {interval}")
         found = found.given(interval=position_in_words(axis, float(intervals.mean())))
         return Finding(requirement, found, met=False, basis=basis)
-    found = Words("intervals from {shortest} to {longest}", "Abstände von {shortest} bis {longest}").given(
+    found = Words("intervals from {shortest} to {longest}").given(
         shortest=position_in_words(axis, shortest), longest=position_in_words(axis, longest)
     )
     return Finding(requirement, found, met=True, basis=basis)
@@ -404,7 +363,7 @@ def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -
 def mean_interval(measurements: MeasurementSet, limit: float, basis: Basis) -> Finding:
     """Ask for a mean interval between neighbouring targets of at most `limit`, m or rad."""
     axis, targets = measurements.axis, measurements.target_positions
-    requirement = Words("Mean interval at most {limit}", "Mittlerer Abstand höchstens {limit}")
+    requirement = Words("Mean interval at most {limit}")
     requirement = requirement.given(limit=position_in_words(axis, limit))
     interval = float(targets[-1] - targets[0]) / max(1, len(targets) - 1)
     return Finding(requirement, position_in_words(axis, interval), interval <= limit * (1 + _ALIKE), basis)

@@ -18,18 +18,9 @@ from zlmreport.language.formatting import plain
 #: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
 _ROUNDING_OF_DOUBLES = 1e-9
 
-_ROOM = Words(
-    en="A measurement uncertainty that leaves room for conformity with the limit of {symbol}",
-    de="Eine Messunsicherheit, die Raum für die Einhaltung des Grenzwerts von {symbol} lässt",
-)
-_NO_ROOM = Words(
-    en="the guard band is as wide as the limit: no value of {symbol} could conform",
-    de="der Schutzabstand ist so breit wie der Grenzwert: kein Wert von {symbol} könnte ihn einhalten",
-)
-_WIDE = Words(
-    en="U of {symbol} is larger than the limit: the statement says next to nothing",
-    de="U von {symbol} ist größer als der Grenzwert: die Aussage besagt so gut wie nichts",
-)
+_ROOM = Words("A measurement uncertainty that leaves room for conformity with the limit of {symbol}")
+_NO_ROOM = Words("the guard band is as wide as the limit: no value of {symbol} could conform")
+_WIDE = Words("U of {symbol} is larger than the limit: the statement says next to nothing")
 
 _UNDECIDED = Decision(Conformity.UNDECIDED, None, None, None)
 #: What is stated between TL − w and TL, and between TL and TL + w.

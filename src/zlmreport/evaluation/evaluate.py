@@ -101,14 +101,8 @@ def evaluate(
 
 def _undefined(quantity: Quantity) -> Finding:
     """Return the finding on a limit that is stated for a parameter which the test does not define."""
-    requirement = Words(
-        "A test that defines {symbol}, for which a limit is stated",
-        "Eine Messung, die {symbol} bestimmt: dafür ist ein Grenzwert angegeben",
-    )
-    found = Words(
-        "{symbol} is not defined by this test; nothing is decided on its limit",
-        "{symbol} ist durch diese Messung nicht bestimmt; über den Grenzwert wird nicht entschieden",
-    )
+    requirement = Words("A test that defines {symbol}, for which a limit is stated")
+    found = Words("{symbol} is not defined by this test; nothing is decided on its limit")
     symbol = plain(quantity.notation)
     return Finding(requirement.given(symbol=symbol), found.given(symbol=symbol), met=False)
 
@@ -117,19 +111,13 @@ def _undefined(quantity: Quantity) -> Finding:
 #: most 0.71 of the range, so A = range + 4 s is below 4 of them, and 3 s on both sides below 6.
 _FARTHEST = 20.0
 
-_POSSIBLE = Words(
-    "A value of {symbol} that these readings can give",
-    "Ein Wert von {symbol}, den diese Messwerte ergeben können",
-)
+_POSSIBLE = Words("A value of {symbol} that these readings can give")
 _NEGATIVE = Words(
-    "{value}: not plausible, {symbol} cannot be negative; the formulas of the plugin are in doubt",
-    "{value}: nicht plausibel, {symbol} kann nicht negativ sein; die Formeln des Plug-ins sind zweifelhaft",
+    "{value}: not plausible, {symbol} cannot be negative; the formulas of the plugin are in doubt"
 )
 _TOO_LARGE = Words(
     "{value}: not plausible, no reading deviates by more than {largest}; the formulas of the plugin are in "
-    "doubt",
-    "{value}: nicht plausibel, kein Messwert weicht um mehr als {largest} ab; die Formeln des Plug-ins sind "
-    "zweifelhaft",
+    "doubt"
 )
 
 

@@ -19,70 +19,35 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import ANGLES, Unit, with_unit
 
-_DRIFTS = Words(
-    en="Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U",
-    de="Mittelwerte der Durchläufe {lie} {low} {to} {high}; {stated} der Achse zugerechnet und nicht in U",
-)
-_LIE, _AND = Words(en="lie between", de="liegen zwischen"), Words(en="and", de="und")
-_RISE, _FALL = Words(en="rise from", de="steigen von"), Words(en="fall from", de="fallen von")
-_TO = Words(en="to", de="auf")
-_AT_REST = Words(
-    en="{range} is stated of drift at rest: what exceeds it is",
-    de="für die Drift in Ruhe ist {range} angegeben: was darüber hinausgeht, ist",
-)
-_NEGLECTED = Words(
-    en="drift at rest is declared negligible: this is",
-    de="Drift in Ruhe ist als vernachlässigbar erklärt: dies ist",
-)
-_NOTHING_STATED = Words(
-    en="nothing is stated of drift at rest: this is",
-    de="zur Drift in Ruhe ist nichts angegeben: dies ist",
-)
+_DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")
+_LIE, _AND = Words("lie between"), Words("and")
+_RISE, _FALL = Words("rise from"), Words("fall from")
+_TO = Words("to")
+_AT_REST = Words("{range} is stated of drift at rest: what exceeds it is")
+_NEGLECTED = Words("drift at rest is declared negligible: this is")
+_NOTHING_STATED = Words("nothing is stated of drift at rest: this is")
 _OUTLIER = Words(
-    en="The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "
+    "The reading of run {run} at {target} {arrow} lies {distance} from the others of its target, and is "
     "in the "
-    "results (measurement.excluded sets it aside)",
-    de="Der Messwert von Durchlauf {run} bei {target} {arrow} liegt {distance} neben den übrigen und ist "
-    "in den "
-    "Ergebnissen (measurement.excluded legt ihn beiseite)",
+    "results (measurement.excluded sets it aside)"
 )
-_MORE_OUTLIERS = Words(
-    en="As far from the others of their targets lie more readings (number: {count})",
-    de="Ebenso weit neben den übrigen ihrer Sollpositionen liegen weitere Messwerte (Anzahl: {count})",
-)
-_IDENTICAL = Words(
-    en="Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter",
-    de="Die Durchläufe {runs} sind in jeder Stelle gleich: Kopien, oder eine Auflösung, die die Streuung "
-    "verbirgt",
-)
+_MORE_OUTLIERS = Words("As far from the others of their targets lie more readings (number: {count})")
+_IDENTICAL = Words("Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter")
 _SAME_DIRECTIONS = Words(
-    en="Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the "
-    "reversal",
-    de="Beide Richtungen sind in jeder Stelle gleich, in {runs}: Kopien, oder eine Auflösung, die die "
-    "Umkehrspanne verbirgt",
+    "Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the reversal"
 )
 _TOO_SMALL = Words(
-    en="All deviations together span {range} over {length}: read as {unit}; if the file has {other}, state "
-    "measurement.source.units: {{deviation: {other}}}",
-    de="Alle Abweichungen zusammen umfassen {range} auf {length}: als {unit} gelesen; hat die Datei {other}, "
-    "gehört measurement.source.units: {{deviation: {other}}} in den Auftrag",
+    "All deviations together span {range} over {length}: read as {unit}; if the file has {other}, state "
+    "measurement.source.units: {{deviation: {other}}}"
 )
 _TOO_LARGE = Words(
-    en="All deviations together span {range} over {length}: read as {unit}; if the file has another unit, "
-    "state it under measurement.source.units",
-    de="Alle Abweichungen zusammen umfassen {range} auf {length}: als {unit} gelesen; hat die Datei eine "
-    "andere Einheit, gehört sie unter measurement.source.units in den Auftrag",
+    "All deviations together span {range} over {length}: read as {unit}; if the file has another unit, "
+    "state it under measurement.source.units"
 )
-_TWO_TEMPERATURES = Words(
-    en="{name}: {stated} °C is stated, and {logged} °C was logged beside the readings",
-    de="{name}: angegeben sind {stated} °C, neben den Messwerten aufgezeichnet wurden {logged} °C",
-)
-_SPAN, _SINGLE = Words("{low} … {high}", "{low} … {high}"), Words("{low}", "{low}")
+_TWO_TEMPERATURES = Words("{name}: {stated} °C is stated, and {logged} °C was logged beside the readings")
+_SPAN, _SINGLE = Words("{low} … {high}"), Words("{low}")
 _COARSER = Words(
-    en="The resolution is stated as {stated}, and the readings were given in steps of {given}: these are "
-    "counted",
-    de="Als Auflösung sind {stated} angegeben, die Messwerte haben Schritte von {given}: gerechnet wird "
-    "mit diesen",
+    "The resolution is stated as {stated}, and the readings were given in steps of {given}: these are counted"
 )
 
 #: Standard deviations of a run's mean that its range may show by chance.
@@ -234,7 +199,7 @@ def _identical_directions(measurements: MeasurementSet, readings: FloatArray) ->
         yield _SAME_DIRECTIONS.given(runs=(_RUN if len(same) == 1 else _RUNS).given(runs=numbers))
 
 
-_RUN, _RUNS = Words(en="run {runs}", de="Durchlauf {runs}"), Words(en="runs {runs}", de="Durchläufen {runs}")
+_RUN, _RUNS = Words("run {runs}"), Words("runs {runs}")
 
 
 def _are_identical(one: FloatArray, other: FloatArray) -> bool:
@@ -311,4 +276,4 @@ def _size(measurements: MeasurementSet, value: float) -> Words:
 
 def _with_unit(value: float, unit: str) -> Words:
     phrase = with_unit("{value}", unit)
-    return Words(phrase, phrase).given(value=float(f"{value:.6g}"))
+    return Words(phrase).given(value=float(f"{value:.6g}"))

@@ -18,59 +18,38 @@ from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
-_UNLIKELY = Words(
-    en="{name}: {value} {unit} is unusual where machines are measured",
-    de="{name}: {value} {unit} ist ungewöhnlich, wo Maschinen gemessen werden",
-)
+_UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")
 _MEANT = Words(
-    en="{name}: {value} {unit} is unusual where machines are measured; {value} {other} would be "
-    "{meant} {unit}",
-    de="{name}: {value} {unit} ist ungewöhnlich, wo Maschinen gemessen werden; {value} {other} wären "
-    "{meant} {unit}",
+    "{name}: {value} {unit} is unusual where machines are measured; {value} {other} would be {meant} {unit}"
 )
 _SMALL_LIMITS = Words(
-    en="{designation}: limits far below the values or their last digit: {limits}; tolerances are stated in "
-    "{unit}, and 1 {other} is {per_other} {unit}",
-    de="{designation}: Grenzwerte weit unter den Werten oder ihrer letzten Stelle: {limits}; Toleranzen "
-    "stehen in {unit}, und 1 {other} ist {per_other} {unit}",
+    "{designation}: limits far below the values or their last digit: {limits}; tolerances are stated in "
+    "{unit}, and 1 {other} is {per_other} {unit}"
 )
 _LARGE_LIMITS = Words(
-    en="{designation}: limits wider than the measured range: {limits}; tolerances are stated in {unit}",
-    de="{designation}: Grenzwerte weiter als der gemessene Bereich: {limits}; Toleranzen stehen in {unit}",
+    "{designation}: limits wider than the measured range: {limits}; tolerances are stated in {unit}"
 )
 _TURNS = Words(
-    en="Axis {name} is taken for a linear one that was measured over {range} mm; if these are degrees: "
-    "axis.kind: rotary",
-    de="Achse {name} gilt als Linearachse, gemessen über {range} mm; falls das Grade sind: axis.kind: rotary",
+    "Axis {name} is taken for a linear one that was measured over {range} mm; if these are degrees: "
+    "axis.kind: rotary"
 )
 _MOVES_STRAIGHT = Words(
-    en="Axis {name} is taken for a rotary one that was measured over {range}°; if these are millimetres: "
-    "axis.kind: linear",
-    de="Achse {name} gilt als Drehachse, gemessen über {range}°; falls das Millimeter sind: "
-    "axis.kind: linear",
+    "Axis {name} is taken for a rotary one that was measured over {range}°; if these are millimetres: "
+    "axis.kind: linear"
 )
 _LARGE_ANGLES = Words(
-    en="Angles that span {span}{unit} are unusual for an axis; if the file has another unit: source.units: "
-    "{{deviation: {meant}}}",
-    de="Winkel über {span}{unit} sind für eine Achse ungewöhnlich; falls die Datei eine andere Einheit hat: "
-    "source.units: {{deviation: {meant}}}",
+    "Angles that span {span}{unit} are unusual for an axis; if the file has another unit: source.units: "
+    "{{deviation: {meant}}}"
 )
 #: Of a machine tool's axis, rad: 1000 arc seconds.
 _LARGE_ANGLE = 1000 / 206264.80624709636
 #: Axes by their first letters (ISO 841), and the ranges that say that one of them turns.
 _TURNING, _STRAIGHT = frozenset("ABC"), frozenset("XYZUVW")
 _PARTS_OF_A_TURN = (90.0, 180.0, 360.0)
-_OF_MACHINE = Words(en="Expansion coefficient of the machine", de="Ausdehnungskoeffizient der Maschine")
-_OF_CORRECTION = Words(
-    en="Expansion coefficient of the correction", de="Ausdehnungskoeffizient der Korrektion"
-)
-_OF_COMPENSATION = Words(
-    en="Expansion coefficient by which the instrument compensated",
-    de="Ausdehnungskoeffizient, mit dem das Messgerät kompensierte",
-)
-_OF_INSTRUMENT = Words(
-    en="Expansion coefficient of the instrument", de="Ausdehnungskoeffizient des Messgeräts"
-)
+_OF_MACHINE = Words("Expansion coefficient of the machine")
+_OF_CORRECTION = Words("Expansion coefficient of the correction")
+_OF_COMPENSATION = Words("Expansion coefficient by which the instrument compensated")
+_OF_INSTRUMENT = Words("Expansion coefficient of the instrument")
 #: Of materials of scales and machines, µm/(m·K): Invar to aluminium and zinc; of glass ceramic it is about 0.
 _EXPANSIONS, _USUAL = (0.3, 35.0), (5.0, 25.0)
 #: Of carbon fibre along its fibres, µm/(m·K).
@@ -150,7 +129,7 @@ def _other_unit(value: float, kind: ConditionKind) -> Scale | None:
 
 
 def _named(unit: Scale) -> Words:
-    return Words("of 1", "von 1") if unit.symbol == "1" else same(unit.symbol)
+    return Words("of 1") if unit.symbol == "1" else same(unit.symbol)
 
 
 def _limits(evaluation: Evaluation) -> Iterator[Words]:
@@ -174,7 +153,7 @@ def _limits(evaluation: Evaluation) -> Iterator[Words]:
         (_LARGE_LIMITS, large),
     ):
         if found:
-            limits = Words("{limits}", "{limits}").given(limits=_in_a_line(found, evaluation))
+            limits = Words("{limits}").given(limits=_in_a_line(found, evaluation))
             yield sentence.given(designation=evaluation.designation, limits=limits, unit=unit.symbol)
 
 
@@ -185,7 +164,7 @@ def _in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words
         f"{plain(each.quantity.notation)} {{limit{index}}} {unit.symbol}"
         for index, each in enumerate(parameters)
     )
-    return Words(phrase, phrase).given(**places)
+    return Words(phrase).given(**places)
 
 
 def _angles(measurements: MeasurementSet) -> Iterator[Words]:

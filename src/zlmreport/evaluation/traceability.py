@@ -31,44 +31,20 @@ _DAYS_OF_A_YEAR = 365.25
 #: Temperatures that lengths have, and the one at which they hold, °C.
 _OF_LENGTHS, _REFERENCE = ("axis_temperature", "material_temperature"), 20.0
 
-_NOT_DATED = Words(
-    en="{what}: date of calibration not stated",
-    de="{what}: Datum der Kalibrierung nicht angegeben",
-)
-_OLD_CALIBRATION = Words(
-    en="{what}: calibrated on {date}, {years} years before the measurement",
-    de="{what}: kalibriert am {date}, {years} Jahre vor der Messung",
-)
-_AFTER = Words(
-    en="{what}: calibrated on {date}, after the measurement of {measured}",
-    de="{what}: kalibriert am {date}, nach der Messung vom {measured}",
-)
-_OVERDUE = Words(
-    en="{what}: calibration was due on {date}, before the measurement of {measured}",
-    de="{what}: Kalibrierung war am {date} fällig, vor der Messung vom {measured}",
-)
-_NO_CERTIFICATE = Words(
-    en="{what}: no calibration certificate named, so not shown to be traceable",
-    de="{what}: kein Kalibrierschein genannt, Rückführung nicht belegt",
-)
-_NO_THERMOMETER = Words(
-    en="A temperature enters the results, and no thermometer is named with its calibration",
-    de="Eine Temperatur geht in die Ergebnisse ein, und kein Thermometer ist mit seiner Kalibrierung genannt",
-)
-_OUT_OF_SCOPE = Words(
-    en="Outside the accredited scope: {what}",
-    de="Außerhalb des akkreditierten Bereichs: {what}",
-)
+_NOT_DATED = Words("{what}: date of calibration not stated")
+_OLD_CALIBRATION = Words("{what}: calibrated on {date}, {years} years before the measurement")
+_AFTER = Words("{what}: calibrated on {date}, after the measurement of {measured}")
+_OVERDUE = Words("{what}: calibration was due on {date}, before the measurement of {measured}")
+_NO_CERTIFICATE = Words("{what}: no calibration certificate named, so not shown to be traceable")
+_NO_THERMOMETER = Words("A temperature enters the results, and no thermometer is named with its calibration")
+_OUT_OF_SCOPE = Words("Outside the accredited scope: {what}")
 _OF_KIND = {
-    AxisKind.LINEAR: Words(en="results of a linear axis", de="Ergebnisse einer Linearachse"),
-    AxisKind.ROTARY: Words(en="results of a rotary axis", de="Ergebnisse einer Drehachse"),
+    AxisKind.LINEAR: Words("results of a linear axis"),
+    AxisKind.ROTARY: Words("results of a rotary axis"),
 }
-_OF_LENGTH = Words(
-    en="results over {length} {unit} (the scope ends at {most} {unit})",
-    de="Ergebnisse über {length} {unit} (der Bereich endet bei {most} {unit})",
-)
-_OF_STANDARD = Words(en="results by {standard}", de="Ergebnisse nach {standard}")
-_INSTRUMENT = Words(en="Measuring instrument", de="Messgerät")
+_OF_LENGTH = Words("results over {length} {unit} (the scope ends at {most} {unit})")
+_OF_STANDARD = Words("results by {standard}")
+_INSTRUMENT = Words("Measuring instrument")
 
 
 class _Break(NamedTuple):

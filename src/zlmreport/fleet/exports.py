@@ -171,13 +171,10 @@ def _escaped(text: str, *, quotes: bool = False) -> str:
     return escaped.replace('"', '\\"') if quotes else escaped
 
 
-_TITLE = Words(en="{fleet}: tests that are due", de="{fleet}: fällige Messungen")
-_SUMMARY = Words(en="Measure {axis} of {machine}", de="{axis} von {machine} messen")
-_SUMMARY_OF_AXIS = Words(en="Measure {axis}", de="{axis} messen")
-_DESCRIPTION = Words(
-    en="Measured last on {measured}, certificate {number}.",
-    de="Zuletzt gemessen am {measured}, Kalibrierschein {number}.",
-)
+_TITLE = Words("{fleet}: tests that are due")
+_SUMMARY = Words("Measure {axis} of {machine}")
+_SUMMARY_OF_AXIS = Words("Measure {axis}")
+_DESCRIPTION = Words("Measured last on {measured}, certificate {number}.")
 #: Before the day, so that a machine can be made free.
 _NOTICE = timedelta(days=14)
 

@@ -40,7 +40,7 @@ BEAT = 5.0
 #: Before the suffix of a draft's file.
 MARK = ".draft"
 
-_TITLE = Words(en="Draft, not issued: {title}", de="Entwurf, nicht ausgestellt: {title}")
+_TITLE = Words("Draft, not issued: {title}")
 
 
 def drafted(certificate: Certificate) -> Certificate:

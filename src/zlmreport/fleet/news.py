@@ -32,33 +32,25 @@ from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.plugin.registry import Registry, find_plugins
 
 _KINDS = {
-    NewsKind.NIGHT: Words(en="the whole night", de="zum ganzen Lauf"),
-    NewsKind.FAILED: Words(en="failed", de="fehlgeschlagen"),
-    NewsKind.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
-    NewsKind.CHANGED: Words(en="changed", de="verändert"),
-    NewsKind.DRIFTING: Words(en="drifting", de="mit Drift"),
-    NewsKind.OVERDUE: Words(en="overdue", de="überfällig"),
-    NewsKind.DRAFT: Words(en="draft", de="als Entwurf"),
+    NewsKind.NIGHT: Words("the whole night"),
+    NewsKind.FAILED: Words("failed"),
+    NewsKind.NOT_MET: Words("limit not met"),
+    NewsKind.CHANGED: Words("changed"),
+    NewsKind.DRIFTING: Words("drifting"),
+    NewsKind.OVERDUE: Words("overdue"),
+    NewsKind.DRAFT: Words("draft"),
 }
-_NOT_MET = Words(en="{symbol} = {value}, limit {limit}", de="{symbol} = {value}, Grenzwert {limit}")
-_WILDER = Words(en="scatters more than before", de="streut stärker als zuvor")
-_SINCE = Words(en="{changes} since {since}", de="{changes} seit {since}")
-_INSTRUMENT = Words(
-    en="; measured with {after} in place of {before}", de="; gemessen mit {after} statt {before}"
-)
-_DRIFT = Words(en="{symbol} {change} a year", de="{symbol} {change} im Jahr")
-_REACHED = Words(en=", limit reached {month}", de=", Grenzwert erreicht {month}")
-_OVERDUE = Words(
-    en="measured on {measured}, and was to be measured again by {due}",
-    de="gemessen am {measured}, war bis {due} erneut zu messen",
-)
-_ISSUED = Words(en="{number} was issued", de="{number} wurde ausgestellt")
-_LIMIT = Words(en="; a limit is not met", de="; ein Grenzwert ist nicht eingehalten")
-_UNTOLD = Words(
-    en="the news was not sent by {way}: {reason}",
-    de="die Meldungen wurden nicht zugestellt ({way}): {reason}",
-)
-_FAILED = Words(en="{job} failed", de="{job} ist fehlgeschlagen")
+_NOT_MET = Words("{symbol} = {value}, limit {limit}")
+_WILDER = Words("scatters more than before")
+_SINCE = Words("{changes} since {since}")
+_INSTRUMENT = Words("; measured with {after} in place of {before}")
+_DRIFT = Words("{symbol} {change} a year")
+_REACHED = Words(", limit reached {month}")
+_OVERDUE = Words("measured on {measured}, and was to be measured again by {due}")
+_ISSUED = Words("{number} was issued")
+_LIMIT = Words("; a limit is not met")
+_UNTOLD = Words("the news was not sent by {way}: {reason}")
+_FAILED = Words("{job} failed")
 
 
 def news_of_night(notices: Iterable[NightNotice], language: Language) -> Iterator[News]:

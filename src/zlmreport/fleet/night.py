@@ -32,10 +32,7 @@ from zlmreport.plugin.protocols import Occasion
 
 #: A job may take so many times as long as it ever took.
 _TIMES_LONGEST = 10
-_UNTAUGHT = Words(
-    en="what the tests teach was not written: {problem}",
-    de="was die Messungen lehren, wurde nicht geschrieben: {problem}",
-)
+_UNTAUGHT = Words("what the tests teach was not written: {problem}")
 _MADE = frozenset({Due.CERTIFICATE, Due.COMPARISON})
 
 

@@ -21,66 +21,41 @@ _NAMED = 5
 #: About which a night says that it does nothing.
 _REFUSALS = frozenset({About.JOBS, About.FOLDER, About.LEDGER})
 
-_STUCK = Words(
-    en="the night of {night} gave no sign of life; it was killed",
-    de="der Lauf vom {night} gab kein Lebenszeichen; er wurde beendet",
-)
+_STUCK = Words("the night of {night} gave no sign of life; it was killed")
 _BROKEN = Words(
-    en="the night of {night} was broken off, with its last sign of life at {beat}; it had come to {states}. "
-    "This one makes good what it left",
-    de="der Lauf vom {night} wurde abgebrochen, letztes Lebenszeichen um {beat}; sein Ergebnis: {states}. "
-    "Dieser Lauf holt nach, was offen blieb",
+    "the night of {night} was broken off, with its last sign of life at {beat}; it had come to {states}. "
+    "This one makes good what it left"
 )
 _CAME_TO = {
-    State.MADE: Words(en="{number} made", de="{number} erstellt"),
-    State.DRAFT: Words(en="{number} as drafts", de="{number} als Entwurf"),
-    State.FAILED: Words(en="{number} failed", de="{number} fehlgeschlagen"),
-    State.STOPPED: Words(en="{number} stopped", de="{number} angehalten"),
-    State.SET_ASIDE: Words(en="{number} set aside", de="{number} zurückgestellt"),
-    State.VANISHED: Words(en="{number} vanished", de="{number} verschwunden"),
+    State.MADE: Words("{number} made"),
+    State.DRAFT: Words("{number} as drafts"),
+    State.FAILED: Words("{number} failed"),
+    State.STOPPED: Words("{number} stopped"),
+    State.SET_ASIDE: Words("{number} set aside"),
+    State.VANISHED: Words("{number} vanished"),
 }
-_NOTHING = Words(en="nothing", de="nichts")
-_CLOCK = Words(
-    en="the clock stands at {now}, before the last night: {last}",
-    de="die Uhr steht auf {now}, vor dem letzten Lauf: {last}",
-)
-_MANY_GONE = Words(
-    en="{gone} of {before} jobs are gone since the last night; look whether that is meant",
-    de="{gone} von {before} Aufträgen fehlen seit dem letzten Lauf; bitte prüfen, ob das gewollt ist",
-)
+_NOTHING = Words("nothing")
+_CLOCK = Words("the clock stands at {now}, before the last night: {last}")
+_MANY_GONE = Words("{gone} of {before} jobs are gone since the last night; look whether that is meant")
 _MOST_GONE = Words(
-    en="{gone} of {before} jobs are gone since the last night; look whether their folder is mounted, or name "
-    "those under retired that are gone on purpose",
-    de="{gone} von {before} Aufträgen fehlen seit dem letzten Lauf; bitte prüfen, ob ihr Ordner eingehängt "
-    "ist, oder unter retired nennen, was mit Absicht fehlt",
+    "{gone} of {before} jobs are gone since the last night; look whether their folder is mounted, or name "
+    "those under retired that are gone on purpose"
 )
-_NO_FOLDER = Words(
-    en="is no folder, and the certificates of the fleet belong into one; move away what is there",
-    de="ist kein Ordner, und die Kalibrierscheine der Flotte gehören in einen; bitte entfernen, was dort ist",
-)
+_NO_FOLDER = Words("is no folder, and the certificates of the fleet belong into one; move away what is there")
 _EMPTY = Words(
-    en="the folder is empty, and {number} certificates were issued into it; look whether it is mounted. A "
-    "file in it, whatever it is, lets the night make them again",
-    de="der Ordner ist leer, und {number} Kalibrierscheine wurden darin ausgestellt; bitte prüfen, ob er "
-    "eingehängt ist. Liegt irgendeine Datei darin, erstellt der Lauf sie wieder",
+    "the folder is empty, and {number} certificates were issued into it; look whether it is mounted. A "
+    "file in it, whatever it is, lets the night make them again"
 )
 _FOREIGN = Words(
-    en="the ledger knows none of the certificates in {folder}, where {found} of {jobs} jobs have theirs; put "
-    "its backup back, or make it again: zlmreport fleet rebuild {fleet}",
-    de="das Verzeichnis kennt keinen der Kalibrierscheine in {folder}, wo {found} von {jobs} Aufträgen den "
-    "ihren haben; bitte seine Sicherung zurückspielen oder es neu erstellen: zlmreport fleet rebuild {fleet}",
+    "the ledger knows none of the certificates in {folder}, where {found} of {jobs} jobs have theirs; put "
+    "its backup back, or make it again: zlmreport fleet rebuild {fleet}"
 )
-_LEFT = Words(
-    en="the time of the night was over before {left} of {due} jobs; they are for the next night",
-    de="die Zeit des Laufs endete vor {left} von {due} Aufträgen; der nächste Lauf erstellt sie",
-)
+_LEFT = Words("the time of the night was over before {left} of {due} jobs; they are for the next night")
 _DOCUMENTS = Words(
-    en="{numbers}: issued, gone or changed since, and made again by no job; put them back from a backup, or "
-    "name them under retired",
-    de="{numbers}: ausgestellt, seither verschwunden oder verändert, und von keinem Auftrag wieder erstellt; "
-    "bitte aus einer Sicherung zurückspielen oder unter retired nennen",
+    "{numbers}: issued, gone or changed since, and made again by no job; put them back from a backup, or "
+    "name them under retired"
 )
-_MORE = Words(en="{numbers} and {more} more", de="{numbers} und {more} weitere")
+_MORE = Words("{numbers} and {more} more")
 
 
 def vanished(known: Evening) -> tuple[str, ...]:
@@ -175,7 +150,7 @@ def _listed(words: Sequence[Words]) -> Words:
     """Return phrases one after the other."""
     names = [f"word{index}" for index in range(len(words))]
     phrase = ", ".join(f"{{{name}}}" for name in names)
-    return Words(phrase, phrase, dict(zip(names, words, strict=True)))
+    return Words(phrase, values=dict(zip(names, words, strict=True)))
 
 
 def _newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:

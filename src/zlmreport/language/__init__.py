@@ -56,7 +56,7 @@ class Words:
 
 def same(phrase: str) -> Words:
     """Return a phrase that is alike in every language: a name, a symbol, a user's own text."""
-    return Words("{phrase}", "{phrase}", {"phrase": phrase})
+    return Words("{phrase}", values={"phrase": phrase})
 
 
 def _written(value: str | float | Words, language: Language) -> str:

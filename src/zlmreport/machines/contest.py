@@ -87,18 +87,10 @@ def _smooth_line(travelled: FloatArray, length: float) -> FloatArray:
     return np.asarray(np.exp(-0.5 * ((travelled[:, np.newaxis] - places) / length) ** 2))
 
 
-_EVEN = Words(
-    en="smooth over the angle, alike in both senses", de="glatt über dem Winkel, in beiden Drehsinnen gleich"
-)
-_ODD = Words(
-    en="smooth over the angle, opposite in the two senses",
-    de="glatt über dem Winkel, in den Drehsinnen entgegengesetzt",
-)
-_REVERSAL = Words(en="locked to the reversals of {axis}", de="an die Umkehrpunkte von {axis} gebunden")
-_TIME = Words(
-    en="smooth along the path, each turn in its own way",
-    de="glatt entlang der Bahn, in jedem Umlauf verschieden",
-)
+_EVEN = Words("smooth over the angle, alike in both senses")
+_ODD = Words("smooth over the angle, opposite in the two senses")
+_REVERSAL = Words("locked to the reversals of {axis}")
+_TIME = Words("smooth along the path, each turn in its own way")
 
 
 class Held(NamedTuple):

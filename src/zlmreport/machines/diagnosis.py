@@ -272,4 +272,4 @@ def _explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
 def _left(study: CircleStudy, outcome: CircleContest) -> CircleRemainder:
     """Return what is left beside all that is named: the residual beyond its noise."""
     beyond = max(rms_of(study) ** 2 - (study.noise.sigma**2), 0.0)
-    return CircleRemainder(float(np.sqrt(beyond)), outcome.shape or Words(en="of no shape", de="ohne Form"))
+    return CircleRemainder(float(np.sqrt(beyond)), outcome.shape or Words("of no shape"))

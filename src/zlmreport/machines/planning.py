@@ -234,18 +234,9 @@ def plan_values(found: NextRun, language: Language = Language.ENGLISH) -> dict[s
     }
 
 
-_OTHER_SENSE = Words(en="the same circle in the other sense", de="derselbe Kreis im anderen Drehsinn")
-_FASTER = Words(
-    en="the same circle at {feed} mm/min, in both senses",
-    de="derselbe Kreis mit {feed} mm/min, in beiden Drehsinnen",
-)
+_OTHER_SENSE = Words("the same circle in the other sense")
+_FASTER = Words("the same circle at {feed} mm/min, in both senses")
 _SLOWER = _FASTER
-_OTHER_BAR = Words(
-    en="a bar of {radius} mm, in both senses",
-    de="ein Stab von {radius} mm, in beiden Drehsinnen",
-)
-_OTHER_PLANE = Words(en="plane {plane}, in both senses", de="Ebene {plane}, in beiden Drehsinnen")
-_REPEAT = Words(
-    en="the same circle again, in both senses",
-    de="derselbe Kreis noch einmal, in beiden Drehsinnen",
-)
+_OTHER_BAR = Words("a bar of {radius} mm, in both senses")
+_OTHER_PLANE = Words("plane {plane}, in both senses")
+_REPEAT = Words("the same circle again, in both senses")

@@ -43,15 +43,9 @@ _NOISE = 1e-9
 _FARTHEST, _LONGEST = 1e4, 1e8
 _MOST_RUNS = 1_000_000
 
-_NO_TIMES = Words(
-    en="No times were logged: drift and warm-up can only be judged by the order of the readings.",
-    de="Es wurden keine Zeiten aufgezeichnet: Drift und Warmlauf sind nur nach der Reihenfolge der Messwerte "
-    "zu beurteilen.",
-)
+_NO_TIMES = Words("No times were logged: drift and warm-up can only be judged by the order of the readings.")
 _MODULO = Words(
-    en="Whole turns were taken off readings (number: {count}): positions were displayed modulo 360°.",
-    de="Von Messwerten wurden ganze Umdrehungen abgezogen (Anzahl: {count}): Die Positionen waren modulo "
-    "360° angezeigt.",
+    "Whole turns were taken off readings (number: {count}): positions were displayed modulo 360°."
 )
 
 

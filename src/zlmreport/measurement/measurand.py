@@ -48,15 +48,15 @@ class Coordinate(StrEnum):
 _UNITS = {Coordinate.LENGTH: MILLIMETRE, Coordinate.ANGLE: DEGREE, Coordinate.TIME: HOUR}
 _SPELLINGS = {Coordinate.LENGTH: LENGTH_UNITS, Coordinate.ANGLE: ANGLE_UNITS, Coordinate.TIME: TIMES}
 
-_NAME_WITH_SYMBOL = Words("{name} {symbol}", "{name} {symbol}")
-_OF_AXIS = Words("{name} of axis {axis}", "{name} der Achse {axis}")
-_AXIS = Words(en="Axis {axis}", de="Achse {axis}")
-_TARGET = Words(en="Target position", de="Sollposition")
-_ACTUAL = Words(en="actual − target position", de="Istposition − Sollposition")
-_REVERSAL = Words(en="reversal value", de="Umkehrspanne")
+_NAME_WITH_SYMBOL = Words("{name} {symbol}")
+_OF_AXIS = Words("{name} of axis {axis}")
+_AXIS = Words("Axis {axis}")
+_TARGET = Words("Target position")
+_ACTUAL = Words("actual − target position")
+_REVERSAL = Words("reversal value")
 _SENSES = (
-    Words(en="positive direction ↑", de="positive Richtung ↑"),
-    Words(en="negative direction ↓", de="negative Richtung ↓"),
+    Words("positive direction ↑"),
+    Words("negative direction ↓"),
 )
 
 
@@ -150,11 +150,8 @@ class Measurand:
 #: How far an axis stands from where it was told to stand.
 POSITIONING = Measurand(
     identifier="positioning",
-    title=Words(en="Positioning accuracy", de="Positioniergenauigkeit"),
-    definition=Words(
-        en="the actual position minus the target position",
-        de="die Istposition minus der Sollposition",
-    ),
+    title=Words("Positioning accuracy"),
+    definition=Words("the actual position minus the target position"),
     is_position=True,
 )
 #: The same of a rotary axis.
@@ -169,44 +166,27 @@ ROTARY_POSITIONING = Measurand(
 #: How far a motion strays across its direction.
 STRAIGHTNESS = Measurand(
     identifier="straightness",
-    title=Words(en="Straightness error", de="Geradheitsabweichung"),
-    definition=Words(
-        en="the displacement perpendicular to the motion, in one of the two directions across it",
-        de="die Verlagerung quer zur Bewegung, in einer der beiden Richtungen quer zu ihr",
-    ),
-    sign=Words(
-        en="displacement across the motion, positive in the positive direction of {letter}",
-        de="Verlagerung quer zur Bewegung, positiv in der positiven Richtung von {letter}",
-    ),
+    title=Words("Straightness error"),
+    definition=Words("the displacement perpendicular to the motion, in one of the two directions across it"),
+    sign=Words("displacement across the motion, positive in the positive direction of {letter}"),
 )
 #: How far a moving component turns: roll, pitch or yaw.
 ANGLE = Measurand(
     identifier="angle",
-    title=Words(en="Angular error", de="Winkelabweichung"),
-    definition=Words(
-        en="the rotation of the moving component about one of the three directions",
-        de="die Drehung der bewegten Baugruppe um eine der drei Richtungen",
-    ),
+    title=Words("Angular error"),
+    definition=Words("the rotation of the moving component about one of the three directions"),
     unit=ARCSECOND,
-    sign=Words(
-        en="rotation about {letter}, positive in the positive sense of ISO 841 (right-hand rule)",
-        de="Drehung um {letter}, positiv im positiven Sinn nach ISO 841 (Rechte-Hand-Regel)",
-    ),
+    sign=Words("rotation about {letter}, positive in the positive sense of ISO 841 (right-hand rule)"),
 )
 #: How far two axes are from a right angle.
 SQUARENESS = Measurand(
     identifier="squareness",
-    title=Words(en="Squareness error", de="Rechtwinkligkeitsabweichung"),
-    definition=Words(
-        en="the angle between the reference straight lines of two axes, minus 90°",
-        de="der Winkel zwischen den Bezugsgeraden zweier Achsen, minus 90°",
-    ),
+    title=Words("Squareness error"),
+    definition=Words("the angle between the reference straight lines of two axes, minus 90°"),
     unit=ARCSECOND,
     sign=Words(
-        en="turn of axis {letter} against its reference axis from the right angle, positive by the "
-        "right-hand rule (this program's reading of ISO 230-1)",
-        de="Drehung der Achse {letter} gegen ihre Bezugsachse aus dem rechten Winkel, positiv nach der "
-        "Rechte-Hand-Regel (nach dem Verständnis dieses Programms von ISO 230-1)",
+        "turn of axis {letter} against its reference axis from the right angle, positive by the "
+        "right-hand rule (this program's reading of ISO 230-1)"
     ),
     joins_tests=True,
 )
@@ -214,23 +194,17 @@ SQUARENESS = Measurand(
 #: How far the path of a circle strays from its radius.
 CIRCLE = Measurand(
     identifier="circle",
-    title=Words(en="Circular accuracy", de="Kreisgenauigkeit"),
-    definition=Words(
-        en="the distance of the actual path from its centre minus the nominal radius",
-        de="der Abstand der Istbahn von ihrem Mittelpunkt minus dem Sollradius",
-    ),
+    title=Words("Circular accuracy"),
+    definition=Words("the distance of the actual path from its centre minus the nominal radius"),
     coordinate=Coordinate.ANGLE,
     is_closed=True,
-    sign=Words(
-        en="actual − nominal radius, positive outwards",
-        de="Istradius − Sollradius, positiv nach außen",
-    ),
-    subject=Words("{name} in the plane {axis}", "{name} in der Ebene {axis}"),
-    bearer=Words(en="Plane {axis}", de="Ebene {axis}"),
-    target=Words(en="Angle", de="Winkel"),
+    sign=Words("actual − nominal radius, positive outwards"),
+    subject=Words("{name} in the plane {axis}"),
+    bearer=Words("Plane {axis}"),
+    target=Words("Angle"),
     senses=(
-        Words(en="counter-clockwise", de="Gegenuhrzeigersinn"),
-        Words(en="clockwise", de="Uhrzeigersinn"),
+        Words("counter-clockwise"),
+        Words("clockwise"),
     ),
     is_continuous=True,
 )
@@ -238,22 +212,18 @@ CIRCLE = Measurand(
 #: How far a point of a machine moves while it stands: what one sensor reads over time.
 DISPLACEMENT = Measurand(
     identifier="displacement",
-    title=Words(en="Displacement over time", de="Verlagerung über der Zeit"),
+    title=Words("Displacement over time"),
     definition=Words(
-        en="the displacement of one point of the machine against another since the sensor was set to zero",
-        de="die Verlagerung einer Stelle der Maschine gegen eine andere seit dem Nullsetzen des Messtasters",
+        "the displacement of one point of the machine against another since the sensor was set to zero"
     ),
     coordinate=Coordinate.TIME,
-    sign=Words(
-        en="displacement since the sensor was set to zero, with the sign of its display",
-        de="Verlagerung seit dem Nullsetzen des Messtasters, mit dem Vorzeichen seiner Anzeige",
-    ),
-    subject=Words("{name}, sensor {axis}", "{name}, Messtaster {axis}"),
-    bearer=Words(en="Sensor {axis}", de="Messtaster {axis}"),
-    target=Words(en="Time", de="Zeit"),
+    sign=Words("displacement since the sensor was set to zero, with the sign of its display"),
+    subject=Words("{name}, sensor {axis}"),
+    bearer=Words("Sensor {axis}"),
+    target=Words("Time"),
     senses=(
-        Words(en="as time goes on", de="im Lauf der Zeit"),
-        Words(en="back in time", de="gegen den Lauf der Zeit"),
+        Words("as time goes on"),
+        Words("back in time"),
     ),
     is_continuous=True,
 )

@@ -41,14 +41,12 @@ class ConditionKind:
 #: What the conditions are called on pages.
 CONDITION_NAMES: Mapping[str, Words] = MappingProxyType(
     {
-        "axis_temperature": Words(
-            en="Temperature of the machine's scale", de="Temperatur des Maschinenmaßstabs"
-        ),
-        "screw_temperature": Words(en="Temperature of the screw", de="Temperatur der Spindel"),
-        "air_temperature": Words(en="Air temperature", de="Lufttemperatur"),
-        "material_temperature": Words(en="Material temperature", de="Materialtemperatur"),
-        "air_pressure": Words(en="Air pressure", de="Luftdruck"),
-        "relative_humidity": Words(en="Relative humidity", de="Relative Luftfeuchte"),
+        "axis_temperature": Words("Temperature of the machine's scale"),
+        "screw_temperature": Words("Temperature of the screw"),
+        "air_temperature": Words("Air temperature"),
+        "material_temperature": Words("Material temperature"),
+        "air_pressure": Words("Air pressure"),
+        "relative_humidity": Words("Relative humidity"),
     }
 )
 

@@ -287,9 +287,7 @@ def _figure(evaluation: Evaluation, text: str) -> Figure:
     return Figure(
         key="everything",
         title=same(text),
-        alternative=Words(en="From {low} to {high}: {text}", de="Von {low} bis {high}: {text}").given(
-            low=low, high=high, text=text
-        ),
+        alternative=Words("From {low} to {high}: {text}").given(low=low, high=high, text=text),
         x_title=same(text),
         y_title=same(text),
         x_unit=axis.position_unit.symbol,

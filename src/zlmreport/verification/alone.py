@@ -32,27 +32,17 @@ from zlmreport.verification.findings import (
 #: Beginnings of a file that tell what it is, without its first bytes of white space.
 _LONGEST_HEAD = 4000
 _DIGEST = re.compile(r"(?<![0-9A-Z-])[0-9A-HJKMNP-TV-Z]{4}(?:-[0-9A-HJKMNP-TV-Z]{4}){3}(?![0-9A-Z-])")
-_UNSIGNED = Words(
-    en="a file of this kind bears no signature: nothing tells who made it",
-    de="eine Datei dieser Art trägt keine Signatur: nichts sagt, wer sie hergestellt hat",
-)
+_UNSIGNED = Words("a file of this kind bears no signature: nothing tells who made it")
 _NO_PDF = Words(
-    en="nothing of it is compared: it does not carry what it was made from. Put the PDF of the certificate "
-    "beside it, as {name}, and verify it once more",
-    de="nichts davon ist verglichen: sie enthält nicht, woraus sie hergestellt ist. Die PDF-Datei des "
-    "Dokuments als {name} daneben legen und noch einmal prüfen",
+    "nothing of it is compared: it does not carry what it was made from. Put the PDF of the certificate "
+    "beside it, as {name}, and verify it once more"
 )
 _BY_DIGEST = Words(
-    en="it states the digest {digest}; verify the PDF of the certificate, and hold the digest that it gives "
-    "against this one",
-    de="sie gibt das Prüfzeichen {digest} an; die PDF-Datei des Dokuments prüfen und das Prüfzeichen, das "
-    "dabei herauskommt, mit diesem vergleichen",
+    "it states the digest {digest}; verify the PDF of the certificate, and hold the digest that it gives "
+    "against this one"
 )
-_BESIDE = Words(en="held against {name}, which lies beside it", de="gehalten gegen {name}, die daneben liegt")
-_OTHER_PROGRAMS = Words(
-    en="made by other releases, or in a look of the laboratory's own: not compared",
-    de="von anderen Ausgaben hergestellt oder im eigenen Aussehen des Laboratoriums: nicht verglichen",
-)
+_BESIDE = Words("held against {name}, which lies beside it")
+_OTHER_PROGRAMS = Words("made by other releases, or in a look of the laboratory's own: not compared")
 
 
 def _is_workbook(content: bytes) -> bool:

@@ -16,10 +16,7 @@ from zlmreport.verification.findings import CheckedStatement, VerificationVerdic
 _OF_THE_FUTURE = frozenset({"due", "next_due"})
 #: Where it is another day already.
 _ELSEWHERE = dt.timedelta(days=1)
-_AHEAD = Words(
-    en="{date} lies in the future: by the clock of this computer it is {today}",
-    de="{date} liegt in der Zukunft: nach der Uhr dieses Rechners ist {today}",
-)
+_AHEAD = Words("{date} lies in the future: by the clock of this computer it is {today}")
 
 
 def future_dates(job: Job, today: dt.date) -> tuple[CheckedStatement, ...]:

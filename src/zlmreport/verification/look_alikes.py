@@ -29,23 +29,11 @@ _TOGETHER = (
     {"HAN", "BOPOMOFO", "LATIN"},
 )
 _OF_ALL = frozenset({"COMMON", "INHERITED"})
-_MIXED = Words(
-    en="'{word}' mixes letters of {scripts}",
-    de="„{word}“ mischt Buchstaben aus {scripts}",
-)
-_WHOLLY = Words(
-    en="'{word}' is written in {scripts} letters that look like '{like}'",
-    de="„{word}“ steht in Buchstaben aus {scripts}, die wie „{like}“ aussehen",
-)
-_DIGITS = Words(
-    en="'{word}' has letters where digits belong",
-    de="„{word}“ hat Buchstaben, wo Ziffern hingehören",
-)
-_OTHER_DIGITS = Words(
-    en="'{word}' has digits of another script: {like}",
-    de="„{word}“ hat Ziffern einer anderen Schrift: {like}",
-)
-_UNSEEN = Words(en="has an {character}", de="enthält ein {character}")
+_MIXED = Words("'{word}' mixes letters of {scripts}")
+_WHOLLY = Words("'{word}' is written in {scripts} letters that look like '{like}'")
+_DIGITS = Words("'{word}' has letters where digits belong")
+_OTHER_DIGITS = Words("'{word}' has digits of another script: {like}")
+_UNSEEN = Words("has an {character}")
 
 
 def read_as(text: str) -> str:

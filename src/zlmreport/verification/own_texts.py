@@ -78,18 +78,10 @@ _OF_A_DOCUMENT = re.compile(
 )
 _LONGEST = 80
 
-_STATED = Words(
-    en="'{text}' is the laboratory's own word: no reading gives its numbers",
-    de="„{text}“ ist das Wort des Laboratoriums: kein Messwert ergibt seine Zahlen",
-)
-_JUDGED = Words(
-    en="'{text}' is the laboratory's own word: no decision rule gives such a verdict",
-    de="„{text}“ ist das Wort des Laboratoriums: keine Entscheidungsregel ergibt ein solches Urteil",
-)
+_STATED = Words("'{text}' is the laboratory's own word: no reading gives its numbers")
+_JUDGED = Words("'{text}' is the laboratory's own word: no decision rule gives such a verdict")
 _NUMBERED = Words(
-    en="'{text}' is the laboratory's own word: it numbers pages or documents where this one's number stands",
-    de="„{text}“ ist das Wort des Laboratoriums: es nummeriert Seiten oder Dokumente, wo die Nummer dieses "
-    "Dokuments steht",
+    "'{text}' is the laboratory's own word: it numbers pages or documents where this one's number stands"
 )
 
 

@@ -48,42 +48,28 @@ PRINTED = "pdf"
 _PROGRAM = GENERATOR.partition(" ")[0]
 _RELEASE = re.compile(r"\S+ \d{1,4}(\.\d{1,4}){0,3}((a|b|rc)\d{1,3})?", re.ASCII)
 _OTHER_RELEASES = Words(
-    en="made by {stated}, and this is {here}: readings and parameters are compared, and what else differs is "
-    "not decided; to decide, install the releases that made it, and verify it there",
-    de="hergestellt von {stated}, und dies ist {here}: Messwerte und Kenngrößen sind verglichen, und was "
-    "sonst abweicht, ist nicht entschieden; zum Entscheiden die Ausgaben installieren, die es hergestellt "
-    "haben, und dort prüfen",
+    "made by {stated}, and this is {here}: readings and parameters are compared, and what else differs is "
+    "not decided; to decide, install the releases that made it, and verify it there"
 )
-_REPEATED = Words(
-    en="made by {stated}; this is {here}, and it repeats all of it in that name",
-    de="hergestellt von {stated}; dies ist {here} und wiederholt alles davon unter jenem Namen",
-)
+_REPEATED = Words("made by {stated}; this is {here}, and it repeats all of it in that name")
 _OWN_LOOK = Words(
-    en="printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
-    "carry: how its pages are drawn is not decided",
-    de="gedruckt in einer Schrift oder nach Vorlagen des Laboratoriums (certificate.style), die nicht "
-    "beiliegen: wie die Seiten gezeichnet sind, ist nicht entschieden",
+    "printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
+    "carry: how its pages are drawn is not decided"
 )
 _NUMBER = re.compile(r"\d+[.,]\d+")
 #: Not those of a date, a standard or a document's own number.
 _WHOLE_NUMBER = re.compile(r"(?<![\w.,:/-])\d+(?![\d:/-]|[.,]\d)")
 _OTHER_RENDERER = Words(
-    en="printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
-    "install it",
-    de="gedruckt von {creator}, das hier nicht installiert ist: wie die Seiten gezeichnet sind, ist nicht "
-    "entschieden; zum Entscheiden installieren",
+    "printed by {creator}, which is not installed here: how pages are drawn is not decided; to decide, "
+    "install it"
 )
 _OTHER_LIBRARIES = Words(
-    en="no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
-    "each page is compared by its shape, its colour and its place",
-    de="keine Seite ist hier so gezeichnet wie dort: andere Bibliotheken haben sie gedruckt, oder jede Seite "
-    "ist verändert; jedes Zeichen jeder Seite ist nach Form, Farbe und Ort verglichen",
+    "no page is drawn here as it was: other libraries printed it, or every page is altered; each mark on "
+    "each page is compared by its shape, its colour and its place"
 )
 _NOT_ASKED = Words(
-    en="the file is not byte for byte what is made again (signed, or saved by another program), and {names} "
-    "could not be asked what it shows: not installed here",
-    de="die Datei ist nicht Byte für Byte die erneut hergestellte (signiert oder von einem anderen Programm "
-    "gespeichert), und {names} konnte nicht gefragt werden, was sie zeigt: hier nicht installiert",
+    "the file is not byte for byte what is made again (signed, or saved by another program), and {names} "
+    "could not be asked what it shows: not installed here"
 )
 
 _SIGNATURE = "signature"
@@ -425,29 +411,19 @@ def _signature_finding(state: SignatureState, *, is_required: bool) -> CheckedSt
         Integrity.INTACT: (VerificationVerdict.HOLDS, _joined([_signed(each) for each in state.signatures])),
         Integrity.ALTERED: (
             VerificationVerdict.DIFFERS,
-            Words(en="the file is signed, but {reason}", de="die Datei ist signiert, aber: {reason}").given(
-                reason=state.reason
-            ),
+            Words("the file is signed, but {reason}").given(reason=state.reason),
         ),
         Integrity.UNSIGNED: (
             VerificationVerdict.OPEN,
-            Words(
-                en="not signed: nothing tells who made the file",
-                de="nicht signiert: nichts sagt, wer die Datei hergestellt hat",
-            ),
+            Words("not signed: nothing tells who made the file"),
         ),
         Integrity.UNCHECKED: (
             VerificationVerdict.OPEN,
-            Words(
-                en="signed, but the signature is not checked: {reason}",
-                de="signiert, aber die Signatur ist nicht geprüft: {reason}",
-            ).given(reason=state.reason),
+            Words("signed, but the signature is not checked: {reason}").given(reason=state.reason),
         ),
     }[state.integrity]
     if is_required and not state.is_trusted and state.integrity is not Integrity.UNCHECKED:
-        required = Words(
-            en="a signature that is trusted is required", de="eine Signatur, der vertraut wird, ist verlangt"
-        )
+        required = Words("a signature that is trusted is required")
         return CheckedStatement(_SIGNATURE, VerificationVerdict.DIFFERS, _joined([detail, required]))
     return CheckedStatement(_SIGNATURE, verdict, detail)
 
@@ -456,29 +432,19 @@ def _joined(parts: Sequence[Words]) -> Words:
     """Return statements in a row."""
     names = [f"part_{number}" for number in range(len(parts))]
     frame = "; ".join(f"{{{name}}}" for name in names)
-    return Words(frame, frame, dict(zip(names, parts, strict=True)))
+    return Words(frame, values=dict(zip(names, parts, strict=True)))
 
 
 def _signed(signature: Signature) -> Words:
     when = f"{signature.time:%Y-%m-%d %H:%M %Z}".rstrip() if signature.time else ""
     if signature.is_stamp:
-        kept = Words(
-            en="kept with its proofs since {when}, by {stamper}",
-            de="mit ihren Nachweisen verwahrt seit {when}, von {stamper}",
-        )
+        kept = Words("kept with its proofs since {when}, by {stamper}")
         return kept.given(when=when, stamper=signature.signer)
-    by_clock = Words(
-        en=", {when} by the signer's own clock, which nothing proves",
-        de=", {when} nach der Uhr des Signierenden, was nichts belegt",
+    by_clock = Words(", {when} by the signer's own clock, which nothing proves")
+    by_stamp = Words(", {when} by a time stamp of {stamper}, {trust}").given(
+        stamper=signature.stamped_by, trust=_trust(is_trusted=signature.is_time_trusted)
     )
-    by_stamp = Words(
-        en=", {when} by a time stamp of {stamper}, {trust}",
-        de=", {when} nach einem Zeitstempel von {stamper}, {trust}",
-    ).given(stamper=signature.stamped_by, trust=_trust(is_trusted=signature.is_time_trusted))
-    said = Words(
-        en="intact, by {signer} (SHA-256 of the signer's certificate {digest}){time}; {trust}",
-        de="unversehrt, von {signer} (SHA-256 des Zertifikats {digest}){time}; {trust}",
-    )
+    said = Words("intact, by {signer} (SHA-256 of the signer's certificate {digest}){time}; {trust}")
     return said.given(
         signer=signature.signer,
         digest=signature.fingerprint,
@@ -489,9 +455,5 @@ def _signed(signature: Signature) -> Words:
 
 def _trust(distrust: str = "", *, is_trusted: bool) -> Words:
     if is_trusted:
-        return Words(en="trusted", de="ihm wird vertraut")
-    return (
-        same(distrust)
-        if distrust not in {"", "of unknown trust"}
-        else Words(en="of unknown trust", de="ob ihm zu trauen ist, ist unbekannt")
-    )
+        return Words("trusted")
+    return same(distrust) if distrust not in {"", "of unknown trust"} else Words("of unknown trust")

@@ -36,11 +36,8 @@ from zlmreport.web.texts import texts
 from zlmreport.web.view import before_and_after, closer, results, view
 
 _OTHER_PAGE = "the request is none of a page of this version"
-_TITLE = Words(en="Workbench", de="Werkbank")
-_NO_SCRIPT = Words(
-    en="The workbench needs JavaScript, which comes from this computer alone.",
-    de="Die Werkbank braucht JavaScript; es kommt allein von diesem Rechner.",
-)
+_TITLE = Words("Workbench")
+_NO_SCRIPT = Words("The workbench needs JavaScript, which comes from this computer alone.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from zlmreport.language import Language, Words
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
 
-_FULL_RANGE = Words(en="{name}: full range", de="{name}: volle Spanne")
+_FULL_RANGE = Words("{name}: full range")
 _INSTRUMENT_U = "instrument.expanded_uncertainty"
 
 
@@ -36,45 +36,43 @@ _FIELDS: Mapping[str, Field] = MappingProxyType(
     {
         each.key: each
         for each in (
-            Field("laboratory.name", Words(en="Laboratory", de="Laboratorium")),
-            Field("laboratory.address", Words(en="Its address", de="Dessen Anschrift")),
-            Field("location", Words(en="Place of the work", de="Ort der Arbeiten"), "place"),
-            Field("customer.name", Words(en="Customer", de="Auftraggeber")),
-            Field("customer.address", Words(en="The customer's address", de="Anschrift des Auftraggebers")),
-            Field("machine.model", Words(en="Model of the machine", de="Typ der Maschine")),
-            Field("machine.serial", Words(en="Its serial number", de="Deren Seriennummer")),
-            Field("measurement.date", Words(en="Date of the measurement", de="Datum der Messung"), "date"),
+            Field("laboratory.name", Words("Laboratory")),
+            Field("laboratory.address", Words("Its address")),
+            Field("location", Words("Place of the work"), "place"),
+            Field("customer.name", Words("Customer")),
+            Field("customer.address", Words("The customer's address")),
+            Field("machine.model", Words("Model of the machine")),
+            Field("machine.serial", Words("Its serial number")),
+            Field("measurement.date", Words("Date of the measurement"), "date"),
             Field(
                 "as_found.measurement.date",
-                Words(
-                    en="Date of the measurement before the adjustment", de="Datum der Messung vor der Justage"
-                ),
+                Words("Date of the measurement before the adjustment"),
                 "date",
             ),
-            Field("certificate.issued", Words(en="Date of issue", de="Ausstellungsdatum"), "date"),
-            Field("certificate.authorised_by.name", Words(en="Authorised by", de="Freigegeben durch")),
+            Field("certificate.issued", Words("Date of issue"), "date"),
+            Field("certificate.authorised_by.name", Words("Authorised by")),
             Field("instrument.name", DEVICE),
-            Field(_INSTRUMENT_U, Words(en="Its U (k = 2)", de="Dessen U (k = 2)"), "number"),
+            Field(_INSTRUMENT_U, Words("Its U (k = 2)"), "number"),
             Field(
                 "instrument.certificate",
-                Words(en="Its calibration certificate", de="Dessen Kalibrierschein"),
+                Words("Its calibration certificate"),
             ),
-            Field("as_found.adjustment", Words(en="What was adjusted", de="Was justiert wurde")),
+            Field("as_found.adjustment", Words("What was adjusted")),
             Field(
                 "environment.air_temperature",
-                Words(en="Air temperature", de="Lufttemperatur"),
+                Words("Air temperature"),
                 "number",
                 "°C",
             ),
             Field(
                 "environment.axis_temperature",
-                Words(en="Temperature of the machine's scale", de="Temperatur des Maschinenmaßstabs"),
+                Words("Temperature of the machine's scale"),
                 "number",
                 "°C",
             ),
             Field(
                 "environment.expansion_coefficient",
-                Words(en="Expansion coefficient of the machine", de="Ausdehnungskoeffizient der Maschine"),
+                Words("Expansion coefficient of the machine"),
                 "number",
                 "µm/(m·K)",
             ),

@@ -35,16 +35,11 @@ _NOTHING = "fill in a field first"
 _DECIMALS = 6
 
 _CONFLICT = Words(
-    en="The job was changed elsewhere: in another window, or in an editor. Nothing was overwritten. The page "
-    "now shows the job as it is; do it again if it still makes sense.",
-    de="Der Auftrag wurde an anderer Stelle geändert: in einem anderen Fenster oder in einem Editor. Nichts "
-    "wurde überschrieben. Die Seite zeigt jetzt den Auftrag, wie er ist; wiederholen Sie den Schritt, wenn "
-    "er noch sinnvoll ist.",
+    "The job was changed elsewhere: in another window, or in an editor. Nothing was overwritten. The page "
+    "now shows the job as it is; do it again if it still makes sense."
 )
 _NOTHING_TO_UNDO = Words(
-    en="There is nothing to take back: the job is not as the last step on this page left it.",
-    de="Es gibt nichts zurückzunehmen: Der Auftrag ist nicht so, wie ihn der letzte Schritt auf dieser Seite "
-    "hinterlassen hat.",
+    "There is nothing to take back: the job is not as the last step on this page left it."
 )
 
 ShortText = Annotated[str, StringConstraints(max_length=500)]

@@ -29,7 +29,7 @@ from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import symbol
 
-_AS_FOUND = Words(en="{name}, as found", de="{name}, wie vorgefunden")
+_AS_FOUND = Words("{name}, as found")
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +103,7 @@ class ComparedTests:
         return {"stamp": self.stamp(), "problems": problems, **(shown if len(tests) > 1 else {"tests": []})}
 
     def _tests(self, bench: Bench, loaded: Loaded) -> Iterator[_Test]:
-        job, name = loaded.job, Words(en=bench.path.stem, de=bench.path.stem)
+        job, name = loaded.job, Words(bench.path.stem)
         if job.as_found is not None:
             measurements, evaluated = self._before(bench, loaded, job.as_found)
             yield _Test(_AS_FOUND.given(name=name), job.as_found, measurements, evaluated, None)

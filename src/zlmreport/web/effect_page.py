@@ -23,20 +23,12 @@ from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.panels import naming, parameter_values, symbol
 
 _OVER_TIME = frozenset({Shape.TIME, Shape.RUN})
-_POSITION = Words(en="Position", de="Position")
-_TIME = Words(en="Time", de="Zeit")
-_READING = Words(en="Reading", de="Messwert")
-_HERE = Words(
-    en="As this test would see it: an effect of 1 {unit} rms, its mean taken away.",
-    de="Wie diese Messung ihn sähe: ein Einfluss von 1 {unit} quadratischem Mittel, ohne seinen Mittelwert.",
-)
-_CONSTANT = Words(
-    en="The same at every reading: here 1 {unit}.", de="Bei jedem Messwert gleich: hier 1 {unit}."
-)
-_ELSEWHERE = Words(
-    en="As a complete test would see it; this one cannot show it: {reason}.",
-    de="Wie eine vollständige Messung ihn sähe; diese kann ihn nicht zeigen: {reason}.",
-)
+_POSITION = Words("Position")
+_TIME = Words("Time")
+_READING = Words("Reading")
+_HERE = Words("As this test would see it: an effect of 1 {unit} rms, its mean taken away.")
+_CONSTANT = Words("The same at every reading: here 1 {unit}.")
+_ELSEWHERE = Words("As a complete test would see it; this one cannot show it: {reason}.")
 _DECIMALS = 6
 _ROUNDING = 1e-9
 #: Of an effect that repeats along the axis, so many are drawn.

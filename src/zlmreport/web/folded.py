@@ -26,8 +26,8 @@ _HARMONICS = 6
 _SAME = 1e-6
 #: Fewer periods in the travel are seen as well without being laid over each other.
 _LEAST_PERIODS = 2.0
-_WITHIN = Words(en="Position within {period} {unit}", de="Position innerhalb von {period} {unit}")
-_PART = Words(en="Deviation less the other effects", de="Abweichung ohne die übrigen Einflüsse")
+_WITHIN = Words("Position within {period} {unit}")
+_PART = Words("Deviation less the other effects")
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ _JOB = re.compile(r"^schema:\s*[\"']?zlmreport/job/", re.MULTILINE)
 #: The line that says what a file is stands among its first; comments may come before it.
 _HEAD = 20_000
 _MOST = 2_000
-_NO_AXIS = Words(en="", de="")
+_NO_AXIS = Words("")
 
 
 class JobState(IntEnum):
@@ -48,14 +48,14 @@ class JobState(IntEnum):
 
 
 _WORDS = {
-    JobState.FAILS: Words(en="failing", de="fehlerhaft"),
-    JobState.NOT_MET: Words(en="limit not met", de="Grenzwert nicht eingehalten"),
-    JobState.OVERDUE: Words(en="overdue", de="überfällig"),
-    JobState.UNDECIDED: Words(en="not decided", de="nicht entschieden"),
-    JobState.SOON: Words(en="due soon", de="bald fällig"),
-    JobState.FINE: Words(en="nothing to do", de="nichts zu tun"),
-    JobState.EARLIER: Words(en="earlier test", de="frühere Prüfung"),
-    JobState.WAITS: Words(en="being looked at …", de="wird angesehen …"),
+    JobState.FAILS: Words("failing"),
+    JobState.NOT_MET: Words("limit not met"),
+    JobState.OVERDUE: Words("overdue"),
+    JobState.UNDECIDED: Words("not decided"),
+    JobState.SOON: Words("due soon"),
+    JobState.FINE: Words("nothing to do"),
+    JobState.EARLIER: Words("earlier test"),
+    JobState.WAITS: Words("being looked at …"),
 }
 #: What the decisions of a job come to, by the name of their mark.
 _DECIDED = {"NOT_MET": JobState.NOT_MET, "OPEN": JobState.UNDECIDED}

@@ -40,10 +40,7 @@ _HEADERS = {
     "Cache-Control": "no-store",
 }
 
-_NO_TOKEN = Words(
-    en="This page opens only by the address that 'zlmreport workbench' printed on the terminal.",
-    de="Diese Seite öffnet sich nur über die Adresse, die 'zlmreport workbench' im Terminal ausgegeben hat.",
-)
+_NO_TOKEN = Words("This page opens only by the address that 'zlmreport workbench' printed on the terminal.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -36,10 +36,8 @@ from zlmreport.web.naming import Naming
 from zlmreport.web.texts import TEXTS
 
 _CHI2_IS = Words(
-    en="Sum of the squared residuals in units of the noise, for each degree of freedom: about 1 "
-    "where the model leaves only noise, larger where something is missing.",
-    de="Summe der quadrierten Residuen in Einheiten des Rauschens, je Freiheitsgrad: etwa 1, wenn "
-    "das Modell nur Rauschen übrig lässt, größer, wenn etwas fehlt.",
+    "Sum of the squared residuals in units of the noise, for each degree of freedom: about 1 "
+    "where the model leaves only noise, larger where something is missing."
 )
 
 

@@ -24,18 +24,18 @@ from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, redoabl
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import Panels, error_values, parameter_values
 
-_READING = Words(en="{target} {arrow}, run {run}", de="{target} {arrow}, Durchlauf {run}")
+_READING = Words("{target} {arrow}, run {run}")
 _ARROWS = {"+": "↑", "-": "↓"}
 _STEPS = {
-    "add": Words(en="{subject} added", de="{subject} hinzugefügt"),
-    "remove": Words(en="{subject} removed", de="{subject} entfernt"),
-    "fix": Words(en="{subject} fixed", de="{subject} festgehalten"),
-    "free": Words(en="{subject} freed", de="{subject} freigegeben"),
-    "exclude": Words(en="reading set aside: {subject}", de="Messwert beiseite gelegt: {subject}"),
-    "include": Words(en="reading brought back: {subject}", de="Messwert zurückgeholt: {subject}"),
-    "state": Words(en="{subject} stated", de="{subject} angegeben"),
-    "undo": Words(en="taken back: {subject}", de="zurückgenommen: {subject}"),
-    "redo": Words(en="done again: {subject}", de="wiederholt: {subject}"),
+    "add": Words("{subject} added"),
+    "remove": Words("{subject} removed"),
+    "fix": Words("{subject} fixed"),
+    "free": Words("{subject} freed"),
+    "exclude": Words("reading set aside: {subject}"),
+    "include": Words("reading brought back: {subject}"),
+    "state": Words("{subject} stated"),
+    "undo": Words("taken back: {subject}"),
+    "redo": Words("done again: {subject}"),
 }
 #: Steps that are shown; the file beside the job holds all of them.
 _SHOWN = 30

@@ -235,9 +235,7 @@ class Umd:
 
     def __init__(self, model: UmdModel) -> None:
         self.identifier = model.identifier
-        self.title = Words(
-            en="Laser interferometer display {name}", de="Laserinterferometer-Anzeige {name}"
-        ).given(name=model.name)
+        self.title = Words("Laser interferometer display {name}").given(name=model.name)
         self.options: type[Options] = UmdOptions
         self._model = model
 

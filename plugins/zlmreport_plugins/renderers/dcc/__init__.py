@@ -21,7 +21,7 @@ class DccRenderer:
     """
 
     identifier = "dcc"
-    title = Words(en="Digital calibration certificate (DCC, XML)", de="Digitaler Kalibrierschein (DCC, XML)")
+    title = Words("Digital calibration certificate (DCC, XML)")
     suffix = ".xml"
     relationship = Relationship.ALTERNATIVE
 

@@ -51,10 +51,10 @@ _PLACES = {
     "laboratory branch": "laboratoryBranch",
     "customer branch": "customerBranch",
 }
-_AXIS = Words(en="Axis {axis}", de="Achse {axis}")
-_AXIS_OF = Words(en="Axis {axis} of {machine}", de="Achse {axis} von {machine}")
-_AXIS_NAME = Words(en="Axis", de="Achse")
-_SERIAL = Words(en="Serial number", de="Seriennummer")
+_AXIS = Words("Axis {axis}")
+_AXIS_OF = Words("Axis {axis} of {machine}")
+_AXIS_NAME = Words("Axis")
+_SERIAL = Words("Serial number")
 
 
 @dataclass(frozen=True, slots=True)
@@ -234,19 +234,17 @@ _CONDITIONS = {
 }
 _NAMES = {
     **CONDITION_NAMES,
-    "expansion_coefficient": Words(
-        en="Expansion coefficient of the machine", de="Koeffizient der Längenausdehnung der Maschine"
-    ),
+    "expansion_coefficient": Words("Expansion coefficient of the machine"),
 }
-_STATE = Words(en="State of the axis", de="Zustand der Achse")
+_STATE = Words("State of the axis")
 _STATES = {
-    "before": Words(en="as found", de="wie vorgefunden"),
-    "after": Words(en="as left", de="wie hinterlassen"),
+    "before": Words("as found"),
+    "after": Words("as left"),
 }
-_BY_CUSTOMER = Words(en="Provided by the customer", de="Angabe des Auftraggebers")
-_SENSORS = Words(en="Sensor locations", de="Messstellen")
-_REMARKS = Words(en="Remarks on the environment", de="Bemerkungen zur Umgebung")
-_CALIBRATION = Words(en="Calibration certificate: {number}", de="Kalibrierschein: {number}")
+_BY_CUSTOMER = Words("Provided by the customer")
+_SENSORS = Words("Sensor locations")
+_REMARKS = Words("Remarks on the environment")
+_CALIBRATION = Words("Calibration certificate: {number}")
 
 
 def equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:

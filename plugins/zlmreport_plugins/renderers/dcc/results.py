@@ -57,76 +57,51 @@ from zlmreport_plugins.renderers.dcc.elements import (
     unit_of,
 )
 
-_RESULTS = Words(
-    en="{subject} by {designation}",
-    de="{subject} nach {designation}",
-)
-_RESULTS_BY_METHOD = Words(
-    en="{subject} by the method of {designation}",
-    de="{subject} nach dem Verfahren von {designation}",
-)
-_OF_LINE = Words("{name}: {said}", "{name}: {said}")
-_PARAMETERS = Words(en="Parameters of the axis", de="Kenngrößen der Achse")
-_OF_NO_AXIS = Words(en="Parameters", de="Kenngrößen")
-_POSITIONS = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
-_CURVES = Words(en="Mean curves", de="Mittlere Kurven")
-_MEAN = Words(en="Mean deviation, {of}", de="Mittlere Abweichung, {of}")
-_MEAN_OF_BOTH = Words(
-    en="Mean deviation of both approaches", de="Mittlere Abweichung beider Anfahrrichtungen"
-)
-_MEAN_OF_SENSES = Words(en="Mean deviation of both senses", de="Mittlere Abweichung beider Richtungssinne")
-_DEVIATIONS = Words(en="Standard deviation, {of}", de="Standardabweichung, {of}")
-_REVERSAL = Words(en="Reversal value", de="Umkehrspanne")
-_DIFFERENCE = Words(en="Difference of both senses", de="Differenz beider Richtungssinne")
+_RESULTS = Words("{subject} by {designation}")
+_RESULTS_BY_METHOD = Words("{subject} by the method of {designation}")
+_OF_LINE = Words("{name}: {said}")
+_PARAMETERS = Words("Parameters of the axis")
+_OF_NO_AXIS = Words("Parameters")
+_POSITIONS = Words("Results by target position")
+_CURVES = Words("Mean curves")
+_MEAN = Words("Mean deviation, {of}")
+_MEAN_OF_BOTH = Words("Mean deviation of both approaches")
+_MEAN_OF_SENSES = Words("Mean deviation of both senses")
+_DEVIATIONS = Words("Standard deviation, {of}")
+_REVERSAL = Words("Reversal value")
+_DIFFERENCE = Words("Difference of both senses")
 _APPROACHES = (
-    Words(en="positive approach", de="positive Anfahrrichtung"),
-    Words(en="negative approach", de="negative Anfahrrichtung"),
+    Words("positive approach"),
+    Words("negative approach"),
 )
-_LIMIT = Words(en="Limit", de="Grenzwert")
-_ACCEPTED = Words(en="Acceptance limit", de="Annahmegrenze")
-_FOUND = Words(en="{requirement}: {found}", de="{requirement}: {found}")
+_LIMIT = Words("Limit")
+_ACCEPTED = Words("Acceptance limit")
+_FOUND = Words("{requirement}: {found}")
 _FINDINGS = {
-    True: Words(
-        en="Requirement of {designation} that is met", de="Anforderung von {designation}, die erfüllt ist"
-    ),
-    False: Words(
-        en="Requirement of {designation} that the test does not meet",
-        de="Anforderung von {designation}, die die Messung nicht erfüllt",
-    ),
-    None: Words(
-        en="Requirement of {designation} that is open", de="Anforderung von {designation}, die offen ist"
-    ),
+    True: Words("Requirement of {designation} that is met"),
+    False: Words("Requirement of {designation} that the test does not meet"),
+    None: Words("Requirement of {designation} that is open"),
 }
-_RISK = Words(en="Risk that the statement is wrong", de="Risiko, dass die Aussage falsch ist")
+_RISK = Words("Risk that the statement is wrong")
 _INTERVAL = Words(
-    en="Interval that holds, with 95 %, what another test of this axis by the same plan would find with the "
-    "same set-up left in place; errors of the set-up are not in it",
-    de="Intervall, das mit 95 % enthält, was eine weitere Messung dieser Achse nach demselben Plan mit "
-    "derselben, unveränderten Messeinrichtung fände; Fehler der Messeinrichtung enthält es nicht",
+    "Interval that holds, with 95 %, what another test of this axis by the same plan would find with the "
+    "same set-up left in place; errors of the set-up are not in it"
 )
-_LOWEST = Words(en="Lower end", de="Unteres Ende")
-_HIGHEST = Words(en="Upper end", de="Oberes Ende")
-_BUDGET = Words(
-    en="Uncertainty budget: standard uncertainties at the end of the measured length",
-    de="Messunsicherheitsbilanz: Standardunsicherheiten am Ende der Messlänge",
-)
-_BUDGET_OF_NO_LENGTH = Words(
-    en="Uncertainty budget: standard uncertainties of a reading",
-    de="Messunsicherheitsbilanz: Standardunsicherheiten eines Messwerts",
-)
-_COMBINED = Words(en="Combined standard uncertainty", de="Kombinierte Standardunsicherheit")
+_LOWEST = Words("Lower end")
+_HIGHEST = Words("Upper end")
+_BUDGET = Words("Uncertainty budget: standard uncertainties at the end of the measured length")
+_BUDGET_OF_NO_LENGTH = Words("Uncertainty budget: standard uncertainties of a reading")
+_COMBINED = Words("Combined standard uncertainty")
 _CHANGES = Words(
-    en="Changes of the parameters: as left − as found; U is the sum of both U and holds whatever errors the "
-    "two measurements share",
-    de="Änderungen der Kenngrößen: nachher − vorher; U ist die Summe beider U und gilt, welche Fehler den "
-    "beiden Messungen auch gemeinsam sind",
+    "Changes of the parameters: as left − as found; U is the sum of both U and holds whatever errors the "
+    "two measurements share"
 )
-_READINGS = Words(en="Readings, in the order in which they were taken", de="Messwerte, in der Reihenfolge")
-_DIRECTION = Words(en="Direction of approach", de="Anfahrrichtung")
-_SENSE = Words(en="Sense of motion: 1 is {first}", de="Richtungssinn: 1 ist {first}")
-_RUN = Words(en="Number of the run", de="Nummer des Durchlaufs")
-_DEVIATION = Words(en="Deviation", de="Abweichung")
-_TIME = Words(en="Time from the first reading", de="Zeit seit dem ersten Messwert")
+_READINGS = Words("Readings, in the order in which they were taken")
+_DIRECTION = Words("Direction of approach")
+_SENSE = Words("Sense of motion: 1 is {first}")
+_RUN = Words("Number of the run")
+_DEVIATION = Words("Deviation")
+_TIME = Words("Time from the first reading")
 
 _CONFORMITY = {
     Conformity.MET: "pass",

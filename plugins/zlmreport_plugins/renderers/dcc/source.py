@@ -40,10 +40,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     unit_of,
 )
 
-_FROM = Words(
-    en="Readings of the digital calibration certificate {number}, corrected as it states.",
-    de="Messwerte des digitalen Kalibrierscheins {number}, korrigiert wie dort angegeben.",
-)
+_FROM = Words("Readings of the digital calibration certificate {number}, corrected as it states.")
 _DEMANDED = (TARGET, DIRECTION, RUN, DEVIATION)
 _APPROACHES = {1.0: Approach.POSITIVE, -1.0: Approach.NEGATIVE}
 
@@ -64,7 +61,7 @@ class DccSource:
     """The readings that a digital calibration certificate carries beside its results."""
 
     identifier = "dcc"
-    title = Words(en="Digital calibration certificate (DCC, XML)", de="Digitaler Kalibrierschein (DCC, XML)")
+    title = Words("Digital calibration certificate (DCC, XML)")
     options: type[Options] = DccOptions
     suffixes = (".xml",)
 

@@ -48,7 +48,7 @@ class JsonResultsRenderer:
     """The results file."""
 
     identifier = "json"
-    title = Words(en="Results file (JSON)", de="Ergebnisdatei (JSON)")
+    title = Words("Results file (JSON)")
     suffix = ".json"
     relationship = Relationship.DATA
 

@@ -31,40 +31,40 @@ _WITHOUT_UNIT = frozenset({"coverage_factor", "risk", "chi2_per_dof"})
 #: A number, a text, or nothing.
 _Cell: TypeAlias = float | str | None
 
-_PARAMETERS = Words(en="Parameters", de="Kenngrößen")
-_AS_FOUND = Words(en="{sheet} as found", de="{sheet} vorher")
-_POSITIONS = Words(en="Positions", de="Positionen")
-_READINGS = Words(en="Readings", de="Messwerte")
-_MODEL = Words(en="Error model", de="Fehlermodell")
-_STANDARD = Words(en="Standard", de="Norm")
+_PARAMETERS = Words("Parameters")
+_AS_FOUND = Words("{sheet} as found")
+_POSITIONS = Words("Positions")
+_READINGS = Words("Readings")
+_MODEL = Words("Error model")
+_STANDARD = Words("Standard")
 _PARAMETER_HEADINGS = (
-    Words(en="Certificate", de="Schein"),
+    Words("Certificate", context="sheet"),
     _STANDARD,
-    Words(en="Symbol", de="Formelzeichen"),
-    Words(en="Name", de="Benennung"),
-    Words(en="Value", de="Wert"),
-    Words(en="Unit", de="Einheit"),
-    Words(en="U", de="U"),
-    Words(en="k", de="k"),
-    Words(en="Limit", de="Grenzwert"),
-    Words(en="Decision", de="Entscheidung"),
+    Words("Symbol"),
+    Words("Name"),
+    Words("Value"),
+    Words("Unit"),
+    Words("U"),
+    Words("k"),
+    Words("Limit"),
+    Words("Decision"),
 )
-_INCOMPLETE = Words(en="U incomplete, not considered", de="U unvollständig, nicht berücksichtigt")
+_INCOMPLETE = Words("U incomplete, not considered")
 _READING_HEADINGS = (
-    Words(en="Run", de="Durchlauf"),
-    Words(en="Direction", de="Richtung"),
-    Words(en="Target", de="Sollposition"),
-    Words(en="Deviation", de="Abweichung"),
+    Words("Run"),
+    Words("Direction"),
+    Words("Target"),
+    Words("Deviation"),
 )
 _MODEL_HEADINGS = (
-    Words(en="Effect", de="Einfluss"),
-    Words(en="Parameter", de="Parameter"),
-    Words(en="Value", de="Wert"),
-    Words(en="Unit", de="Einheit"),
-    Words(en="U", de="U"),
+    Words("Effect"),
+    Words("Parameter", context="model"),
+    Words("Value"),
+    Words("Unit"),
+    Words("U"),
 )
-_TARGET = Words(en="Target", de="Sollposition")
-_DEVIATION = Words(en="Deviation", de="Abweichung")
+_TARGET = Words("Target")
+_DEVIATION = Words("Deviation")
 
 #: What no cell can hold.
 _NOT_IN_CELLS = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff\ud800-\udfff]")
@@ -95,7 +95,7 @@ class CsvRenderer:
     """Results as CSV: UTF-8, comma, decimal point."""
 
     identifier = "csv"
-    title = Words(en="Results, one value a row (CSV)", de="Ergebnisse, ein Wert je Zeile (CSV)")
+    title = Words("Results, one value a row (CSV)")
     suffix = ".csv"
 
     def render(self, certificate: Certificate) -> bytes:
@@ -182,7 +182,7 @@ class XlsxRenderer:
     """Results as a workbook of Office Open XML."""
 
     identifier = "xlsx"
-    title = Words(en="Workbook of results (XLSX)", de="Arbeitsmappe der Ergebnisse (XLSX)")
+    title = Words("Workbook of results (XLSX)")
     suffix = ".xlsx"
 
     def render(self, certificate: Certificate) -> bytes:

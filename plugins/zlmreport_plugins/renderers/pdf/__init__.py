@@ -10,7 +10,7 @@ class PdfRenderer:
     """Certificates as PDF."""
 
     identifier = "pdf"
-    title = Words(en="PDF, tagged for accessibility", de="PDF, barrierefrei ausgezeichnet")
+    title = Words("PDF, tagged for accessibility")
     suffix = ".pdf"
     carries_attachments = True
 

@@ -10,7 +10,7 @@ class TypstRenderer:
     """Certificates as PDF, set by Typst."""
 
     identifier = "pdf-typst"
-    title = Words(en="PDF, set by Typst", de="PDF, von Typst gesetzt")
+    title = Words("PDF, set by Typst")
     suffix = ".pdf"
     carries_attachments = True
     #: How its files begin the name of the program that made them.

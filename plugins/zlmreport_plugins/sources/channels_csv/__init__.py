@@ -57,21 +57,14 @@ _SENSOR = re.compile(r"[xyz][12]?")
 _HARDLY = 5e-7
 #: Channels of a file that a message names.
 _MOST_NAMED = 20
-_FROM = Words(
-    en="Channel “{channel}” ({unit}); times are counted from the first reading of the file.",
-    de="Kanal „{channel}“ ({unit}); Zeiten sind vom ersten Messwert der Datei an gezählt.",
-)
+_FROM = Words("Channel “{channel}” ({unit}); times are counted from the first reading of the file.")
 _BESIDE = Words(
-    en="Conditions were logged at other times than channel “{channel}”: {names} at its readings are linear "
-    "between those that were logged.",
-    de="Bedingungen wurden zu anderen Zeiten aufgezeichnet als Kanal „{channel}“: {names} sind bei seinen "
-    "Messwerten linear zwischen den aufgezeichneten.",
+    "Conditions were logged at other times than channel “{channel}”: {names} at its readings are linear "
+    "between those that were logged."
 )
 _AVERAGED = Words(
-    en="{readings} readings were averaged over intervals of {interval} s. What the averages leave out has a "
-    "root mean square of {left} µm.",
-    de="{readings} Messwerte wurden über Zeitabschnitte von {interval} s gemittelt. Was die Mittelwerte "
-    "weglassen, hat einen quadratischen Mittelwert von {left} µm.",
+    "{readings} readings were averaged over intervals of {interval} s. What the averages leave out has a "
+    "root mean square of {left} µm."
 )
 
 
@@ -79,7 +72,7 @@ class ChannelsCsv:
     """Tables of channels over time."""
 
     identifier = "channels-csv"
-    title = Words(en="Table of channels over time (CSV)", de="Tabelle von Kanälen über der Zeit (CSV)")
+    title = Words("Table of channels over time (CSV)")
     options: type[Options] = ChannelsCsvOptions
     suffixes = ()
 

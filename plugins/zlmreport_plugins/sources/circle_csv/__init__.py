@@ -62,54 +62,31 @@ _USUAL_RADIUS, _USUAL_FEED = 0.15, 1 / 60
 _FEWEST = 8
 #: Readings of a turn that are kept as they are.
 _MOST_KEPT = 3600
-_FROM = Words(
-    en="Angles from {angles}, {quantity} from the column “{column}” ({unit}).",
-    de="Winkel aus {angles}, {quantity} aus der Spalte „{column}“ ({unit}).",
-)
-_ANGLE_COLUMN = Words(en="the column “{column}” ({unit})", de="der Spalte „{column}“ ({unit})")
-_RECKONED = Words(
-    en="time and feed: each turn begins at {start}° and goes on with {feed} mm/min",
-    de="Zeit und Vorschub: jeder Umlauf beginnt bei {start}° und geht mit {feed} mm/min weiter",
-)
+_FROM = Words("Angles from {angles}, {quantity} from the column “{column}” ({unit}).")
+_ANGLE_COLUMN = Words("the column “{column}” ({unit})")
+_RECKONED = Words("time and feed: each turn begins at {start}° and goes on with {feed} mm/min")
 _QUANTITIES = {
-    "deviation": Words(en="radial deviations", de="Radialabweichungen"),
-    "radius": Words(en="radii, less the nominal one,", de="Radien, abzüglich des Sollradius,"),
+    "deviation": Words("radial deviations"),
+    "radius": Words("radii, less the nominal one,"),
 }
-_ONE_SENSE = Words(
-    en="The sense is not in the file; the job states it ({sense}).",
-    de="Der Drehsinn steht nicht in der Datei; der Auftrag gibt ihn an ({sense}).",
-)
-_ONE_RUN = Words(
-    en="The file names no runs: all readings of a sense were taken as one turn.",
-    de="Die Datei nennt keine Durchläufe: Alle Messwerte eines Drehsinns gelten als ein Umlauf.",
-)
+_ONE_SENSE = Words("The sense is not in the file; the job states it ({sense}).")
+_ONE_RUN = Words("The file names no runs: all readings of a sense were taken as one turn.")
 _ARCS = Words(
-    en="Evaluated of each turn: one round at most; {before}° before it and {behind}° behind it are set aside "
-    "as feed-in and feed-out ({why}).",
-    de="Ausgewertet ist von jedem Umlauf höchstens eine Runde; {before}° davor und {behind}° dahinter "
-    "bleiben als An- und Auslauf beiseite ({why}).",
+    "Evaluated of each turn: one round at most; {before}° before it and {behind}° behind it are set aside "
+    "as feed-in and feed-out ({why})."
 )
 _FOLLOW = Words(
-    en="The times begin anew with each turn: the turns are taken to follow each other without a pause.",
-    de="Die Zeiten beginnen mit jedem Umlauf neu: die Umläufe gelten als ohne Pause aufeinander folgend.",
+    "The times begin anew with each turn: the turns are taken to follow each other without a pause."
 )
-_STATED = Words(en="as stated", de="wie angegeben")
-_HALVED = Words(
-    en="half of what goes beyond a full turn, as nothing is stated",
-    de="je die Hälfte dessen, was über einen vollen Umlauf hinausgeht, da nichts angegeben ist",
-)
+_STATED = Words("as stated")
+_HALVED = Words("half of what goes beyond a full turn, as nothing is stated")
 _AVERAGED = Words(
-    en="{readings} readings were averaged over arcs of {arc}°. What the averages leave out has a root mean "
-    "square of {left} µm; {vibration}.",
-    de="{readings} Messwerte wurden über Bögen von {arc}° gemittelt. Was die Mittelwerte weglassen, hat "
-    "einen quadratischen Mittelwert von {left} µm; {vibration}.",
+    "{readings} readings were averaged over arcs of {arc}°. What the averages leave out has a root mean "
+    "square of {left} µm; {vibration}."
 )
-_NO_VIBRATION = Words(en="no vibration stands out of it", de="eine Schwingung tritt daraus nicht hervor")
+_NO_VIBRATION = Words("no vibration stands out of it")
 _VIBRATION = Words(
-    en="the strongest vibration in it has {frequency} Hz (by the stated feed) and an amplitude of "
-    "{amplitude} µm",
-    de="die stärkste Schwingung darin hat {frequency} Hz (nach dem angegebenen Vorschub) und eine Amplitude "
-    "von {amplitude} µm",
+    "the strongest vibration in it has {frequency} Hz (by the stated feed) and an amplitude of {amplitude} µm"
 )
 
 
@@ -117,7 +94,7 @@ class CircleCsv:
     """Tables of circles: text with a header row."""
 
     identifier = "circle-csv"
-    title = Words(en="Table of a circular test (CSV)", de="Tabelle einer Kreisformprüfung (CSV)")
+    title = Words("Table of a circular test (CSV)")
     options: type[Options] = CircleCsvOptions
     suffixes = ()
 

@@ -221,16 +221,11 @@ class Log:
 _USUAL_UNIT = "mm"
 
 _ORDER = Words(
-    en="The file does not tell the order of the readings: they are listed cycle by cycle, upwards and "
-    "then downwards.",
-    de="Die Datei nennt die Reihenfolge der Messwerte nicht: Sie sind Durchlauf für Durchlauf aufgeführt, "
-    "erst aufwärts, dann abwärts.",
+    "The file does not tell the order of the readings: they are listed cycle by cycle, upwards and "
+    "then downwards."
 )
 _EXCHANGED = Words(
-    en="The directions of approach were exchanged against the file (FWD read as ↓, BWD as ↑), as the "
-    "job states.",
-    de="Die Anfahrrichtungen wurden gegenüber der Datei getauscht (FWD als ↓, BWD als ↑ gelesen), wie im "
-    "Auftrag angegeben.",
+    "The directions of approach were exchanged against the file (FWD read as ↓, BWD as ↑), as the job states."
 )
 
 
@@ -251,7 +246,7 @@ class Ecmc:
     """Logs of positioning tests with ecmc, an EtherCAT motion controller."""
 
     identifier = "ecmc"
-    title = Words(en="ecmc test log (.dat)", de="ecmc-Messprotokoll (.dat)")
+    title = Words("ecmc test log (.dat)")
     options: type[Options] = EcmcOptions
     suffixes = (".dat",)
 

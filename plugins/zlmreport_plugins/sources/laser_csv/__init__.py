@@ -31,7 +31,7 @@ class LaserCsv:
     """Tables of readings: text with a header row."""
 
     identifier = "laser-csv"
-    title = Words(en="Table of readings (CSV)", de="Messwerttabelle (CSV)")
+    title = Words("Table of readings (CSV)")
     options: type[Options] = LaserCsvOptions
     suffixes = (".csv", ".tsv", ".txt", ".xlsx")
 

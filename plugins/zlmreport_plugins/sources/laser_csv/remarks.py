@@ -10,8 +10,8 @@ from zlmreport_plugins.sources.laser_csv.layouts import LongLayout, WideLayout
 from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, LaserCsvOptions
 
 _NAMES = {
-    "deviation": Words(en="deviations", de="Abweichungen"),
-    "position": Words(en="actual positions", de="Istpositionen"),
+    "deviation": Words("deviations"),
+    "position": Words("actual positions"),
 }
 
 
@@ -19,81 +19,54 @@ def remarks(table: TextTable, layout: LongLayout | WideLayout, options: LaserCsv
     """Yield what a reader of the results must know of the table."""
     yield from _place(table, options)
     target, values = layout.columns[0], layout.value_columns
-    yield Words(
-        en="Target positions from the column {target}, {quantity} from {values}.",
-        de="Sollpositionen aus der Spalte {target}, {quantity} aus {values}.",
-    ).given(target=_with_unit(target), quantity=_NAMES[values[0].name], values=_listed(values))
+    yield Words("Target positions from the column {target}, {quantity} from {values}.").given(
+        target=_with_unit(target), quantity=_NAMES[values[0].name], values=_listed(values)
+    )
     if options.sign == "nominal-actual":
-        yield Words(
-            en="The file gives deviations as nominal − actual; their sign was exchanged on reading.",
-            de="Die Datei gibt Abweichungen als Soll − Ist an; ihr Vorzeichen wurde beim Lesen getauscht.",
-        )
+        yield Words("The file gives deviations as nominal − actual; their sign was exchanged on reading.")
     if options.direction == "by-order":
         yield Words(
-            en="The direction of approach is not in the file: rows count as taken in their order, and a "
-            "target above the one before as approached upwards.",
-            de="Die Anfahrrichtung steht nicht in der Datei: Die Zeilen gelten als in ihrer Reihenfolge "
-            "aufgenommen, und eine Position über der vorigen als aufwärts angefahren.",
+            "The direction of approach is not in the file: rows count as taken in their order, and a "
+            "target above the one before as approached upwards."
         )
     elif options.direction:
-        yield Words(
-            en="The direction of approach is not in the file; the job states it ({direction}).",
-            de="Die Anfahrrichtung steht nicht in der Datei; der Auftrag gibt sie an ({direction}).",
-        ).given(direction=options.direction)
+        yield Words("The direction of approach is not in the file; the job states it ({direction}).").given(
+            direction=options.direction
+        )
     if isinstance(layout, WideLayout):
         yield Words(
-            en="The table does not tell the order of the readings: they are listed run by run, upwards and "
-            "then downwards.",
-            de="Die Tabelle nennt die Reihenfolge der Messwerte nicht: Sie sind Durchlauf für Durchlauf "
-            "aufgeführt, erst aufwärts, dann abwärts.",
+            "The table does not tell the order of the readings: they are listed run by run, upwards and "
+            "then downwards."
         )
     else:
         if options.runs == "counted":
-            yield Words(
-                en="Runs were counted: the n-th reading of a target in a direction is of run n.",
-                de="Durchläufe wurden gezählt: Der n-te Messwert einer Position in einer Richtung gehört zu "
-                "Durchlauf n.",
-            )
+            yield Words("Runs were counted: the n-th reading of a target in a direction is of run n.")
         elif layout.run is None:
-            yield Words(
-                en="The file names no runs: all readings were taken as one run.",
-                de="Die Datei nennt keine Durchläufe: Alle Messwerte gelten als ein Durchlauf.",
-            )
+            yield Words("The file names no runs: all readings were taken as one run.")
         yield from _other_conditions(layout.conditions)
     if options.missing:
-        yield Words(
-            en="A reading counts as missing where the file has {words}.",
-            de="Ein Messwert gilt als fehlend, wo in der Datei {words} steht.",
-        ).given(words=", ".join(options.missing))
-    if options.ignore:
-        yield Words(en="Columns not read: {names}.", de="Nicht gelesene Spalten: {names}.").given(
-            names=", ".join(options.ignore)
+        yield Words("A reading counts as missing where the file has {words}.").given(
+            words=", ".join(options.missing)
         )
+    if options.ignore:
+        yield Words("Columns not read: {names}.").given(names=", ".join(options.ignore))
 
 
 def _place(table: TextTable, options: LaserCsvOptions) -> Iterator[Words]:
     """Yield where the table stands, in a file that holds more or has it on its side."""
     if options.sheet is not None:
-        yield Words(en="From the sheet “{sheet}”.", de="Vom Blatt „{sheet}“.").given(sheet=options.sheet)
+        yield Words("From the sheet “{sheet}”.").given(sheet=options.sheet)
     if options.transposed:
-        yield Words(
-            en="The table lies on its side in the file.", de="Die Tabelle liegt in der Datei auf der Seite."
-        )
+        yield Words("The table lies on its side in the file.")
     elif options.lines or options.skip_rows or options.ends_before:
         lines = [row.line for row in (table.header, *table.rows) if row.line] or [table.header.line]
-        yield Words(
-            en="Lines {first} to {last} of the file were read.",
-            de="Gelesen wurden die Zeilen {first} bis {last} der Datei.",
-        ).given(first=lines[0], last=lines[-1])
+        yield Words("Lines {first} to {last} of the file were read.").given(first=lines[0], last=lines[-1])
 
 
 def _other_conditions(conditions: Iterable[TextColumn]) -> Iterator[Words]:
     others = [condition.text for condition in conditions if condition.name not in COLUMN_NAMES]
     if others:
-        yield Words(
-            en="Columns kept as conditions, as found: {names}.",
-            de="Als Bedingungen unverändert übernommene Spalten: {names}.",
-        ).given(names=", ".join(others))
+        yield Words("Columns kept as conditions, as found: {names}.").given(names=", ".join(others))
 
 
 def _listed(columns: Sequence[TextColumn]) -> Words:
@@ -101,9 +74,9 @@ def _listed(columns: Sequence[TextColumn]) -> Words:
     if len(columns) == 1:
         return _with_unit(columns[0])
     first, last = _with_unit(columns[0]), _with_unit(columns[-1])
-    return Words(en="{first} to {last}", de="{first} bis {last}").given(first=first, last=last)
+    return Words("{first} to {last}").given(first=first, last=last)
 
 
 def _with_unit(column: TextColumn) -> Words:
-    words = Words(en="“{name}” ({unit})", de="„{name}“ ({unit})")
+    words = Words("“{name}” ({unit})")
     return words.given(name=column.text, unit=column.unit.symbol if column.unit else "")

@@ -31,14 +31,12 @@ from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions
 
 _FEWEST = 3
 _ARTEFACTS = {
-    "mirror": Words(en="the mirror turned by 180°", de="um 180° gedrehtem Spiegel"),
-    "straightedge": Words(en="the straightedge turned over", de="umgeschlagenem Lineal"),
+    "mirror": Words("the mirror turned by 180°"),
+    "straightedge": Words("the straightedge turned over"),
 }
 _MEAN = Words(
-    en="Readings are the means of two tables, the second with {artefact}: the axis's own straightness. "
-    "Half their difference, the artefact's, is {size} µm about its least squares line.",
-    de="Messwerte sind Mittel aus zwei Tabellen, die zweite mit {artefact}: die Geradheit der Achse "
-    "allein. Die halbe Differenz, die des Normals, ist {size} µm um ihre Ausgleichsgerade.",
+    "Readings are the means of two tables, the second with {artefact}: the axis's own straightness. "
+    "Half their difference, the artefact's, is {size} µm about its least squares line."
 )
 
 
@@ -55,10 +53,7 @@ class ReversedLaserCsv:
     """Readings of a line with an artefact as it lay and turned over."""
 
     identifier = "laser-csv-reversal"
-    title = Words(
-        en="Two tables of one line, the artefact turned over",
-        de="Zwei Tabellen einer Linie, Normal umgeschlagen",
-    )
+    title = Words("Two tables of one line, the artefact turned over")
     options: type[Options] = ReversalOptions
 
     def __init__(self, table: DataSource) -> None:

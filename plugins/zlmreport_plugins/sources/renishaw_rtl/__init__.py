@@ -56,14 +56,14 @@ _ABSENT = -10.0
 
 _TEMPERATURES = {None: "°C", "0": "°C"}
 _RECORDED: tuple[tuple[str, Words, Mapping[str | None, str]], ...] = (
-    ("airtemp", Words(en="Air temperature", de="Lufttemperatur"), _TEMPERATURES),
-    ("airpress", Words(en="Air pressure", de="Luftdruck"), {"1": "kPa"}),
-    ("airhumid", Words(en="Relative humidity", de="Relative Luftfeuchte"), {None: "%"}),
-    ("mattemp", Words(en="Material temperature", de="Materialtemperatur"), _TEMPERATURES),
-    ("envfactor", Words(en="Environmental factor", de="Umgebungsfaktor"), {}),
+    ("airtemp", Words("Air temperature"), _TEMPERATURES),
+    ("airpress", Words("Air pressure"), {"1": "kPa"}),
+    ("airhumid", Words("Relative humidity"), {None: "%"}),
+    ("mattemp", Words("Material temperature"), _TEMPERATURES),
+    ("envfactor", Words("Environmental factor"), {}),
     (
         "expcoeff",
-        Words(en="Expansion coefficient", de="Ausdehnungskoeffizient"),
+        Words("Expansion coefficient"),
         {None: "ppm/°C", "0": "ppm/°C"},
     ),
 )
@@ -72,9 +72,9 @@ _NOT_SAID = frozenset({"finaldata"})
 
 #: Sections whose lines are kept as they are.
 _TEXTS = {
-    "HEADER": Words(en="Header of the file: {text}.", de="Kopf der Datei: {text}."),
-    "USER-TEXT": Words(en="User’s text in the file: {text}.", de="Text des Anwenders in der Datei: {text}."),
-    "EQUIPMENT": Words(en="Equipment named in the file: {text}.", de="In der Datei genannte Geräte: {text}."),
+    "HEADER": Words("Header of the file: {text}."),
+    "USER-TEXT": Words("User’s text in the file: {text}."),
+    "EQUIPMENT": Words("Equipment named in the file: {text}."),
 }
 
 
@@ -107,18 +107,13 @@ def _recorded(entry: RtlEntry) -> Words | None:
         (same_in_all_languages(entry.name), None),
     )
     if units is None:
-        return Words(en="{quantity}: {text}.", de="{quantity}: {text}.").given(
-            quantity=quantity, text=entry.value[:_LONGEST]
-        )
+        return Words("{quantity}: {text}.").given(quantity=quantity, text=entry.value[:_LONGEST])
     values = [parse_number(word) for word in entry.value.split()[:2]]
     if len(values) < 2 or values == [_ABSENT, _ABSENT]:
         return None
     code = next(iter(entry.value.split()[2:]), None)
     unit = units.get(code, f"(unit {code})" if code else "")
-    return Words(
-        en="{quantity}{number}: {start}{unit} at the start, {end}{unit} at the end of the test.",
-        de="{quantity}{number}: {start}{unit} zu Beginn, {end}{unit} am Ende der Messung.",
-    ).given(
+    return Words("{quantity}{number}: {start}{unit} at the start, {end}{unit} at the end of the test.").given(
         quantity=quantity,
         number=f" {number}" if (number := entry.key[len(kind) :]) else "",
         start=values[0],
@@ -138,15 +133,11 @@ _WHY = {
 _TARGETS, _DEVIATIONS = "TARGET DATA", "DEVIATIONS"
 
 _UNIT_TAKEN = Words(
-    en="The file does not name the unit of its deviations; they were read as {unit}, which is usual in files "
-    "of this kind (.{kind}).",
-    de="Die Datei nennt die Einheit ihrer Abweichungen nicht; sie wurden als {unit} gelesen, wie in Dateien "
-    "dieser Art (.{kind}) üblich.",
+    "The file does not name the unit of its deviations; they were read as {unit}, which is usual in files "
+    "of this kind (.{kind})."
 )
 _UNIT_STATED = Words(
-    en="The file does not name the unit of its deviations; they were read as {unit}, as the job states.",
-    de="Die Datei nennt die Einheit ihrer Abweichungen nicht; sie wurden als {unit} gelesen, wie im Auftrag "
-    "angegeben.",
+    "The file does not name the unit of its deviations; they were read as {unit}, as the job states."
 )
 
 
@@ -172,7 +163,7 @@ class RenishawRtl:
     """Renishaw's linear and angular test files."""
 
     identifier = "renishaw-rtl"
-    title = Words(en="Renishaw test file (.rtl, .rta)", de="Renishaw-Messdatei (.rtl, .rta)")
+    title = Words("Renishaw test file (.rtl, .rta)")
     options: type[Options] = RenishawRtlOptions
     suffixes = (".rtl", ".rta")
 

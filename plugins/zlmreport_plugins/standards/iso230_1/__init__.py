@@ -85,9 +85,7 @@ class Iso230Part1:
 
     identifier = "iso230-1:2012"
     designation = "ISO 230-1:2012"
-    title = Words(
-        "Geometric accuracy of axes of linear motion", "Geometrische Genauigkeit geradlinig bewegter Achsen"
-    )
+    title = Words("Geometric accuracy of axes of linear motion")
     position_index = "i"
     options: type[Options] = LineOptions
     measurands = (STRAIGHTNESS, ANGLE, SQUARENESS, PARALLELISM)
@@ -179,33 +177,21 @@ def _where_a_line_is(x: FloatArray, mean: FloatArray, line: LineName) -> FloatAr
     return np.where(several, slope(x, mean, line), np.nan)
 
 
-_ONE_DIRECTION = Words(
-    "the error symbol then stands for this direction",
-    "das Zeichen der Abweichung steht dann für diese Richtung",
-)
+_ONE_DIRECTION = Words("the error symbol then stands for this direction")
 _SPAN = Words(
     "Straightness errors are spans: the largest positive deviation from the reference line plus the amount "
     "of the largest negative one, and not ±. The line is laid within the measured positions only; its "
-    "slope is the alignment of the set-up.",
-    "Geradheitsabweichungen sind Spannen: die größte positive Abweichung von der Bezugsgeraden plus der "
-    "Betrag der größten negativen, kein ±. Die Gerade gilt nur für den gemessenen Bereich; ihre Steigung "
-    "ist die Ausrichtung des Aufbaus.",
+    "slope is the alignment of the set-up."
 )
 _DIRECTIONS = Words(
     "Each direction has a reference line of its own; the graph shows both about the line of the mean of all "
-    "runs.",
-    "Jede Richtung hat ihre eigene Bezugsgerade; das Diagramm zeigt beide um die Gerade des Mittels aller "
-    "Durchläufe.",
+    "runs."
 )
 _ANGLES = Words(
     "Angular errors are spans: no line is taken off, and where the instrument was set to zero has no "
-    "influence.",
-    "Winkelabweichungen sind Spannen: keine Gerade ist abgezogen, und wo das Messgerät auf null gestellt "
-    "wurde, hat keinen Einfluss.",
+    "influence."
 )
-_ONE_ARC_SECOND = Words(
-    "1″ = 4.848 µrad: on an arm of 100 mm 0.485 µm.", "1″ = 4,848 µrad: an einem Arm von 100 mm 0,485 µm."
-)
+_ONE_ARC_SECOND = Words("1″ = 4.848 µrad: on an arm of 100 mm 0.485 µm.")
 
 
 def _notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:

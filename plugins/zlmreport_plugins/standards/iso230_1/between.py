@@ -146,7 +146,7 @@ def requirements(
             sorted(errors) == sorted(what.lines),
         )
     fewest = min((len(each.target_positions) for each in lines), default=0)
-    number = Words("{number}", "{number}").given(number=fewest)
+    number = Words("{number}").given(number=fewest)
     yield Finding(_POSITIONS.given(number=_FEWEST), number, fewest >= _FEWEST)
     if not isinstance(what, Measurand):
         yield _meeting(lines)
@@ -266,80 +266,50 @@ def _sketch(what: ErrorSymbol, evaluation: Evaluation) -> Figure:
 
 def _slope_in_words(value: float | None) -> Words:
     printed = MICROMETRE_PER_METRE.from_si(value or 0.0)
-    return Words("{value} µm/m", "{value} µm/m").given(value=float(f"{printed:.6g}"))
+    return Words("{value} µm/m").given(value=float(f"{printed:.6g}"))
 
 
 _PAIR = ("slope_1", "slope_2")
-_SQUARE = Words("Square", "Winkelnormal")
-_TWO = Words("Two lines", "Zwei Linien")
-_PAIR_OF = Words("Straightness of both axes, {pair}", "Geradheit beider Achsen, {pair}")
-_POSITIONS = Words(
-    "At least {number} positions on each line", "Mindestens {number} Positionen auf jeder Linie"
-)
-_MEET = Words("Both lines in one plane (measurement.at)", "Beide Linien in einer Ebene (measurement.at)")
-_IN_ONE_PLANE = Words("they are", "sie sind es")
-_APART = Words("{distance} apart in {axis}", "in {axis} {distance} voneinander entfernt")
-_NOT_STATED = Words("not stated", "nicht angegeben")
-_SQUARE_IS_STATED = Words(
-    "The angle of the square with its uncertainty (square)",
-    "Der Winkel des Normals mit seiner Unsicherheit (square)",
-)
-_SQUARE_STATED = Words("stated", "angegeben")
+_SQUARE = Words("Square")
+_TWO = Words("Two lines")
+_PAIR_OF = Words("Straightness of both axes, {pair}")
+_POSITIONS = Words("At least {number} positions on each line")
+_MEET = Words("Both lines in one plane (measurement.at)")
+_IN_ONE_PLANE = Words("they are", context="all are")
+_APART = Words("{distance} apart in {axis}")
+_NOT_STATED = Words("not stated")
+_SQUARE_IS_STATED = Words("The angle of the square with its uncertainty (square)")
+_SQUARE_STATED = Words("stated")
 _LEANS = {
     "C0Y": Words(
         "C0Y is the turn of +Y against +X, right-handed about +Z: above zero the angle between +X and +Y is "
-        "larger than 90°.",
-        "C0Y ist die Drehung von +Y gegen +X, rechtshändig um +Z: über null ist der Winkel zwischen +X und "
-        "+Y größer als 90°.",
+        "larger than 90°."
     ),
     "B0Z": Words(
         "B0Z is the turn of +Z against +X, right-handed about +Y: above zero the angle between +X and +Z is "
-        "smaller than 90°.",
-        "B0Z ist die Drehung von +Z gegen +X, rechtshändig um +Y: über null ist der Winkel zwischen +X und "
-        "+Z kleiner als 90°.",
+        "smaller than 90°."
     ),
     "A0Z": Words(
         "A0Z is the turn of +Z against +Y, right-handed about +X: above zero the angle between +Y and +Z is "
-        "larger than 90°.",
-        "A0Z ist die Drehung von +Z gegen +Y, rechtshändig um +X: über null ist der Winkel zwischen +Y und "
-        "+Z größer als 90°.",
+        "larger than 90°."
     ),
 }
-_OWN_READING = Words(
-    "The sign of squareness errors is this program's reading of ISO 230-1.",
-    "Das Vorzeichen von Rechtwinkligkeitsabweichungen entspricht dem Verständnis dieses Programms von "
-    "ISO 230-1.",
-)
+_OWN_READING = Words("The sign of squareness errors is this program's reading of ISO 230-1.")
 _OF_PARALLELISM = Words(
     "The value is the slope of the first line minus that of the second: readings of both must be positive in "
-    "the same direction.",
-    "Der Wert ist die Steigung der ersten Linie minus die der zweiten: die Messwerte beider müssen in "
-    "derselben Richtung positiv sein.",
+    "the same direction."
 )
 _OF_THE_LINES = Words(
     "The angle is that between the reference lines of the means of all runs: another kind of line gives "
-    "another value.",
-    "Der Winkel ist der zwischen den Bezugsgeraden der Mittel aller Durchläufe: eine andere Art der "
-    "Geraden ergibt einen anderen Wert.",
+    "another value."
 )
-_POSITION = Words("Target position", "Sollposition")
-_DEVIATION = Words("Deviation", "Abweichung")
-_HEADING = Words("{name}: {error}", "{name}: {error}")
-_LINES = Words(
-    "{symbol}: mean deviations of both lines with the {line}",
-    "{symbol}: mittlere Abweichungen beider Linien mit der {line}",
-)
+_POSITION = Words("Target position")
+_DEVIATION = Words("Deviation")
+_HEADING = Words("{name}: {error}")
+_LINES = Words("{symbol}: mean deviations of both lines with the {line}")
 _SEEN = Words(
-    "Two graphs of deviation over position: {lines}. Slopes of the reference lines: {first} and {second}.",
-    "Zwei Diagramme der Abweichung über der Position: {lines}. Steigungen der Bezugsgeraden: {first} und "
-    "{second}.",
+    "Two graphs of deviation over position: {lines}. Slopes of the reference lines: {first} and {second}."
 )
-_SKETCH = Words(
-    "What the sign of {symbol} says: +{axis} leans {way} +{reference}, drawn far too large",
-    "Was das Vorzeichen von {symbol} sagt: +{axis} ist {way} +{reference} geneigt, weit übertrieben",
-)
-_LEANS_IN_WORDS = Words(
-    "Sketch: {symbol} = {value}; +{axis} leans {way} +{reference}.",
-    "Skizze: {symbol} = {value}; +{axis} ist {way} +{reference} geneigt.",
-)
-_AWAY, _TOWARDS = Words("away from", "weg von"), Words("towards", "zu")
+_SKETCH = Words("What the sign of {symbol} says: +{axis} leans {way} +{reference}, drawn far too large")
+_LEANS_IN_WORDS = Words("Sketch: {symbol} = {value}; +{axis} leans {way} +{reference}.")
+_AWAY, _TOWARDS = Words("away from"), Words("towards")

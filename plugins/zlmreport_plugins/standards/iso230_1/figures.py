@@ -30,25 +30,17 @@ from zlmreport_plugins.standards.iso230_1.reference_lines import (
 
 #: How the reference lines are called in a sentence.
 LINES: dict[LineName, Words] = {
-    "least-squares": Words("least squares line", "Ausgleichsgerade (kleinste Quadrate)"),
-    "end-points": Words("line through the end points", "Gerade durch die Endpunkte"),
-    "minimum-zone": Words("minimum zone line", "Gerade der kleinsten Zone"),
+    "least-squares": Words("least squares line"),
+    "end-points": Words("line through the end points"),
+    "minimum-zone": Words("minimum zone line"),
 }
 _STRAIGHT = Words(
-    "Axis {axis}: {symbol}, deviations from the {line} of the mean of all runs, which is zero here",
-    "Achse {axis}: {symbol}, Abweichungen von der hier waagerechten Bezugsgeraden des Mittels aller "
-    "Durchläufe: {line}",
+    "Axis {axis}: {symbol}, deviations from the {line} of the mean of all runs, which is zero here"
 )
-_READINGS = Words(
-    "Axis {axis}: {symbol}, readings and the {line} of the mean of all runs",
-    "Achse {axis}: {symbol}, Messwerte und Bezugsgerade des Mittels aller Durchläufe: {line}",
-)
-_DIRECTIONS = Words(
-    "Axis {axis}: {symbol} of each direction about its own {line}",
-    "Achse {axis}: {symbol} jeder Richtung um ihre eigene Bezugsgerade: {line}",
-)
-_ANGLES = Words("Axis {axis}: {symbol}, mean deviations", "Achse {axis}: {symbol}, mittlere Abweichungen")
-_MEAN = Words("Mean of all runs:", "Mittel aller Durchläufe:")
+_READINGS = Words("Axis {axis}: {symbol}, readings and the {line} of the mean of all runs")
+_DIRECTIONS = Words("Axis {axis}: {symbol} of each direction about its own {line}")
+_ANGLES = Words("Axis {axis}: {symbol}, mean deviations")
+_MEAN = Words("Mean of all runs:")
 
 
 def of_straightness(

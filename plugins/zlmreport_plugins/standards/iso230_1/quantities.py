@@ -16,47 +16,31 @@ from zlmreport.plugin.standard import PositionQuantity, Quantity, QuantityGroup
 #: Two axes, or an axis and a spindle, whose reference lines should have one direction.
 PARALLELISM = Measurand(
     identifier="parallelism",
-    title=Words(en="Parallelism error", de="Parallelitätsabweichung"),
-    definition=Words(
-        en="the slope of the reference straight line of the first line minus that of the second",
-        de="die Steigung der Bezugsgeraden der ersten Linie minus der der zweiten",
-    ),
+    title=Words("Parallelism error"),
+    definition=Words("the slope of the reference straight line of the first line minus that of the second"),
     unit=ARCSECOND,
-    sign=Words(
-        en="slope of the first line − slope of the second line, both positive in the same direction",
-        de="Steigung der ersten Linie − Steigung der zweiten Linie, beide positiv in derselben Richtung",
-    ),
+    sign=Words("slope of the first line − slope of the second line, both positive in the same direction"),
     joins_tests=True,
 )
 
-_STRAIGHTNESS = Words("Straightness error, mean of all runs", "Geradheitsabweichung, Mittel aller Durchläufe")
-_ANGLE = Words("Angular error, mean of all runs", "Winkelabweichung, Mittel aller Durchläufe")
+_STRAIGHTNESS = Words("Straightness error, mean of all runs")
+_ANGLE = Words("Angular error, mean of all runs")
 _DIRECTIONS = {
-    "fwd": ("↑", Words("{name}, positive direction", "{name}, positive Richtung")),
-    "bwd": ("↓", Words("{name}, negative direction", "{name}, negative Richtung")),
+    "fwd": ("↑", Words("{name}, positive direction")),
+    "bwd": ("↓", Words("{name}, negative direction")),
 }
-_STRAIGHT = Words("Straightness error", "Geradheitsabweichung")
-_TURNED = Words("Angular error", "Winkelabweichung")
+_STRAIGHT = Words("Straightness error")
+_TURNED = Words("Angular error")
 _SPAN_OF_STRAIGHTNESS = Words(
     "The distance of the two parallels to the reference line between which the mean path of the axis lies: a "
-    "full width, not ±.",
-    "Der Abstand der beiden Parallelen zur Bezugsgeraden, zwischen denen die mittlere Bahn der Achse liegt: "
-    "eine volle Breite, kein ±.",
+    "full width, not ±."
 )
 _SPAN_OF_ANGLE = Words(
     "The largest turn of the moving component between two positions on average over all runs: a full width, "
-    "not ±.",
-    "Die größte Drehung der bewegten Baugruppe zwischen zwei Positionen im Mittel aller Durchläufe: eine "
-    "volle Breite, kein ±.",
+    "not ±."
 )
-_OF_ONE_DIRECTION = Words(
-    "The same of runs in one direction only, each about its own line.",
-    "Dasselbe aus den Durchläufen einer Richtung allein, jeweils um die eigene Gerade.",
-)
-_TURN_IN_ONE_DIRECTION = Words(
-    "The same of runs in one direction only.",
-    "Dasselbe aus den Durchläufen einer Richtung allein.",
-)
+_OF_ONE_DIRECTION = Words("The same of runs in one direction only, each about its own line.")
+_TURN_IN_ONE_DIRECTION = Words("The same of runs in one direction only.")
 
 
 def of(what: ErrorSymbol | Measurand) -> tuple[tuple[Quantity, ...], tuple[PositionQuantity, ...]]:
@@ -95,28 +79,23 @@ def _straightness(symbol: str, notation: str) -> list[Quantity]:
         Quantity(
             f"{symbol}_run",
             f"{notation}_{{run}}" if notation == symbol else f"{notation[:-1]}, run}}",
-            Words("Straightness error, worst single run", "Geradheitsabweichung, schlechtester Durchlauf"),
+            Words("Straightness error, worst single run"),
             QuantityGroup.COMPOSITE,
             "max_{j}[max(d_{ij}) − min(d_{ij})]",
-            Words(
-                "The largest of the same of every run by itself: systematic and random together.",
-                "Der größte Wert desselben aus jedem Durchlauf für sich: systematisch und zufällig zusammen.",
-            ),
+            Words("The largest of the same of every run by itself: systematic and random together."),
         ),
         Quantity(
             f"{symbol}_local",
             f"{notation}_{{local}}" if notation == symbol else f"{notation[:-1]}, local}}",
-            Words("Straightness error over a part of the length", "Geradheitsabweichung über ein Teilstück"),
+            Words("Straightness error over a part of the length"),
             systematic,
             "max_{k}[max(d̄_{i}) − min(d̄_{i})], P_{k} ≤ P_{i} ≤ P_{k} + w",
             Words(
                 "The largest straightness error of a piece of the axis as long as the window: what a short "
-                "part shows.",
-                "Die größte Geradheitsabweichung eines Stücks der Achse von der Länge des Fensters: was ein "
-                "kurzes Werkstück zeigt.",
+                "part shows."
             ),
         ),
-        slope_quantity("slope", "m", Words("Slope of the reference line", "Steigung der Bezugsgeraden")),
+        slope_quantity("slope", "m", Words("Slope of the reference line")),
     ]
 
 
@@ -128,10 +107,7 @@ def slope_quantity(symbol: str, notation: str, name: Words) -> Quantity:
         name,
         QuantityGroup.SYSTEMATIC,
         "x̄_{i} ≈ y_{0} + m·P_{i}",
-        Words(
-            "How far the reference was out of line with the axis: the alignment of the set-up, taken off.",
-            "Wie weit das Normal nicht zur Achse ausgerichtet war: die Ausrichtung des Aufbaus, abgezogen.",
-        ),
+        Words("How far the reference was out of line with the axis: the alignment of the set-up, taken off."),
         can_be_limited=False,
         unit=MICROMETRE_PER_METRE,
     )
@@ -155,14 +131,12 @@ def _angles(symbol: str, notation: str) -> list[Quantity]:
         Quantity(
             f"{symbol}_both",
             f"{notation}_{{both}}" if notation == symbol else f"{notation[:-1]}, both}}",
-            Words("Angular error over both directions", "Winkelabweichung über beide Richtungen"),
+            Words("Angular error over both directions"),
             systematic,
             "max(x̄_{i}↑; x̄_{i}↓) − min(x̄_{i}↑; x̄_{i}↓)",
             Words(
                 "The largest turn between two positions if each is approached from its less favourable "
-                "direction: the reversal is part of it.",
-                "Die größte Drehung zwischen zwei Positionen, wenn jede aus der ungünstigeren Richtung "
-                "angefahren wird: die Umkehrspanne gehört dazu.",
+                "direction: the reversal is part of it."
             ),
         ),
     ]
@@ -172,9 +146,7 @@ def _between(measurand: Measurand, symbol: str, notation: str) -> tuple[Quantity
     """Return the angle between two lines, and the slopes that it is formed of."""
     is_parallelism = measurand is PARALLELISM
     meaning = Words(
-        "How far the second axis moves off sideways, seen from the first: 1″ is 4.848 µm on a metre.",
-        "Wie weit die zweite Achse, von der ersten aus gesehen, seitlich abweicht: 1″ sind 4,848 µm auf "
-        "einen Meter.",
+        "How far the second axis moves off sideways, seen from the first: 1″ is 4.848 µm on a metre."
     )
     return (
         Quantity(
@@ -185,8 +157,8 @@ def _between(measurand: Measurand, symbol: str, notation: str) -> tuple[Quantity
             "m_{1} − m_{2}" if is_parallelism else FORMULAS[symbol],
             meaning,
         ),
-        slope_quantity("slope_1", "m_{1}", Words("Slope of the first line", "Steigung der ersten Linie")),
-        slope_quantity("slope_2", "m_{2}", Words("Slope of the second line", "Steigung der zweiten Linie")),
+        slope_quantity("slope_1", "m_{1}", Words("Slope of the first line")),
+        slope_quantity("slope_2", "m_{2}", Words("Slope of the second line")),
     )
 
 
@@ -200,25 +172,16 @@ _COLUMNS = (
     PositionQuantity(
         "d_fwd",
         "d̄_{i}↑",
-        Words(
-            "Deviation from the reference line, positive direction",
-            "Abweichung von der Bezugsgeraden, positive Richtung",
-        ),
+        Words("Deviation from the reference line, positive direction"),
     ),
     PositionQuantity(
         "d_bwd",
         "d̄_{i}↓",
-        Words(
-            "Deviation from the reference line, negative direction",
-            "Abweichung von der Bezugsgeraden, negative Richtung",
-        ),
+        Words("Deviation from the reference line, negative direction"),
     ),
     PositionQuantity(
         "d",
         "d̄_{i}",
-        Words(
-            "Deviation from the reference line, mean of all runs",
-            "Abweichung von der Bezugsgeraden, Mittel aller Durchläufe",
-        ),
+        Words("Deviation from the reference line, mean of all runs"),
     ),
 )

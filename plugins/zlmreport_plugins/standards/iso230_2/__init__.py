@@ -62,9 +62,7 @@ _MEAN_INTERVAL_OF_LONG_AXIS = 0.25
 #: What follows from standard deviations.
 _OF_SCATTER = ("R", "R_fwd", "R_bwd", "A", "A_fwd", "A_bwd")
 
-_ONE_DIRECTION_ONLY = Words(
-    "only the parameters of this direction exist", "nur die Kenngrößen dieser Richtung sind bestimmt"
-)
+_ONE_DIRECTION_ONLY = Words("only the parameters of this direction exist")
 
 
 def requirement_findings(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
@@ -119,11 +117,10 @@ def _full_test(edition: Edition, measurements: MeasurementSet) -> Iterator[Findi
 
 def _zone(axis: Axis, length: float, measured: float) -> Finding:
     """Return the finding on a zone of a long axis that was tested in full."""
-    requirement = Words(
-        "On an axis above {limit}, a full test of a shorter zone only as agreed",
-        "An einer Achse über {limit} eine vollständige Prüfung eines kürzeren Bereichs nur nach Vereinbarung",
-    ).given(limit=position_in_words(axis, _LONG[axis.kind]))
-    found = Words("{measured} of {length}", "{measured} von {length}").given(
+    requirement = Words("On an axis above {limit}, a full test of a shorter zone only as agreed").given(
+        limit=position_in_words(axis, _LONG[axis.kind])
+    )
+    found = Words("{measured} of {length}").given(
         measured=position_in_words(axis, measured), length=position_in_words(axis, length)
     )
     return Finding(requirement, found, met=None)
@@ -132,23 +129,17 @@ def _zone(axis: Axis, length: float, measured: float) -> Finding:
 def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
     """Yield the requirements on an axis above 2000 mm or 360°: one run, and no s, R, A."""
     axis, number = measurements.axis, fewest_runs(measurements)
-    requirement = Words(
-        "Above {limit} one run in each direction; s, R and A are not evaluated",
-        "Über {limit} ein Durchlauf je Richtung; s, R und A werden nicht ausgewertet",
-    ).given(limit=position_in_words(axis, _LONG[axis.kind]))
+    requirement = Words("Above {limit} one run in each direction; s, R and A are not evaluated").given(
+        limit=position_in_words(axis, _LONG[axis.kind])
+    )
     length = position_in_words(axis, _axis_length(measurements))
     if number == 1:
-        found = Words(
-            "1 run on {length}; s, R and A are not evaluated",
-            "1 Durchlauf auf {length}; s, R und A werden nicht ausgewertet",
-        )
+        found = Words("1 run on {length}; s, R and A are not evaluated")
         yield Finding(requirement, found.given(length=length), met=True, basis=basis)
     else:
         found = Words(
             "{runs} on {length}; the R and A that follow from them go beyond the standard, and nothing is "
-            "decided on their limits",
-            "{runs} auf {length}; die daraus folgenden R und A gehen über die Norm hinaus, und über ihre "
-            "Grenzwerte wird nicht entschieden",
+            "decided on their limits"
         ).given(runs=runs_in_words(number), length=length)
         yield Finding(requirement, found, met=False, basis=basis, undecided=_OF_SCATTER)
     if axis.kind is AxisKind.LINEAR:
@@ -157,48 +148,33 @@ def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
 
 _FULL_WIDTHS = Words(
     "No parameter is a ± value: spreads and ranges are full widths. The limits lie {k} standard deviations "
-    "(n − 1) to either side of the mean of one direction.",
-    "Keine Kenngröße ist ein ±-Wert: Streuungen und Spannen sind volle Breiten. Die Grenzen liegen {k} "
-    "Standardabweichungen (n − 1) beiderseits des Mittelwerts einer Richtung.",
+    "(n − 1) to either side of the mean of one direction."
 )
 _REPEATABILITY = Words(
     "R is the largest bidirectional repeatability of a position; it contains the reversal there and can "
-    "exceed both R↑ and R↓.",
-    "R ist die größte zweiseitige Wiederholpräzision einer Position; sie enthält die dortige Umkehrspanne "
-    "und kann R↑ und R↓ übersteigen.",
+    "exceed both R↑ and R↓."
 )
 _REVERSAL = Words(
     "The reversal at a position is the mean of the positive minus the mean of the negative direction. B is "
-    "its largest amount, B̄ its mean over the positions with sign.",
-    "Die Umkehrspanne einer Position ist der Mittelwert der positiven minus dem der negativen Richtung. B "
-    "ist ihr größter Betrag, B̄ ihr Mittel über die Positionen mit Vorzeichen.",
+    "its largest amount, B̄ its mean over the positions with sign."
 )
 _OPPOSITE_REVERSAL = Words(
     "B̄ is printed with the sign of this edition: the mean of the negative minus the mean of the positive "
-    "direction. The table by position and the results file take the positive minus the negative direction.",
-    "B̄ ist mit dem Vorzeichen dieser Ausgabe gedruckt: Mittelwert der negativen minus Mittelwert der "
-    "positiven Richtung. Die Tabelle nach Sollposition und die Ergebnisdatei rechnen positive minus negative "
-    "Richtung.",
+    "direction. The table by position and the results file take the positive minus the negative direction."
 )
 _NOT_COMPARABLE = Words(
     "Limits at 3 standard deviations make A and R larger than by the editions since 1997, which take 2: the "
-    "values are not to be compared. This edition defines neither E nor M.",
-    "Grenzen bei 3 Standardabweichungen machen A und R größer als nach den Ausgaben seit 1997, die 2 "
-    "verwenden: die Werte sind nicht vergleichbar. Diese Ausgabe kennt weder E noch M.",
+    "values are not to be compared. This edition defines neither E nor M."
 )
 _SOURCE = Words(
     "Formulas as in the manual of the program ZLM Position, G 1.3; corrected: bars over the means of the "
-    "mean reversal value, targets P = N·p + r.",
-    "Formeln nach dem Handbuch des Programms ZLM Position, G 1.3; berichtigt: Querstriche über den "
-    "Mittelwerten der mittleren Umkehrspanne, Sollpositionen P = N·p + r.",
+    "mean reversal value, targets P = N·p + r."
 )
 
 
 _OF_ANGLES = Words(
     "This standard is on positioning: its formulas are applied to angles, as is usual, and nothing else of "
-    "it.",
-    "Diese Norm gilt der Positionierung: auf Winkel sind, wie üblich, ihre Formeln angewandt und sonst "
-    "nichts von ihr.",
+    "it."
 )
 
 
@@ -213,10 +189,7 @@ def notes(edition: Edition) -> tuple[Words, ...]:
 class Iso230Part2:
     """ISO 230-2 in one edition."""
 
-    title = Words(
-        "Accuracy and repeatability of positioning of numerically controlled axes",
-        "Genauigkeit und Wiederholpräzision der Positionierung numerisch gesteuerter Achsen",
-    )
+    title = Words("Accuracy and repeatability of positioning of numerically controlled axes")
     options = Options
     information = tuple(Information)
 

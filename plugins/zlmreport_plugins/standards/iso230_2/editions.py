@@ -8,85 +8,36 @@ from zlmreport.plugin import Words
 from zlmreport.plugin.standard import Basis, PositionQuantity, Quantity, QuantityGroup
 
 _SINCE_1988 = {
-    "A": Words("Bidirectional accuracy of positioning", "Zweiseitige Positioniergenauigkeit"),
-    "A_fwd": Words(
-        "Unidirectional accuracy of positioning, positive direction",
-        "Einseitige Positioniergenauigkeit, positive Richtung",
-    ),
-    "A_bwd": Words(
-        "Unidirectional accuracy of positioning, negative direction",
-        "Einseitige Positioniergenauigkeit, negative Richtung",
-    ),
-    "E": Words(
-        "Bidirectional systematic positional deviation", "Zweiseitige systematische Positionsabweichung"
-    ),
-    "E_fwd": Words(
-        "Unidirectional systematic positional deviation, positive direction",
-        "Einseitige systematische Positionsabweichung, positive Richtung",
-    ),
-    "E_bwd": Words(
-        "Unidirectional systematic positional deviation, negative direction",
-        "Einseitige systematische Positionsabweichung, negative Richtung",
-    ),
-    "M": Words(
-        "Range of the mean bidirectional positional deviation",
-        "Spannweite der mittleren zweiseitigen Positionsabweichung",
-    ),
-    "R": Words(
-        "Bidirectional repeatability of positioning", "Zweiseitige Wiederholpräzision der Positionierung"
-    ),
-    "R_fwd": Words(
-        "Unidirectional repeatability of positioning, positive direction",
-        "Einseitige Wiederholpräzision der Positionierung, positive Richtung",
-    ),
-    "R_bwd": Words(
-        "Unidirectional repeatability of positioning, negative direction",
-        "Einseitige Wiederholpräzision der Positionierung, negative Richtung",
-    ),
-    "B": Words("Reversal value", "Umkehrspanne"),
-    "B_mean": Words("Mean reversal value", "Mittlere Umkehrspanne"),
+    "A": Words("Bidirectional accuracy of positioning"),
+    "A_fwd": Words("Unidirectional accuracy of positioning, positive direction"),
+    "A_bwd": Words("Unidirectional accuracy of positioning, negative direction"),
+    "E": Words("Bidirectional systematic positional deviation"),
+    "E_fwd": Words("Unidirectional systematic positional deviation, positive direction"),
+    "E_bwd": Words("Unidirectional systematic positional deviation, negative direction"),
+    "M": Words("Range of the mean bidirectional positional deviation"),
+    "R": Words("Bidirectional repeatability of positioning"),
+    "R_fwd": Words("Unidirectional repeatability of positioning, positive direction"),
+    "R_bwd": Words("Unidirectional repeatability of positioning, negative direction"),
+    "B": Words("Reversal value"),
+    "B_mean": Words("Mean reversal value"),
 }
 
 _SINCE_2006 = _SINCE_1988 | {
-    "B": Words("Reversal error", "Umkehrspanne"),
-    "B_mean": Words("Mean reversal error", "Mittlere Umkehrspanne"),
+    "B": Words("Reversal error"),
+    "B_mean": Words("Mean reversal error"),
 }
 
 _SINCE_2014 = _SINCE_2006 | {
-    "A": Words(
-        "Bidirectional positioning error (accuracy)", "Zweiseitige Positionierabweichung (Genauigkeit)"
-    ),
-    "A_fwd": Words(
-        "Unidirectional positioning error (accuracy), positive direction",
-        "Einseitige Positionierabweichung (Genauigkeit), positive Richtung",
-    ),
-    "A_bwd": Words(
-        "Unidirectional positioning error (accuracy), negative direction",
-        "Einseitige Positionierabweichung (Genauigkeit), negative Richtung",
-    ),
-    "E": Words(
-        "Bidirectional systematic positioning error", "Zweiseitige systematische Positionierabweichung"
-    ),
-    "E_fwd": Words(
-        "Unidirectional systematic positioning error, positive direction",
-        "Einseitige systematische Positionierabweichung, positive Richtung",
-    ),
-    "E_bwd": Words(
-        "Unidirectional systematic positioning error, negative direction",
-        "Einseitige systematische Positionierabweichung, negative Richtung",
-    ),
-    "M": Words("Mean bidirectional positioning error", "Mittlere zweiseitige Positionierabweichung"),
-    "R": Words(
-        "Bidirectional positioning repeatability", "Zweiseitige Wiederholpräzision der Positionierung"
-    ),
-    "R_fwd": Words(
-        "Unidirectional positioning repeatability, positive direction",
-        "Einseitige Wiederholpräzision der Positionierung, positive Richtung",
-    ),
-    "R_bwd": Words(
-        "Unidirectional positioning repeatability, negative direction",
-        "Einseitige Wiederholpräzision der Positionierung, negative Richtung",
-    ),
+    "A": Words("Bidirectional positioning error (accuracy)"),
+    "A_fwd": Words("Unidirectional positioning error (accuracy), positive direction"),
+    "A_bwd": Words("Unidirectional positioning error (accuracy), negative direction"),
+    "E": Words("Bidirectional systematic positioning error"),
+    "E_fwd": Words("Unidirectional systematic positioning error, positive direction"),
+    "E_bwd": Words("Unidirectional systematic positioning error, negative direction"),
+    "M": Words("Mean bidirectional positioning error"),
+    "R": Words("Bidirectional positioning repeatability"),
+    "R_fwd": Words("Unidirectional positioning repeatability, positive direction"),
+    "R_bwd": Words("Unidirectional positioning repeatability, negative direction"),
 }
 
 #: The names by year of the edition, then by symbol.
@@ -94,114 +45,56 @@ NAMES = {1988: _SINCE_1988, 1997: _SINCE_1988, 2006: _SINCE_2006, 2014: _SINCE_2
 
 
 _OF_ANGLES = {
-    "A": Words("Bidirectional accuracy of the angle", "Zweiseitige Genauigkeit des Winkels"),
-    "E": Words("Bidirectional systematic angular error", "Zweiseitige systematische Winkelabweichung"),
-    "M": Words(
-        "Range of the mean bidirectional angular error",
-        "Spannweite der mittleren zweiseitigen Winkelabweichung",
-    ),
-    "R": Words("Bidirectional repeatability of the angle", "Zweiseitige Wiederholpräzision des Winkels"),
-    "B": Words("Reversal error of the angle", "Umkehrspanne des Winkels"),
-    "B_mean": Words("Mean reversal error of the angle", "Mittlere Umkehrspanne des Winkels"),
-    "A_fwd": Words(
-        "Accuracy of the angle, positive direction",
-        "Genauigkeit des Winkels, positive Richtung",
-    ),
-    "A_bwd": Words(
-        "Accuracy of the angle, negative direction",
-        "Genauigkeit des Winkels, negative Richtung",
-    ),
-    "E_fwd": Words(
-        "Systematic angular error, positive direction",
-        "Systematische Winkelabweichung, positive Richtung",
-    ),
-    "E_bwd": Words(
-        "Systematic angular error, negative direction",
-        "Systematische Winkelabweichung, negative Richtung",
-    ),
-    "R_fwd": Words(
-        "Repeatability of the angle, positive direction",
-        "Wiederholpräzision des Winkels, positive Richtung",
-    ),
-    "R_bwd": Words(
-        "Repeatability of the angle, negative direction",
-        "Wiederholpräzision des Winkels, negative Richtung",
-    ),
+    "A": Words("Bidirectional accuracy of the angle"),
+    "E": Words("Bidirectional systematic angular error"),
+    "M": Words("Range of the mean bidirectional angular error"),
+    "R": Words("Bidirectional repeatability of the angle"),
+    "B": Words("Reversal error of the angle"),
+    "B_mean": Words("Mean reversal error of the angle"),
+    "A_fwd": Words("Accuracy of the angle, positive direction"),
+    "A_bwd": Words("Accuracy of the angle, negative direction"),
+    "E_fwd": Words("Systematic angular error, positive direction"),
+    "E_bwd": Words("Systematic angular error, negative direction"),
+    "R_fwd": Words("Repeatability of the angle, positive direction"),
+    "R_bwd": Words("Repeatability of the angle, negative direction"),
 }
 _TURN = Words(
     "How far the moving component turns, by the formula of the positioning error: on an arm of 100 mm 1″ is "
-    "0.485 µm.",
-    "Wie weit sich die bewegte Baugruppe dreht, nach der Formel der Positionierabweichung: an einem Arm von "
-    "100 mm ist 1″ 0,485 µm.",
+    "0.485 µm."
 )
 
-_ALWAYS_POSITIVE = Words(
-    "all positions are approached in the positive direction",
-    "alle Positionen in positiver Richtung angefahren werden",
-)
-_ALWAYS_NEGATIVE = Words(
-    "all positions are approached in the negative direction",
-    "alle Positionen in negativer Richtung angefahren werden",
-)
+_ALWAYS_POSITIVE = Words("all positions are approached in the positive direction")
+_ALWAYS_NEGATIVE = Words("all positions are approached in the negative direction")
 _ACCURACY = Words(
     "The largest error, systematic and random together, that positioning is expected to bring into a "
-    "dimension of a part if {condition}.",
-    "Die größte Abweichung, systematisch und zufällig zusammen, die das Positionieren in einem Maß des "
-    "Werkstücks erwarten lässt, wenn {condition}.",
+    "dimension of a part if {condition}."
 )
 _SYSTEMATIC = Words(
-    "The largest error of a dimension that remains on average over many like parts if {condition}.",
-    "Die größte Abweichung eines Maßes, die im Mittel über viele gleiche Werkstücke bleibt, wenn "
-    "{condition}.",
+    "The largest error of a dimension that remains on average over many like parts if {condition}."
 )
-_REPEATABILITY = Words(
-    "The largest scatter to expect of a feature's place among like parts if {condition}.",
-    "Die größte zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken, wenn "
-    "{condition}.",
-)
+_REPEATABILITY = Words("The largest scatter to expect of a feature's place among like parts if {condition}.")
 #: One sentence for each symbol.
 MEANINGS = {
-    "A": _ACCURACY.given(
-        condition=Words(
-            "positions are approached from either direction",
-            "Positionen aus beiden Richtungen angefahren werden",
-        )
-    ),
+    "A": _ACCURACY.given(condition=Words("positions are approached from either direction")),
     "A_fwd": _ACCURACY.given(condition=_ALWAYS_POSITIVE),
     "A_bwd": _ACCURACY.given(condition=_ALWAYS_NEGATIVE),
-    "E": _SYSTEMATIC.given(
-        condition=Words(
-            "each position is approached from its less favourable direction",
-            "jede Position aus der jeweils ungünstigeren Richtung angefahren wird",
-        )
-    ),
+    "E": _SYSTEMATIC.given(condition=Words("each position is approached from its less favourable direction")),
     "E_fwd": _SYSTEMATIC.given(condition=_ALWAYS_POSITIVE),
     "E_bwd": _SYSTEMATIC.given(condition=_ALWAYS_NEGATIVE),
-    "M": _SYSTEMATIC.given(
-        condition=Words(
-            "each position is approached from both directions equally often",
-            "jede Position aus beiden Richtungen gleich oft angefahren wird",
-        )
-    ),
+    "M": _SYSTEMATIC.given(condition=Words("each position is approached from both directions equally often")),
     "R": _REPEATABILITY.given(
         condition=Words(
-            "it is approached now from one direction, now from the other: the reversal is part of it",
-            "es bald aus der einen, bald aus der anderen Richtung angefahren wird: die Umkehrspanne "
-            "gehört dazu",
+            "it is approached now from one direction, now from the other: the reversal is part of it"
         )
     ),
     "R_fwd": _REPEATABILITY.given(condition=_ALWAYS_POSITIVE),
     "R_bwd": _REPEATABILITY.given(condition=_ALWAYS_NEGATIVE),
     "B": Words(
-        "The largest average shift of a feature when its position is approached from the other direction.",
-        "Die größte mittlere Verschiebung eines Formelements, wenn seine Position aus der anderen Richtung "
-        "angefahren wird.",
+        "The largest average shift of a feature when its position is approached from the other direction."
     ),
     "B_mean": Words(
         "The average over the axis of the shift of features when their positions are approached from the "
-        "other direction.",
-        "Die über die Achse gemittelte Verschiebung von Formelementen, wenn ihre Positionen aus der anderen "
-        "Richtung angefahren werden.",
+        "other direction."
     ),
 }
 
@@ -304,26 +197,17 @@ def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
         PositionQuantity(
             "R_fwd",
             f"R{i}↑",
-            Words(
-                "Unidirectional repeatability at a position, positive direction",
-                "Einseitige Wiederholpräzision an einer Position, positive Richtung",
-            ),
+            Words("Unidirectional repeatability at a position, positive direction"),
         ),
         PositionQuantity(
             "R_bwd",
             f"R{i}↓",
-            Words(
-                "Unidirectional repeatability at a position, negative direction",
-                "Einseitige Wiederholpräzision an einer Position, negative Richtung",
-            ),
+            Words("Unidirectional repeatability at a position, negative direction"),
         ),
         PositionQuantity(
             "R",
             f"R{i}",
-            Words(
-                "Bidirectional repeatability at a position",
-                "Zweiseitige Wiederholpräzision an einer Position",
-            ),
+            Words("Bidirectional repeatability at a position"),
         ),
     )
 

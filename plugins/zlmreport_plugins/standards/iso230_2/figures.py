@@ -29,8 +29,8 @@ from zlmreport_plugins.standards.iso230_2.editions import Edition
 
 _SYMBOLS = {Approach.POSITIVE: ("A_fwd", "E_fwd", "R_fwd"), Approach.NEGATIVE: ("A_bwd", "E_bwd", "R_bwd")}
 _MEAN = {
-    Approach.POSITIVE: Words("Mean of the positive direction", "Mittelwert der positiven Richtung"),
-    Approach.NEGATIVE: Words("Mean of the negative direction", "Mittelwert der negativen Richtung"),
+    Approach.POSITIVE: Words("Mean of the positive direction"),
+    Approach.NEGATIVE: Words("Mean of the negative direction"),
 }
 
 
@@ -68,9 +68,7 @@ class _Graphs:
         )
         title = Words(
             "Axis {axis}: mean deviations, limits at {k} standard deviations, largest reversal and "
-            "repeatability",
-            "Achse {axis}: mittlere Abweichungen, Grenzen bei {k} Standardabweichungen, größte Umkehrspanne "
-            "und Wiederholpräzision",
+            "repeatability"
         )
         return self._figure("means", title.given(k=self.k), shown)
 
@@ -86,19 +84,13 @@ class _Graphs:
                 self.diagram.bracket("M", self.mean_bidirectional, self.mean_bidirectional),
             ],
         )
-        title = Words(
-            "Axis {axis}: bidirectional parameters and where they arise",
-            "Achse {axis}: zweiseitige Kenngrößen und wo sie entstehen",
-        )
+        title = Words("Axis {axis}: bidirectional parameters and where they arise")
         return self._figure("overall", title, shown)
 
     def unidirectional(self) -> Figure:
         """Return a panel for each direction that was measured, with its own parameters."""
         panels = [self._direction(approach) for approach in self.diagram.approaches]
-        title = Words(
-            "Axis {axis}: unidirectional parameters and where they arise",
-            "Achse {axis}: einseitige Kenngrößen und wo sie entstehen",
-        )
+        title = Words("Axis {axis}: unidirectional parameters and where they arise")
         return self._figure("unidirectional", title, *panels)
 
     def _direction(self, approach: Approach) -> Panel:

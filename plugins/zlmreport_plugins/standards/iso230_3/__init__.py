@@ -80,10 +80,7 @@ class Iso230Part3:
 
     identifier = "iso230-3"
     designation = "ISO 230-3"
-    title = Words(
-        "Thermal effects: environmental temperature variation error",
-        "Thermische Einflüsse: Abweichung durch Temperaturänderungen der Umgebung",
-    )
+    title = Words("Thermal effects: environmental temperature variation error")
     position_index = "i"
     options: type[Options] = Iso230Part3Options
     measurands = (DRIFT,)

@@ -157,26 +157,21 @@ def _largest(evaluation: Evaluation) -> Words:
         return _NOT_DEFINED
     largest = max(found, key=lambda each: each.value)
     value = deviation_in_words(evaluation.measurements.axis, float(f"{largest.value:.4g}"))
-    return Words("{symbol} = {value}", "{symbol} = {value}").given(
+    return Words("{symbol} = {value}").given(
         symbol=same_in_all_languages(largest.quantity.symbol), value=value
     )
 
 
-_TITLE = Words(
-    "Displacements against the first reading, and temperatures, over one axis of time",
-    "Verlagerungen gegen den ersten Messwert und Temperaturen über einer Zeitachse",
-)
+_TITLE = Words("Displacements against the first reading, and temperatures, over one axis of time")
 _SEEN = Words(
     "Graphs of the displacements of the sensors {sensors}, and of what else was recorded, over time; largest "
-    "drift: {largest}.",
-    "Diagramme der Verlagerungen der Messtaster {sensors} und dessen, was sonst aufgezeichnet ist, über der "
-    "Zeit; größte Drift: {largest}.",
+    "drift: {largest}."
 )
-_NOT_DEFINED = Words("not defined", "nicht bestimmt")
-_TIME = Words("Time", "Zeit")
-_DISPLACEMENT = Words("Displacement", "Verlagerung")
-_DISPLACEMENTS = Words("Displacements", "Verlagerungen")
-_TILT = Words("Tilt", "Kippung")
-_TILTS = Words("Tilts", "Kippungen")
-_TEMPERATURE = Words("Temperature", "Temperatur")
-_OF_WHAT = Words("Temperatures", "Temperaturen")
+_NOT_DEFINED = Words("not defined")
+_TIME = Words("Time")
+_DISPLACEMENT = Words("Displacement")
+_DISPLACEMENTS = Words("Displacements")
+_TILT = Words("Tilt")
+_TILTS = Words("Tilts")
+_TEMPERATURE = Words("Temperature")
+_OF_WHAT = Words("Temperatures")

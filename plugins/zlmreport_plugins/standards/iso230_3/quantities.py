@@ -16,21 +16,15 @@ NAMES = tuple(name for letter, pair in PAIRS.items() for name in (letter, *pair)
 #: Of all sensors together.
 DRIFT = Measurand(
     identifier="drift",
-    title=Words(
-        en="Environmental temperature variation error",
-        de="Abweichung durch Temperaturänderungen der Umgebung",
-    ),
-    definition=Words(
-        en="the range of the displacements between tool and workpiece while the machine stands",
-        de="die Spanne der Verlagerungen zwischen Werkzeug und Werkstück, während die Maschine steht",
-    ),
+    title=Words("Environmental temperature variation error"),
+    definition=Words("the range of the displacements between tool and workpiece while the machine stands"),
     coordinate=Coordinate.TIME,
     sign=DISPLACEMENT.sign,
     joins_tests=True,
     of_lines=DISPLACEMENT,
     test_names=NAMES,
-    subject=Words("{name}", "{name}"),
-    bearer=Words(en="Sensors {axis}", de="Messtaster {axis}"),
+    subject=Words("{name}"),
+    bearer=Words("Sensors {axis}"),
     target=DISPLACEMENT.target,
     senses=DISPLACEMENT.senses,
     is_continuous=True,
@@ -46,16 +40,12 @@ def _of_a_sensor(name: str) -> Quantity:
     return Quantity(
         f"E_{name}",
         f"E_{{{name}}}",
-        Words("Drift in {letter}, sensor {name}", "Drift in {letter}, Messtaster {name}").given(
-            letter=name[0], name=name
-        ),
+        Words("Drift in {letter}, sensor {name}").given(letter=name[0], name=name),
         QuantityGroup.SYSTEMATIC,
         f"max({shown(name)}(t)) − min({shown(name)}(t))",
         Words(
             "How far tool and workpiece moved against each other in {letter} in the stated hours, and with "
-            "that how far a part that took so long may be off.",
-            "Wie weit sich Werkzeug und Werkstück in den angegebenen Stunden in {letter} gegeneinander "
-            "bewegt haben, und damit, wie weit ein Werkstück abweichen kann, das so lange gedauert hat.",
+            "that how far a part that took so long may be off."
         ).given(letter=name[0]),
     )
 
@@ -66,16 +56,12 @@ def _of_a_pair(letter: str) -> Quantity:
     return Quantity(
         f"tilt_{letter}",
         f"φ_{{{letter}}}",
-        Words("Tilt from {first} and {second}", "Kippung aus {first} und {second}").given(
-            first=first, second=second
-        ),
+        Words("Tilt from {first} and {second}").given(first=first, second=second),
         QuantityGroup.SYSTEMATIC,
         f"max({tilt}) − min({tilt})",
         Words(
             "How far the tool turned against the workpiece in the stated hours; d is the distance of both "
-            "sensors.",
-            "Wie weit sich das Werkzeug in den angegebenen Stunden gegen das Werkstück gedreht hat; d ist "
-            "der Abstand beider Messtaster.",
+            "sensors."
         ),
         unit=ARCSECOND,
     )
@@ -86,23 +72,15 @@ QUANTITIES = (*map(_of_a_sensor, NAMES), *map(_of_a_pair, PAIRS))
 NOTES: tuple[Words, ...] = (
     Words(
         "The error is that of this machine in this environment in these hours. It is not made for comparing "
-        "machines with each other.",
-        "Die Abweichung ist die dieser Maschine in dieser Umgebung in diesen Stunden. Sie ist nicht dazu "
-        "bestimmt, Maschinen miteinander zu vergleichen.",
+        "machines with each other."
     ),
     Words(
         "Over which hours the range is taken, which sensors there are and how long a test lasts at least is "
         "this program's reading of the standard; that its edition of 2020 has four tests, of which this is "
-        "that of the environment, is published.",
-        "Über welche Stunden die Spanne genommen wird, welche Messtaster es gibt und wie lange eine Messung "
-        "mindestens dauert, ist nach dem Verständnis dieses Programms von der Norm; dass ihre Ausgabe 2020 "
-        "vier Prüfungen hat, deren eine diese der Umgebung ist, ist veröffentlicht.",
+        "that of the environment, is published."
     ),
     Words(
         "Sensors, their holder and the mandrel change their lengths with the temperature too. What they did "
-        "is in the readings and counts as the machine's unless the budget states it.",
-        "Auch Messtaster, ihre Halterung und der Prüfdorn ändern mit der Temperatur ihre Länge. Was sie "
-        "beigetragen haben, steckt in den Messwerten und gilt als Verlagerung der Maschine, sofern die "
-        "Messunsicherheitsbilanz es nicht angibt.",
+        "is in the readings and counts as the machine's unless the budget states it."
     ),
 )

@@ -154,7 +154,7 @@ def _temperatures(tests: Mapping[str, MeasurementSet]) -> Finding:
     phrase = "; ".join(f"{{name{number}}} {{span{number}}} K" for number in range(len(parts)))
     given = {f"name{number}": name for number, (name, _) in enumerate(parts)}
     spans = {f"span{number}": span for number, (_, span) in enumerate(parts)}
-    return Finding(_BESIDE, Words(phrase, phrase).given(**given, **spans), met=True)
+    return Finding(_BESIDE, Words(phrase).given(**given, **spans), met=True)
 
 
 def _complete(tests: Mapping[str, MeasurementSet]) -> Finding:
@@ -178,64 +178,32 @@ def _averaged(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
         yield Finding(_HIDDEN, found, None, Basis.APPLIED)
 
 
-_HOURS = Words("Hours over which the drift is taken", "Stunden, über die die Drift genommen wird")
-_WHOLE = Words(
-    "not stated (hours); the whole record is taken: {hours} h from {start} h on",
-    "nicht angegeben (hours); genommen ist die ganze Aufzeichnung: {hours} h ab {start} h",
-)
-_THESE = Words("{hours} h from {start} h on", "{hours} h ab {start} h")
-_OVER_ALL = Words(
-    "Readings over all these hours, but for one interval of readings and a fiftieth at most",
-    "Messwerte über alle diese Stunden, bis auf einen Abstand der Messwerte und höchstens ein Fünfzigstel",
-)
-_THEY_DO = Words("they go over all of them", "sie reichen über alle")
+_HOURS = Words("Hours over which the drift is taken")
+_WHOLE = Words("not stated (hours); the whole record is taken: {hours} h from {start} h on")
+_THESE = Words("{hours} h from {start} h on")
+_OVER_ALL = Words("Readings over all these hours, but for one interval of readings and a fiftieth at most")
+_THEY_DO = Words("they go over all of them")
 _TOO_SHORT = Words(
     "{name}: {hours} h of {of} h; what follows from {names} is not reported, for a range in a shorter time "
-    "is another quantity",
-    "{name}: {hours} h von {of} h; was aus {names} folgt, ist nicht angegeben, denn die Spanne in kürzerer "
-    "Zeit ist eine andere Größe",
+    "is another quantity"
 )
-_LONG = Words(
-    "A test of at least {least} h; {day} h show a whole day",
-    "Eine Messung von mindestens {least} h; {day} h zeigen einen ganzen Tag",
-)
-_LASTED = Words("{hours} h", "{hours} h")
-_NO_GAP = Words(
-    "No time without readings longer than a twentieth of the hours",
-    "Keine Zeit ohne Messwerte länger als ein Zwanzigstel der Stunden",
-)
-_TOO_FEW = Words("a sensor has fewer than two readings", "ein Messtaster hat weniger als zwei Messwerte")
-_LONGEST = Words(
-    "{gap} min at most ({name}), usually {usual} min", "höchstens {gap} min ({name}), meist {usual} min"
-)
-_ALL = Words("Sensors in X, Y and Z", "Messtaster in X, Y und Z")
-_ONLY = Words("{measured}; none in {lacking}", "{measured}; keiner in {lacking}")
-_TILT = Words("Tilt from {first} and {second}", "Kippung aus {first} und {second}")
-_APART = Words("both measured, {distance} mm apart", "beide gemessen, {distance} mm Abstand")
-_NO_DISTANCE = Words(
-    "their distance is not stated (distance: {{{letter}: …}}); the tilt is not reported",
-    "ihr Abstand ist nicht angegeben (distance: {{{letter}: …}}); die Kippung ist nicht angegeben",
-)
+_LONG = Words("A test of at least {least} h; {day} h show a whole day")
+_LASTED = Words("{hours} h")
+_NO_GAP = Words("No time without readings longer than a twentieth of the hours")
+_TOO_FEW = Words("a sensor has fewer than two readings")
+_LONGEST = Words("{gap} min at most ({name}), usually {usual} min")
+_ALL = Words("Sensors in X, Y and Z")
+_ONLY = Words("{measured}; none in {lacking}")
+_TILT = Words("Tilt from {first} and {second}")
+_APART = Words("both measured, {distance} mm apart")
+_NO_DISTANCE = Words("their distance is not stated (distance: {{{letter}: …}}); the tilt is not reported")
 _NO_PAIR = Words(
-    "a distance is stated (distance: {letter}), and not both were measured; the tilt is not reported",
-    "ein Abstand ist angegeben (distance: {letter}), und nicht beide sind gemessen; die Kippung ist nicht "
-    "angegeben",
+    "a distance is stated (distance: {letter}), and not both were measured; the tilt is not reported"
 )
-_BESIDE = Words(
-    "Temperatures recorded beside the displacements, with their ranges",
-    "Temperaturen neben den Verlagerungen aufgezeichnet, mit ihren Spannen",
-)
-_NONE = Words("none", "keine")
-_NO_MISSING = Words("No reading missing", "Kein Messwert fehlt")
-_ALL_THERE = Words("all {total} readings", "alle {total} Messwerte")
-_SOME = Words(
-    "{missing} of {total} missing ({names}); evaluated by what is there",
-    "{missing} von {total} fehlen ({names}); ausgewertet wird, was vorliegt",
-)
-_HIDDEN = Words(
-    "No extreme hidden by averages of readings", "Kein Extremwert durch Mittelung der Messwerte verdeckt"
-)
-_LEFT = Words(
-    "left out of the averages: {left} µm at most ({name}, root mean square)",
-    "von den Mittelwerten weggelassen: höchstens {left} µm ({name}, quadratischer Mittelwert)",
-)
+_BESIDE = Words("Temperatures recorded beside the displacements, with their ranges")
+_NONE = Words("none")
+_NO_MISSING = Words("No reading missing")
+_ALL_THERE = Words("all {total} readings")
+_SOME = Words("{missing} of {total} missing ({names}); evaluated by what is there")
+_HIDDEN = Words("No extreme hidden by averages of readings")
+_LEFT = Words("left out of the averages: {left} µm at most ({name}, root mean square)")

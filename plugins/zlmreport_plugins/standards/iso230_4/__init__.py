@@ -141,10 +141,7 @@ def findings(measurements: MeasurementSet, options: Iso230Part4Options) -> Itera
 
 def _both_senses(measurements: MeasurementSet) -> Finding:
     """Ask for paths in both senses."""
-    requirement = Words(
-        "Paths in both senses, counter-clockwise and clockwise",
-        "Bahnen in beiden Drehsinnen, im Gegenuhrzeigersinn und im Uhrzeigersinn",
-    )
+    requirement = Words("Paths in both senses, counter-clockwise and clockwise")
     there = np.isfinite(measurements.deviation)
     senses = [
         words
@@ -152,14 +149,12 @@ def _both_senses(measurements: MeasurementSet) -> Finding:
         if np.any(measurements.approach[there] == approach)
     ]
     if len(senses) > 1:
-        return Finding(requirement, Words("both senses", "beide Drehsinne"), met=True)
+        return Finding(requirement, Words("both senses"), met=True)
     if not senses:
-        return Finding(requirement, Words("no reading at all", "kein einziger Messwert"), met=False)
+        return Finding(requirement, Words("no reading at all"), met=False)
     found = Words(
         "{sense} only: G of this sense; G(b) and D need both senses, and what changes with the sense, as a "
-        "lag of one axis, is not told from what does not",
-        "nur {sense}: G in diesem Sinn; G(b) und D brauchen beide, und was sich mit dem Drehsinn ändert, wie "
-        "der Nachlauf einer Achse, ist von dem nicht zu trennen, was sich nicht ändert",
+        "lag of one axis, is not told from what does not"
     )
     return Finding(requirement, found.given(sense=senses[0]), met=False)
 
@@ -167,34 +162,24 @@ def _both_senses(measurements: MeasurementSet) -> Finding:
 def _arc(measurements: MeasurementSet) -> Finding:
     """Ask for an arc of 90° at least; say what an arc below a full turn cannot give."""
     arc = covered_arc(measurements.target_positions)
-    requirement = Words("Nominal path of at least {arc}", "Sollbahn von mindestens {arc}").given(
+    requirement = Words("Nominal path of at least {arc}").given(
         arc=position_in_words(measurements.axis, _LEAST_ARC)
     )
     if is_full_turn(measurements.target_positions):
-        return Finding(
-            requirement, Words("a full turn", "ein voller Umlauf"), met=True, basis=Basis.PUBLISHED
-        )
+        return Finding(requirement, Words("a full turn"), met=True, basis=Basis.PUBLISHED)
     found = Words(
         "an arc of {arc}; the centre is then weakly known, F is taken about that of the set-up, and D is not "
-        "reported",
-        "ein Bogen von {arc}; der Mittelpunkt ist dann schwach bestimmt, F gilt um den der Aufspannung, und "
-        "D ist nicht angegeben",
+        "reported"
     ).given(arc=position_in_words(measurements.axis, round(arc, 3)))
     return Finding(requirement, found, arc >= _LEAST_ARC, Basis.PUBLISHED)
 
 
 def _calibrated(options: Iso230Part4Options) -> Finding:
     """Say whether F and D are defined."""
-    requirement = Words(
-        "A calibrated length of the instrument, for F and D",
-        "Eine kalibrierte Länge des Messgeräts, für F und D",
-    )
+    requirement = Words("A calibrated length of the instrument, for F and D")
     if options.has_length:
-        return Finding(requirement, Words("stated", "angegeben"), met=True)
-    found = Words(
-        "not stated (circle.calibrated_length); F and D are not reported",
-        "nicht angegeben (circle.calibrated_length); F und D sind nicht angegeben",
-    )
+        return Finding(requirement, Words("stated"), met=True)
+    found = Words("not stated (circle.calibrated_length); F and D are not reported")
     return Finding(requirement, found, met=None)
 
 
@@ -209,10 +194,9 @@ def _centred(measurements: MeasurementSet, options: Iso230Part4Options) -> Itera
     left = offset**2 / (2 * MILLIMETRE.to_si(options.circle.radius))
     axis = measurements.axis
     requirement = Words(
-        "Instrument so near to the centre of the circle that e²/(2R) is {most} at most",
-        "Messgerät so nahe am Mittelpunkt des Kreises, dass e²/(2R) höchstens {most} ist",
+        "Instrument so near to the centre of the circle that e²/(2R) is {most} at most"
     ).given(most=deviation_in_words(axis, _OFF_CENTRE))
-    found = Words("e = {offset}: {left}", "e = {offset}: {left}").given(
+    found = Words("e = {offset}: {left}").given(
         offset=deviation_in_words(axis, float(f"{offset:.3g}")),
         left=deviation_in_words(axis, float(f"{left:.2g}")),
     )
@@ -225,24 +209,17 @@ def _averaged(measurements: MeasurementSet) -> Iterator[Finding]:
     if averaging is None:
         return
     axis = measurements.axis
-    requirement = Words(
-        "No vibration of the machine hidden by averages of readings",
-        "Keine Schwingung der Maschine durch Mittelung der Messwerte verdeckt",
-    )
+    requirement = Words("No vibration of the machine hidden by averages of readings")
     left_out = deviation_in_words(axis, float(f"{averaging.left_out:.2g}"))
     if not averaging.amplitude:
         found = Words(
-            "left out of the averages: {left_out} (root mean square), with no vibration that stands out",
-            "von den Mittelwerten weggelassen: {left_out} (quadratischer Mittelwert), ohne Schwingung, die "
-            "hervortritt",
+            "left out of the averages: {left_out} (root mean square), with no vibration that stands out"
         )
         yield Finding(requirement, found.given(left_out=left_out), met=True)
         return
     found = Words(
         "left out of the averages: {left_out} (root mean square); in it {frequency} Hz with an amplitude of "
-        "{amplitude}, which G does not hold",
-        "von den Mittelwerten weggelassen: {left_out} (quadratischer Mittelwert); darin {frequency} Hz mit "
-        "einer Amplitude von {amplitude}, die G nicht enthält",
+        "{amplitude}, which G does not hold"
     ).given(
         left_out=left_out,
         frequency=float(f"{averaging.frequency:.3g}"),
@@ -256,10 +233,7 @@ class Iso230Part4:
 
     identifier = "iso230-4:2005"
     designation = "ISO 230-4:2005"
-    title = Words(
-        "Circular tests for numerically controlled machine tools",
-        "Kreisformprüfungen für numerisch gesteuerte Werkzeugmaschinen",
-    )
+    title = Words("Circular tests for numerically controlled machine tools")
     position_index = "i"
     options: type[Options] = Iso230Part4Options
     measurands = (CIRCLE,)

@@ -25,33 +25,23 @@ from zlmreport_plugins.standards.iso230_4.quantities import SENSES
 #: Returns the two circles that hold points at angles between them, by the keys of the standard.
 ZoneOf = Callable[[FloatArray, FloatArray, Any], Zone]
 
-_RADIAL = Words("Radial deviation", "Radialabweichung")
-_FROM_MEAN = Words("{paths}, from the mean radius", "{paths}, vom mittleren Radius aus")
-_ANGLE = Words("Angle from +{first} towards +{second}", "Winkel von +{first} nach +{second}")
-_BOTH_PATHS = Words("Plane {plane}: paths of both senses", "Ebene {plane}: Bahnen beider Drehsinne")
-_ONE_PATH = Words("Plane {plane}: path, {sense}", "Ebene {plane}: Bahn, {sense}")
+_RADIAL = Words("Radial deviation")
+_FROM_MEAN = Words("{paths}, from the mean radius")
+_ANGLE = Words("Angle from +{first} towards +{second}")
+_BOTH_PATHS = Words("Plane {plane}: paths of both senses")
+_ONE_PATH = Words("Plane {plane}: path, {sense}")
 _ON_CIRCLE = Words(
     "{paths}, and the two circles of {symbol} about {centre}; radius {radius} mm, feed {feed} mm/min. Arrow: "
-    "sense; bar: start; points: where an axis turns round.",
-    "{paths}, und die beiden Kreise von {symbol} um {centre}; Radius {radius} mm, Vorschub {feed} mm/min. "
-    "Pfeil: Drehsinn; Strich: Beginn; Punkte: Umkehr einer Achse.",
+    "sense; bar: start; points: where an axis turns round."
 )
 _CENTRES = {
-    "minimum-zone": Words("their own centre (minimum zone)", "ihren eigenen Mittelpunkt (Minimalzone)"),
-    "least-squares": Words(
-        "the centre of the circle of least squares", "den Mittelpunkt des Kreises der kleinsten Quadrate"
-    ),
+    "minimum-zone": Words("their own centre (minimum zone)"),
+    "least-squares": Words("the centre of the circle of least squares"),
 }
-_OVER_ANGLE = Words("{paths}, over the angle", "{paths}, über dem Winkel")
-_CENTRE = Words(
-    "The centre lies at {first} = {x} and {second} = {y} from that of the set-up.",
-    "Der Mittelpunkt liegt bei {first} = {x} und {second} = {y} von dem der Aufspannung.",
-)
-_PATH = Words("Path, {sense}:", "Bahn, {sense}:")
-_CIRCLES = Words(
-    "{symbol} = {width}: its circles lie at {inner} and {outer}.",
-    "{symbol} = {width}: seine Kreise liegen bei {inner} und {outer}.",
-)
+_OVER_ANGLE = Words("{paths}, over the angle")
+_CENTRE = Words("The centre lies at {first} = {x} and {second} = {y} from that of the set-up.")
+_PATH = Words("Path, {sense}:")
+_CIRCLES = Words("{symbol} = {width}: its circles lie at {inner} and {outer}.")
 
 
 def figures(evaluation: Evaluation, zone_of: ZoneOf, options: Any) -> Iterator[Figure]:
@@ -213,4 +203,4 @@ class _Graphs:
 
 def title_as_sentence(title: Words) -> Words:
     """Return a caption as a sentence."""
-    return Words("{title}.", "{title}.").given(title=title)
+    return Words("{title}.").given(title=title)

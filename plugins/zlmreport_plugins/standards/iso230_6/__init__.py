@@ -100,17 +100,11 @@ class DiagonalOptions(Options):
 _INDEX = Words(
     "The diagonal test is an index by which machines are compared and accepted, and no diagnosis: errors of "
     "axes may cancel along a diagonal, as those of two scales of which one is too long and the other too "
-    "short.",
-    "Die Prüfung der Diagonalen gibt eine Kennzahl, nach der Maschinen verglichen und abgenommen werden, und "
-    "ist keine Diagnose: Abweichungen von Achsen können sich längs einer Diagonalen aufheben, etwa die "
-    "zweier Maßstäbe, von denen einer zu lang und der andere zu kurz ist.",
+    "short."
 )
 _NAMES = Words(
     "P and N are the signs of the directions of X, Y and Z from the first position of a diagonal to its "
-    "last. E and B with the index d are the largest of the four body diagonals (this program's reading).",
-    "P und N sind die Vorzeichen der Richtungen von X, Y und Z von der ersten Position einer Diagonalen zur "
-    "letzten. E und B mit dem Index d sind die größten der vier Raumdiagonalen (nach dem Verständnis dieses "
-    "Programms).",
+    "last. E and B with the index d are the largest of the four body diagonals (this program's reading)."
 )
 
 
@@ -119,7 +113,7 @@ class Iso230Part6:
 
     identifier = "iso230-6:2002"
     designation = "ISO 230-6:2002"
-    title = Words("Diagonal displacement tests of the work space", "Prüfung der Diagonalen des Arbeitsraums")
+    title = Words("Diagonal displacement tests of the work space")
     position_index = "i"
     options: type[Options] = DiagonalOptions
     measurands = (DIAGONALS,)
@@ -292,42 +286,26 @@ def _panel(name: str, line: MeasurementSet, statistics: PositionStatistics) -> P
     )
 
 
-_FOUR = Words("All four body diagonals: PPP, NPP, PNP, NNP", "Alle vier Raumdiagonalen: PPP, NPP, PNP, NNP")
-_ALL_FOUR = Words("all four", "alle vier")
-_LACKING = Words(
-    "{names} not measured; E_d and B_d are not reported",
-    "{names} nicht gemessen; E_d und B_d sind nicht angegeben",
-)
-_EACH = Words("On each diagonal: {requirement}", "Auf jeder Diagonalen: {requirement}")
-_ON = Words("{found} ({name})", "{found} ({name})")
-_ONE_DIRECTION = Words(
-    "E and B of both directions are not reported", "E und B beider Richtungen sind nicht angegeben"
-)
-_IN_SPACE = Words("Diagonals within the work space (axes)", "Diagonalen innerhalb des Arbeitsraums (axes)")
-_NOT_STATED = Words("not stated", "nicht angegeben")
-_THEY_ARE = Words("they are", "sie sind es")
-_TOO_LONG = Words(
-    "{name} was measured over {measured}, the work space has {whole}",
-    "{name} ist über {measured} gemessen, der Arbeitsraum hat {whole}",
-)
-_OF_BODY = Words(
-    "Mean deviations along the body diagonals, on one scale",
-    "Mittlere Abweichungen längs der Raumdiagonalen, in einem Maßstab",
-)
-_OF_FACES = Words(
-    "Mean deviations along the face diagonals, on one scale",
-    "Mittlere Abweichungen längs der Flächendiagonalen, in einem Maßstab",
-)
+_FOUR = Words("All four body diagonals: PPP, NPP, PNP, NNP")
+_ALL_FOUR = Words("all four")
+_LACKING = Words("{names} not measured; E_d and B_d are not reported")
+_EACH = Words("On each diagonal: {requirement}")
+_ON = Words("{found} ({name})")
+_ONE_DIRECTION = Words("E and B of both directions are not reported")
+_IN_SPACE = Words("Diagonals within the work space (axes)")
+_NOT_STATED = Words("not stated")
+_THEY_ARE = Words("they are", context="all are")
+_TOO_LONG = Words("{name} was measured over {measured}, the work space has {whole}")
+_OF_BODY = Words("Mean deviations along the body diagonals, on one scale")
+_OF_FACES = Words("Mean deviations along the face diagonals, on one scale")
 _SEEN = Words(
     "Graphs of the mean deviation over the position on the diagonals {values}; largest systematic deviation: "
-    "{largest}.",
-    "Diagramme der mittleren Abweichung über der Position auf den Diagonalen {values}; größte systematische "
-    "Abweichung: {largest}.",
+    "{largest}."
 )
-_HEADING = Words("{name}, {length}", "{name}, {length}")
-_NOT_DEFINED = Words("not defined", "nicht bestimmt")
-_ALONG = Words("Position along the diagonal", "Position längs der Diagonalen")
-_DEVIATION = Words("Deviation", "Abweichung")
+_HEADING = Words("{name}, {length}")
+_NOT_DEFINED = Words("not defined")
+_ALONG = Words("Position along the diagonal")
+_DEVIATION = Words("Deviation")
 
 
 @hookimpl

@@ -65,28 +65,16 @@ from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, 
 _WIDTHS = Words(
     "No parameter is a ± value: spreads and ranges are full widths. The position spread is {k} times the sum "
     "of the standard deviations (n − 1) of both directions; the limits lie half the sum of reversal span and "
-    "position spread to either side of the mean.",
-    "Keine Kenngröße ist ein ±-Wert: Streuungen und Spannen sind volle Breiten. Die Positionsstreubreite ist "
-    "das {k}-Fache der Summe der Standardabweichungen (n − 1) beider Richtungen; die Grenzen liegen um die "
-    "halbe Summe aus Umkehrspanne und Positionsstreubreite beiderseits des Mittelwerts.",
+    "position spread to either side of the mean."
 )
 _NOT_ACCURACY = Words(
     "P averages the scatter of both directions and therefore differs from the A of ISO 230-2, even at the "
-    "same number of standard deviations.",
-    "P mittelt die Streuung beider Richtungen und unterscheidet sich daher von A nach ISO 230-2, auch bei "
-    "gleicher Anzahl von Standardabweichungen.",
+    "same number of standard deviations."
 )
-_INDEX = Words(
-    "The reversal span is an amount without sign. The index mit marks a mean over the positions.",
-    "Die Umkehrspanne ist ein Betrag ohne Vorzeichen. Der Index mit (mittel) bezeichnet ein Mittel über die "
-    "Positionen.",
-)
-_SOURCE = Words(
-    "Formulas as in the manual of the program ZLM Position, G 1.3.",
-    "Formeln nach dem Handbuch des Programms ZLM Position, G 1.3.",
-)
+_INDEX = Words("The reversal span is an amount without sign. The index mit marks a mean over the positions.")
+_SOURCE = Words("Formulas as in the manual of the program ZLM Position, G 1.3.")
 
-_MEAN = Words("Mean deviation", "Mittlere Abweichung")
+_MEAN = Words("Mean deviation")
 
 
 def notes(guideline: Guideline) -> tuple[Words, ...]:
@@ -125,8 +113,7 @@ class VdiGuideline:
 
 _RUNS = 5
 _ONE_DIRECTION_ONLY = Words(
-    "the guideline does not provide for this: P, Pa and Ps are formed from this direction, U does not exist",
-    "in der Richtlinie nicht vorgesehen: P, Pa und Ps sind aus dieser Richtung gebildet, U entfällt",
+    "the guideline does not provide for this: P, Pa and Ps are formed from this direction, U does not exist"
 )
 
 
@@ -208,15 +195,9 @@ class _Graphs:
 
     def means(self) -> Figure:
         """Return means, reversal and spread by position, with U_j/2 and P_sj/2 where the band is widest."""
-        title = Words(
-            "Axis {axis}: mean deviations, reversal span and position spread",
-            "Achse {axis}: mittlere Abweichungen, Umkehrspanne und Positionsstreubreite",
-        )
+        title = Words("Axis {axis}: mean deviations, reversal span and position spread")
         if not self.bidirectional:
-            title = Words(
-                "Axis {axis}: mean deviations and position spread",
-                "Achse {axis}: mittlere Abweichungen und Positionsstreubreite",
-            )
+            title = Words("Axis {axis}: mean deviations and position spread")
         shown = diagram_panel(
             bands=[self._spread_band(), self._reversal_band()],
             readings=self.diagram.readings(),
@@ -228,14 +209,10 @@ class _Graphs:
     def overall(self) -> Figure:
         """Return P, P_a and U_max at the places where they arise."""
         title = Words(
-            "Axis {axis}: position uncertainty, position deviation and reversal span where they arise",
-            "Achse {axis}: Positionsunsicherheit, Positionsabweichung und Umkehrspanne, wo sie entstehen",
+            "Axis {axis}: position uncertainty, position deviation and reversal span where they arise"
         )
         if not self.bidirectional:
-            title = Words(
-                "Axis {axis}: position uncertainty and position deviation where they arise",
-                "Achse {axis}: Positionsunsicherheit und Positionsabweichung, wo sie entstehen",
-            )
+            title = Words("Axis {axis}: position uncertainty and position deviation where they arise")
         shown = diagram_panel(
             bands=[self._spread_band()],
             curves=self._curves(),

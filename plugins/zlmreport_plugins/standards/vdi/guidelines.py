@@ -12,32 +12,18 @@ from zlmreport.plugin.standard import PositionQuantity, Quantity, QuantityGroup
 OF_A_PART_MADE = {
     "P": Words(
         "The largest error, systematic and random together, that positioning is expected to bring into a "
-        "dimension of a part, whichever the direction of approach.",
-        "Die größte Abweichung, systematisch und zufällig zusammen, die das Positionieren in einem Maß des "
-        "Werkstücks erwarten lässt, gleich aus welcher Richtung angefahren wird.",
+        "dimension of a part, whichever the direction of approach."
     ),
-    "Pa": Words(
-        "The largest error of a dimension that remains on average over many like parts.",
-        "Die größte Abweichung eines Maßes, die im Mittel über viele gleiche Werkstücke bleibt.",
-    ),
+    "Pa": Words("The largest error of a dimension that remains on average over many like parts."),
     "U_max": Words(
-        "The largest average shift of a feature when its position is approached from the other direction.",
-        "Die größte mittlere Verschiebung eines Formelements, wenn seine Position aus der anderen Richtung "
-        "angefahren wird.",
+        "The largest average shift of a feature when its position is approached from the other direction."
     ),
-    "U_mean": Words(
-        "The amount of that shift, averaged over the positions of the axis.",
-        "Der Betrag dieser Verschiebung, gemittelt über die Positionen der Achse.",
-    ),
+    "U_mean": Words("The amount of that shift, averaged over the positions of the axis."),
     "Ps_max": Words(
-        "The scatter to expect of a feature's place among like parts, at the position where it is largest.",
-        "Die zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken, an der Position "
-        "mit der größten Streuung.",
+        "The scatter to expect of a feature's place among like parts, at the position where it is largest."
     ),
     "Ps_mean": Words(
-        "The scatter to expect of a feature's place among like parts, averaged over the positions.",
-        "Die zu erwartende Streuung der Lage eines Formelements unter gleichen Werkstücken, gemittelt über "
-        "die Positionen.",
+        "The scatter to expect of a feature's place among like parts, averaged over the positions."
     ),
 }
 
@@ -45,32 +31,19 @@ OF_A_PART_MADE = {
 OF_A_POINT_MEASURED = {
     "P": Words(
         "The largest error, systematic and random together, to expect of a length measured along the axis, "
-        "whichever the direction of approach.",
-        "Die größte Abweichung, systematisch und zufällig zusammen, die an einer entlang der Achse "
-        "gemessenen Länge zu erwarten ist, gleich aus welcher Richtung angefahren wird.",
+        "whichever the direction of approach."
     ),
-    "Pa": Words(
-        "The largest error of a measured length that remains on average over many measurements.",
-        "Die größte Abweichung einer gemessenen Länge, die im Mittel über viele Messungen bleibt.",
-    ),
+    "Pa": Words("The largest error of a measured length that remains on average over many measurements."),
     "U_max": Words(
         "The largest average change of a measured coordinate when its position is approached from the other "
-        "direction.",
-        "Die größte mittlere Änderung einer gemessenen Koordinate, wenn ihre Position aus der anderen "
-        "Richtung angefahren wird.",
+        "direction."
     ),
-    "U_mean": Words(
-        "The amount of that change, averaged over the positions of the axis.",
-        "Der Betrag dieser Änderung, gemittelt über die Positionen der Achse.",
-    ),
+    "U_mean": Words("The amount of that change, averaged over the positions of the axis."),
     "Ps_max": Words(
-        "The scatter to expect of a repeatedly measured coordinate, at the position where it is largest.",
-        "Die zu erwartende Streuung einer wiederholt gemessenen Koordinate, an der Position mit der größten "
-        "Streuung.",
+        "The scatter to expect of a repeatedly measured coordinate, at the position where it is largest."
     ),
     "Ps_mean": Words(
-        "The scatter to expect of a repeatedly measured coordinate, averaged over the positions.",
-        "Die zu erwartende Streuung einer wiederholt gemessenen Koordinate, gemittelt über die Positionen.",
+        "The scatter to expect of a repeatedly measured coordinate, averaged over the positions."
     ),
 }
 
@@ -96,10 +69,7 @@ GUIDELINES = (
     Guideline(
         identifier="vdi-dgq-3441",
         designation="VDI/DGQ 3441",
-        title=Words(
-            "Position uncertainty of machine tools, from repeated positioning",
-            "Positionsunsicherheit von Werkzeugmaschinen aus wiederholtem Positionieren",
-        ),
+        title=Words("Position uncertainty of machine tools, from repeated positioning"),
         factor=3,
         positions_per_metre=10,
         positions_in_all=None,
@@ -109,10 +79,7 @@ GUIDELINES = (
     Guideline(
         identifier="vdi-vde-2617",
         designation="VDI/VDE 2617",
-        title=Words(
-            "Position uncertainty of coordinate measuring machines, from repeated positioning",
-            "Positionsunsicherheit von Koordinatenmessgeräten aus wiederholtem Positionieren",
-        ),
+        title=Words("Position uncertainty of coordinate measuring machines, from repeated positioning"),
         factor=2,
         positions_per_metre=None,
         positions_in_all=11,
@@ -122,8 +89,8 @@ GUIDELINES = (
 )
 
 
-_SPREAD = Words("Position spread", "Positionsstreubreite")
-_REVERSAL = Words("Reversal span", "Umkehrspanne")
+_SPREAD = Words("Position spread")
+_REVERSAL = Words("Reversal span")
 
 
 def quantities(guideline: Guideline) -> tuple[Quantity, ...]:
@@ -140,42 +107,42 @@ def quantities(guideline: Guideline) -> tuple[Quantity, ...]:
         quantity(
             "P",
             "P",
-            Words("Position uncertainty", "Positionsunsicherheit"),
+            Words("Position uncertainty"),
             QuantityGroup.COMPOSITE,
             f"max[{mean} + {band}] − min[{mean} − {band}]",
         ),
         quantity(
             "Pa",
             "P_{a}",
-            Words("Position deviation", "Positionsabweichung"),
+            Words("Position deviation"),
             QuantityGroup.SYSTEMATIC,
             f"max[{mean}] − min[{mean}], {mean} = ½({mean}↑ + {mean}↓)",
         ),
         quantity(
             "Ps_max",
             "P_{s max}",
-            Words("Largest position spread", "Größte Positionsstreubreite"),
+            Words("Largest position spread"),
             QuantityGroup.RANDOM,
             f"max[P_{{sj}}], {spread}",
         ),
         quantity(
             "Ps_mean",
             "P_{s mit}",
-            Words("Mean position spread", "Mittlere Positionsstreubreite"),
+            Words("Mean position spread"),
             QuantityGroup.RANDOM,
             "(1/n) · ∑ P_{sj}",
         ),
         quantity(
             "U_max",
             "U_{max}",
-            Words("Largest reversal span", "Größte Umkehrspanne"),
+            Words("Largest reversal span"),
             QuantityGroup.SYSTEMATIC,
             f"max[U_{{j}}], {reversal}",
         ),
         quantity(
             "U_mean",
             "U_{mit}",
-            Words("Mean reversal span", "Mittlere Umkehrspanne"),
+            Words("Mean reversal span"),
             QuantityGroup.SYSTEMATIC,
             "(1/n) · ∑ U_{j}",
         ),

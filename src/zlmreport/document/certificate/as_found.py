@@ -46,60 +46,47 @@ if TYPE_CHECKING:
 #: What the two measurements are called, by the work between them.
 NAMES = {
     "adjustment": (
-        Words(en="as found, before the adjustment", de="vor der Justierung"),
-        Words(en="as left, after the adjustment", de="nach der Justierung"),
+        Words("as found, before the adjustment"),
+        Words("as left, after the adjustment"),
     ),
     "repair": (
-        Words(en="as found, before the repair", de="vor der Reparatur"),
-        Words(en="as left, after the repair", de="nach der Reparatur"),
+        Words("as found, before the repair"),
+        Words("as left, after the repair"),
     ),
 }
-_TITLE = Words(en="As found and as left", de="Vorgefundener und hinterlassener Zustand")
+_TITLE = Words("As found and as left")
 _ON_COVER = Words(
-    en="The axis was {done} between two measurements. The results above are those after the {work}; the "
-    "section “{title}” compares them with those before.",
-    de="Die Achse wurde zwischen zwei Messungen {done}. Die Ergebnisse oben gelten nach der {work}; der "
-    "Abschnitt „{title}“ vergleicht sie mit denen davor.",
+    "The axis was {done} between two measurements. The results above are those after the {work}; the "
+    "section “{title}” compares them with those before."
 )
 #: The work between the measurements, that it was done, and the same as the name of a fact.
 _WORK = {
     "adjustment": (
-        Words(en="adjustment", de="Justierung"),
-        Words(en="adjusted", de="justiert"),
-        Words(en="Adjusted", de="Justiert"),
+        Words("adjustment"),
+        Words("adjusted"),
+        Words("Adjusted"),
     ),
     "repair": (
-        Words(en="repair", de="Reparatur"),
-        Words(en="repaired", de="repariert"),
-        Words(en="Repaired", de="Repariert"),
+        Words("repair"),
+        Words("repaired"),
+        Words("Repaired"),
     ),
 }
-_NOT_ALIKE = Words(
-    en="The two measurements are not alike; differences between them may come from that",
-    de="Die beiden Messungen sind nicht gleichartig; Unterschiede können daher rühren",
-)
-_OTHER_TARGETS = Words(en="Other target positions", de="Andere Sollpositionen")
-_OTHER_APPROACHES = Words(en="Other directions of approach", de="Andere Anfahrrichtungen")
-_OTHER_RUNS = Words(
-    en="Other number of runs: {before} before, {after} after",
-    de="Andere Zahl der Durchläufe: {before} vorher, {after} nachher",
-)
-_LABELLED = Words(en="{title} ({state})", de="{title} ({state})")
+_NOT_ALIKE = Words("The two measurements are not alike; differences between them may come from that")
+_OTHER_TARGETS = Words("Other target positions")
+_OTHER_APPROACHES = Words("Other directions of approach")
+_OTHER_RUNS = Words("Other number of runs: {before} before, {after} after")
+_LABELLED = Words("{title} ({state})")
 #: Evaluations of both measurements by one standard: as found, as left.
 Pair: TypeAlias = tuple[Evaluation, Evaluation]
 
-_BEFORE = Words(en="As found", de="Vorher")
-_AFTER = Words(en="As left", de="Nachher")
-_CHANGES = Words(
-    en="Parameters as found and as left; change = as left − as found, of unrounded values",
-    de="Kenngrößen vorher und nachher; Änderung = nachher − vorher, aus ungerundeten Werten",
-)
+_BEFORE = Words("As found")
+_AFTER = Words("As left")
+_CHANGES = Words("Parameters as found and as left; change = as left − as found, of unrounded values")
 _CHANGES_WITH_U = Words(
-    en="{changes}. Its U is the sum of both U: it holds whatever errors the two measurements share",
-    de="{changes}. Ihr U ist die Summe beider U: es gilt, welche Fehler den beiden Messungen auch gemeinsam "
-    "sind",
+    "{changes}. Its U is the sum of both U: it holds whatever errors the two measurements share"
 )
-_LIMITS = Words(en="Limits as found and as left", de="Grenzwerte vorher und nachher")
+_LIMITS = Words("Limits as found and as left")
 
 
 def on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
@@ -198,12 +185,12 @@ def _circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) 
     environment = environment_facts(keys.environment, measurements, writer, "as_found.environment")
     groups = (
         (
-            Words(en="Measurement as found", de="Messung im vorgefundenen Zustand"),
+            Words("Measurement as found"),
             measurement_facts(keys.measurement, measurements, writer, within),
         ),
-        (Words(en="Environment as found", de="Umgebung dabei"), environment),
+        (Words("Environment as found"), environment),
         (
-            Words(en="Between the measurements", de="Zwischen den Messungen"),
+            Words("Between the measurements"),
             (Fact(_WORK[keys.work][2], keys.adjustment, ("as_found.work", "as_found.adjustment")),),
         ),
     )
@@ -234,13 +221,13 @@ def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
     known = any(one.expanded_uncertainty is not None for each in every for one in _both(each))
     uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
-        Column(writer.say(Words(en="Parameter", de="Kenngröße"))),
+        Column(writer.say(Words("Symbol"))),
+        Column(writer.say(Words("Parameter"))),
         Column(writer.say(_BEFORE), unit, Align.RIGHT),
         *uncertainty,
         Column(writer.say(_AFTER), unit, Align.RIGHT),
         *uncertainty,
-        Column(writer.say(Words(en="Change", de="Änderung")), unit, Align.RIGHT),
+        Column(writer.say(Words("Change")), unit, Align.RIGHT),
         *uncertainty,
     )
     groups = tuple(
@@ -281,9 +268,9 @@ def _value_of(change: Change, writer: Writer) -> tuple[str, str]:
 def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of the limits before and after, where the job states any."""
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
+        Column(writer.say(Words("Symbol"))),
         Column(
-            writer.say(Words(en="Limit", de="Grenzwert")) + writer.marks.after("evaluate.tolerances"),
+            writer.say(Words("Limit")) + writer.marks.after("evaluate.tolerances"),
             writer.deviation_unit.symbol,
             Align.RIGHT,
         ),

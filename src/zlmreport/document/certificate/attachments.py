@@ -82,14 +82,14 @@ class Attachment:
 class SourceRole(Enum):
     """What a source is to the job: its key in the results file, and its name."""
 
-    JOB = ("job", Words(en="Job", de="Auftrag"))
-    EXTENDED = ("extended", Words(en="Extended by the job", de="Vom Auftrag erweitert"))
-    TABLE = ("table", Words(en="Table of the axis", de="Tabelle der Achse"))
-    READINGS = ("readings", Words(en="Readings", de="Messwerte"))
-    SESSION = ("session", Words(en="Further test of the axis", de="Weitere Messung der Achse"))
-    PRIORS = ("priors", Words(en="What earlier tests taught", de="Was frühere Messungen lehrten"))
-    TEST = ("test", Words(en="Part of what was measured", de="Teil des Gemessenen"))
-    LOGO = ("logo", Words(en="Logo of the laboratory", de="Logo des Labors"))
+    JOB = ("job", Words("Job"))
+    EXTENDED = ("extended", Words("Extended by the job"))
+    TABLE = ("table", Words("Table of the axis"))
+    READINGS = ("readings", Words("Readings"))
+    SESSION = ("session", Words("Further test of the axis"))
+    PRIORS = ("priors", Words("What earlier tests taught"))
+    TEST = ("test", Words("Part of what was measured"))
+    LOGO = ("logo", Words("Logo of the laboratory"))
 
     def __init__(self, key: str, title: Words) -> None:
         self.key = key

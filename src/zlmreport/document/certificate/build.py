@@ -32,10 +32,7 @@ if TYPE_CHECKING:
 
 GENERATOR = f"zlmreport {__version__}"
 
-_DESCRIPTION = Words(
-    en="{subject}, evaluated in accordance with {standards}",
-    de="{subject}, ausgewertet nach {standards}",
-)
+_DESCRIPTION = Words("{subject}, evaluated in accordance with {standards}")
 
 
 def build(  # noqa: PLR0913, PLR0917 - what a document is made of
@@ -114,11 +111,11 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         sections=sections,
         page_words=PageWords(
             number=writer.say(running_title(certificate)),
-            page=writer.say(Words(en="page", de="Seite")),
-            of=writer.say(Words(en="of", de="von")),
-            end=writer.say(Words(en="End of document", de="Ende des Dokuments")),
-            figure=writer.say(Words(en="Figure", de="Bild")),
-            table=writer.say(Words(en="Table", de="Tabelle")),
+            page=writer.say(Words("page")),
+            of=writer.say(Words("of")),
+            end=writer.say(Words("End of document")),
+            figure=writer.say(Words("Figure")),
+            table=writer.say(Words("Table")),
             head=filled(style.header or "", job, "certificate.style.header"),
             foot=filled(style.footer or "", job, "certificate.style.footer"),
         ),

@@ -18,25 +18,15 @@ if TYPE_CHECKING:
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: What a document says of the circle in a line.
-_IN_WORDS = Words(
-    en="plane {plane}, radius {radius} mm, feed {feed} mm/min",
-    de="Ebene {plane}, Radius {radius} mm, Vorschub {feed} mm/min",
-)
-_CALIBRATED = Words(en="calibrated", de="kalibriert")
-_NOT_CALIBRATED = Words(
-    en="not calibrated: nothing is said of radii", de="nicht kalibriert: über Radien ist nichts gesagt"
-)
-_SENSES = Words(en="{first} and {second}, {runs} each", de="{first} und {second}, je {runs}")
-_UNLIKE = Words(en="{first}, {runs}; {second}, {others}", de="{first}, {runs}; {second}, {others}")
-_ONE_SENSE = Words(en="{first} only, {runs}", de="nur {first}, {runs}")
-_BEGINS = Words(en="{sense} at {angle}", de="{sense} bei {angle}")
-_ANGLES = Words(
-    en="{count}, from {first} to {last} from +{from_axis} towards +{to_axis}",
-    de="{count}, von {first} bis {last}, von +{from_axis} nach +{to_axis}",
-)
-_AVERAGED = Words(
-    en="{count}, averages of {readings} readings", de="{count}, Mittel aus {readings} Messwerten"
-)
+_IN_WORDS = Words("plane {plane}, radius {radius} mm, feed {feed} mm/min")
+_CALIBRATED = Words("calibrated")
+_NOT_CALIBRATED = Words("not calibrated: nothing is said of radii")
+_SENSES = Words("{first} and {second}, {runs} each")
+_UNLIKE = Words("{first}, {runs}; {second}, {others}")
+_ONE_SENSE = Words("{first} only, {runs}")
+_BEGINS = Words("{sense} at {angle}")
+_ANGLES = Words("{count}, from {first} to {last} from +{from_axis} towards +{to_axis}")
+_AVERAGED = Words("{count}, averages of {readings} readings")
 
 
 def circle_in_words(keys: CircleKeys, writer: Writer) -> str:
@@ -49,23 +39,19 @@ def circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
     stated = "centre" in keys.model_fields_set
     place = " / ".join(map(writer.number, keys.centre)) if stated else None
     length = writer.say(_CALIBRATED if keys.calibrated_length else _NOT_CALIBRATED)
-    yield Fact(Words(en="Plane", de="Ebene"), keys.plane, ("circle.plane",))
+    yield Fact(Words("Plane"), keys.plane, ("circle.plane",))
+    yield Fact(Words("Nominal radius"), with_unit(keys.radius, "mm", writer), ("circle.radius",))
     yield Fact(
-        Words(en="Nominal radius", de="Sollradius"), with_unit(keys.radius, "mm", writer), ("circle.radius",)
-    )
-    yield Fact(
-        Words(en="Feed along the path", de="Bahnvorschub"),
+        Words("Feed along the path"),
         with_unit(keys.feed, "mm/min", writer),
         ("circle.feed",),
     )
     yield Fact(
-        Words(en="Centre at X / Y / Z", de="Mittelpunkt bei X / Y / Z"),
+        Words("Centre at X / Y / Z"),
         with_unit(place, "mm", writer) and f"{place} mm",
         ("circle.centre",),
     )
-    yield Fact(
-        Words(en="Length of the instrument", de="Länge des Messgeräts"), length, ("circle.calibrated_length",)
-    )
+    yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length",))
 
 
 def path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Iterator[Fact]:
@@ -78,14 +64,14 @@ def path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Ite
     words = _ONE_SENSE if len(senses) == 1 else _SENSES if len(set(turns)) == 1 else _UNLIKE
     runs, *others = map(runs_in_words, turns)
     said = words.given(first=senses[0], second=senses[-1], runs=runs, others=others[0] if others else "")
-    yield Fact(Words(en="Senses and turns", de="Drehsinne und Umläufe"), writer.say(said), source)
+    yield Fact(Words("Senses and turns"), writer.say(said), source)
     begins = []
     for approach, sense in zip(measurements.approaches, senses, strict=True):
         first = int(measurements.target[np.flatnonzero(measurements.approach == approach)[0]])
         angle = units.with_unit(writer.position(float(measurements.target_positions[first])), "°")
         begins.append(writer.say(_BEGINS.given(sense=sense, angle=angle)))
-    yield Fact(Words(en="Evaluated from", de="Ausgewertet ab"), "; ".join(begins), source)
-    yield Fact(Words(en="Angles", de="Winkel"), writer.say(_angles(measurements, writer)), source)
+    yield Fact(Words("Evaluated from"), "; ".join(begins), source)
+    yield Fact(Words("Angles"), writer.say(_angles(measurements, writer)), source)
 
 
 def _angles(measurements: MeasurementSet, writer: Writer) -> Words:

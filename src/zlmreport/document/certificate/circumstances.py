@@ -21,12 +21,12 @@ if TYPE_CHECKING:
     from zlmreport.measurement.arrays import FloatArray
 
 _METHODS = {
-    "linear": Words(en="linear method", de="Linearverfahren"),
-    "unidirectional": Words(en="unidirectional linear method", de="einseitiges Linearverfahren"),
-    "pendulum": Words(en="oscillation (pendulum-step) method", de="Pendelschrittverfahren"),
-    "quasi-pilgrim": Words(en="quasi-pilgrim step method", de="Quasi-Pilgerschrittverfahren"),
+    "linear": Words("linear method"),
+    "unidirectional": Words("unidirectional linear method"),
+    "pendulum": Words("oscillation (pendulum-step) method"),
+    "quasi-pilgrim": Words("quasi-pilgrim step method"),
 }
-_DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
+_DAYS = Words("{first} to {last}")
 
 
 def days(measurement: Measurement, writer: Writer) -> str | None:
@@ -101,7 +101,7 @@ def measurement_facts(
     yield fact("Remarks", "Bemerkungen", measurement.remarks, "remarks")
 
 
-_MEASURED = Words("{subject}: {sign}", "{subject}: {sign}")
+_MEASURED = Words("{subject}: {sign}")
 
 
 def _measured(measurement: Measurement, measurements: MeasurementSet, writer: Writer) -> str | None:
@@ -129,7 +129,7 @@ def _elsewhere(measurement: Measurement, writer: Writer) -> str | None:
     return "; ".join(said) or None
 
 
-_TOOL = Words(en="tool", de="Werkzeug")
+_TOOL = Words("tool")
 
 
 def environment_facts(
@@ -143,15 +143,15 @@ def environment_facts(
         elif logged:
             yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
     if environment is not None:
-        sensors = Words(en="Sensor locations", de="Messstellen")
+        sensors = Words("Sensor locations")
         yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
         calibrated = "; ".join(_sensor(each, writer) for each in environment.thermometers)
-        name = Words(en="Thermometers and sensors", de="Thermometer und Sensoren")
+        name = Words("Thermometers and sensors")
         yield Fact(name, calibrated, (f"{within}.thermometers",))
-        yield Fact(Words(en="Remarks", de="Bemerkungen"), environment.remarks, (f"{within}.remarks",))
+        yield Fact(Words("Remarks"), environment.remarks, (f"{within}.remarks",))
 
 
-_CALIBRATED = Words(en="calibrated {date}", de="kalibriert {date}")
+_CALIBRATED = Words("calibrated {date}")
 
 
 def _sensor(sensor: SensorKeys, writer: Writer) -> str:
@@ -174,7 +174,7 @@ _CONDITIONS = (
         )
     ),
     (
-        Words(en="Expansion coefficient of the machine", de="Koeffizient der Längenausdehnung der Maschine"),
+        Words("Expansion coefficient of the machine"),
         "expansion_coefficient",
         "µm/(m·K)",
         False,
@@ -191,7 +191,7 @@ def with_unit(value: str | float | None, unit: str, writer: Writer) -> str | Non
 
 def _targets(measurements: MeasurementSet, writer: Writer) -> Words:
     first, last = measurements.target_positions[0], measurements.target_positions[-1]
-    return Words(en="{count}, from {first} to {last}", de="{count}, von {first} bis {last}").given(
+    return Words("{count}, from {first} to {last}").given(
         count=len(measurements.target_positions),
         first=writer.position(float(first)),
         last=units.with_unit(writer.position(float(last)), writer.position_unit.symbol),
@@ -206,22 +206,15 @@ def _record(measurements: MeasurementSet) -> Words:
     return record.given(count=len(targets), duration=hours, unit=axis.position_unit.symbol)
 
 
-_MOMENTS = Words(
-    en="{duration} {unit}, read at {count} moments", de="{duration} {unit}, gelesen zu {count} Zeitpunkten"
-)
-_AVERAGES = Words(
-    en="{duration} {unit}, as averages over {count} intervals",
-    de="{duration} {unit}, als Mittelwerte über {count} Zeitabschnitte",
-)
+_MOMENTS = Words("{duration} {unit}, read at {count} moments")
+_AVERAGES = Words("{duration} {unit}, as averages over {count} intervals")
 
 
 def _runs(measurements: MeasurementSet) -> Words:
     count = len(measurements.runs)
     if measurements.is_bidirectional:
-        return Words(
-            en="both directions (↑ and ↓), {runs} each", de="beide Richtungen (↑ und ↓), je {runs}"
-        ).given(runs=runs_in_words(count))
-    return Words(en="one direction ({arrow}), {runs}", de="eine Richtung ({arrow}), {runs}").given(
+        return Words("both directions (↑ and ↓), {runs} each").given(runs=runs_in_words(count))
+    return Words("one direction ({arrow}), {runs}").given(
         arrow=measurements.approaches[0].arrow, runs=runs_in_words(count)
     )
 

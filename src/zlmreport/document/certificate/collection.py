@@ -29,20 +29,17 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
 
-_SUBJECT = Words(en="{count} measurements of {machine}", de="{count} Messungen an {machine}")
-_SUBJECT_OF_ONE = Words(en="One measurement of {machine}", de="Eine Messung an {machine}")
-_THE_MACHINE = Words(en="a machine", de="einer Maschine")
-_DESCRIPTION = Words(
-    en="{subject}, evaluated in accordance with {standards}", de="{subject}, ausgewertet nach {standards}"
-)
+_SUBJECT = Words("{count} measurements of {machine}")
+_SUBJECT_OF_ONE = Words("One measurement of {machine}")
+_THE_MACHINE = Words("a machine")
+_DESCRIPTION = Words("{subject}, evaluated in accordance with {standards}")
 _SUMMARY = Words(
-    en="Summary: what has a limit, or else the first parameter of each measurement by each standard",
-    de="Überblick: was einen Grenzwert hat, sonst die erste Kenngröße jeder Messung nach jeder Norm",
+    "Summary: what has a limit, or else the first parameter of each measurement by each standard"
 )
-_GROUP = Words(en="{subject}, {designation}", de="{subject}, {designation}")
-_TITLE = Words("{name}: {title}", "{name}: {title}")
-_DAYS = Words(en="{first} to {last}", de="{first} bis {last}")
-_NAMED = Words("{names}: {heading}", "{names}: {heading}")
+_GROUP = Words("{subject}, {designation}")
+_TITLE = Words("{name}: {title}")
+_DAYS = Words("{first} to {last}")
+_NAMED = Words("{names}: {heading}")
 
 
 def collected(
@@ -158,23 +155,23 @@ def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: 
     if customer:
         address = ", ".join(cover.lines(customer.address))
         said = ", ".join(filter(None, (customer.name, address)))
-        yield Fact(Words(en="Customer", de="Auftraggeber"), said, ("customer.name", "customer.address"))
+        yield Fact(Words("Customer"), said, ("customer.name", "customer.address"))
     kind = writer.say(MACHINE_KINDS[machine.kind])
     item = f"{machine.type} ({kind})" if machine.type else kind
     yield Fact(statements.ITEM[keys.certificate.kind], item, ("machine.manufacturer", "machine.model"))
-    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
     names = ", ".join(dict.fromkeys(each.designation for each in evaluations))
-    yield Fact(Words(en="Evaluated in accordance with", de="Ausgewertet nach"), names)
+    yield Fact(Words("Evaluated in accordance with"), names)
     place = cover.place_of_work(keys)
     if place:
-        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
-    yield Fact(Words(en="Received", de="Eingang"), date(keys.dates.received, writer), ("dates.received",))
-    yield Fact(Words(en="Dates of measurement", de="Daten der Messungen"), _days(job, writer))
-    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
+        yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
+    yield Fact(Words("Received"), date(keys.dates.received, writer), ("dates.received",))
+    yield Fact(Words("Dates of measurement"), _days(job, writer))
+    yield Fact(Words("Date of issue"), date(keys.certificate.issued, writer))
     if keys.next_due:
         yield Fact(statements.NEXT_DUE[keys.certificate.kind], writer.date(keys.next_due.date))
     if person:
-        yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
+        yield Fact(Words("Authorised by"), in_a_line(person))
     yield Fact(DIGEST, digest)
 
 

@@ -29,29 +29,24 @@ if TYPE_CHECKING:
     from zlmreport.job.measurement_keys import CompensatesKeys, Instrument
     from zlmreport.measurement.measurement_set import MeasurementSet
 
-_TITLE = Words(en="Item, method and conditions", de="Gegenstand, Verfahren und Bedingungen")
+_TITLE = Words("Item, method and conditions")
 
 MACHINE_KINDS = {
-    "machine tool": Words(en="machine tool", de="Werkzeugmaschine"),
-    "coordinate measuring machine": Words(en="coordinate measuring machine", de="Koordinatenmessgerät"),
+    "machine tool": Words("machine tool"),
+    "coordinate measuring machine": Words("coordinate measuring machine"),
 }
 
 AXIS_KINDS = {
-    AxisKind.LINEAR: Words(en="linear axis", de="Linearachse"),
-    AxisKind.ROTARY: Words(en="rotary axis", de="Drehachse"),
+    AxisKind.LINEAR: Words("linear axis"),
+    AxisKind.ROTARY: Words("rotary axis"),
 }
 
-_NO_TABLE = Words(en="none", de="keine")
-_NO_INFLUENCE = Words(
-    en="The laboratory names no environmental condition that influenced the results.",
-    de="Das Laboratorium nennt keine Umgebungsbedingung, die die Ergebnisse beeinflusst hat.",
-)
-_CAPTION = Words(en="Corrections applied to the readings", de="An den Messwerten angebrachte Korrektionen")
+_NO_TABLE = Words("none")
+_NO_INFLUENCE = Words("The laboratory names no environmental condition that influenced the results.")
+_CAPTION = Words("Corrections applied to the readings")
 _ALL_CORRECTED = Words(
-    en="Every deviation in this document is a corrected one. The readings as they were displayed are in the"
-    " files from which it was made.",
-    de="Jede Abweichung in diesem Dokument ist korrigiert. Die angezeigten Messwerte stehen in den Dateien,"
-    " aus denen es erstellt ist.",
+    "Every deviation in this document is a corrected one. The readings as they were displayed are in the"
+    " files from which it was made."
 )
 
 
@@ -96,16 +91,16 @@ def groups(
     keys = job.keys
     environment = environment_facts(keys.environment, measurements, writer, "environment")
     all_of_them = (
-        ("machine", Words(en="Machine", de="Maschine"), _machine(keys, writer)),
+        ("machine", Words("Machine"), _machine(keys, writer)),
         _moved(job, writer),
-        ("measurement", Words(en="Measurement", de="Messung"), _measurement(keys, measurements, writer)),
+        ("measurement", Words("Measurement"), _measurement(keys, measurements, writer)),
         (
             "instrument",
-            Words(en="Measuring instrument", de="Messgerät"),
+            Words("Measuring instrument"),
             _instrument(keys.instrument, measurements, writer),
         ),
         *(("", each.heading, each.facts) for each in described),
-        ("environment", Words(en="Environment", de="Umgebung"), environment),
+        ("environment", Words("Environment"), environment),
     )
     for key, heading, group in all_of_them:
         if pairs := stated_facts(group, writer):
@@ -138,29 +133,29 @@ def axis_in_words(job: Job, writer: Writer) -> str:
         return circle_in_words(job.keys.circle, writer)
     if job.axis.measurand.coordinate is Coordinate.TIME:
         return job.axis.name
-    words = Words("{name} ({kind})", "{name} ({kind})")
+    words = Words("{name} ({kind})")
     return writer.say(words.given(name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]))
 
 
 def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
     machine = keys.machine
     kind = writer.say(MACHINE_KINDS[machine.kind])
-    yield Fact(Words(en="Manufacturer", de="Hersteller"), machine.manufacturer, ("machine.manufacturer",))
-    yield Fact(Words(en="Model", de="Typ"), machine.model, ("machine.model",))
-    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
-    yield Fact(Words(en="Kind", de="Art"), kind, ("machine.kind",))
-    yield Fact(Words(en="Location", de="Aufstellort"), machine.location, ("machine.location",))
-    yield Fact(Words(en="Condition", de="Zustand"), machine.condition, ("machine.condition",))
+    yield Fact(Words("Manufacturer"), machine.manufacturer, ("machine.manufacturer",))
+    yield Fact(Words("Model", context="type of machine"), machine.model, ("machine.model",))
+    yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
+    yield Fact(Words("Kind"), kind, ("machine.kind",))
+    yield Fact(Words("Location"), machine.location, ("machine.location",))
+    yield Fact(Words("Condition"), machine.condition, ("machine.condition",))
 
 
 def measured_of(job: Job) -> Words:
     """Return what was measured of, as a heading: an axis, two on a circle, or sensors over time."""
     if job.keys.circle is not None:
-        return Words(en="Circle", de="Kreis")
+        return Words("Circle")
     if job.axis.measurand.coordinate is Coordinate.TIME:
         joins = job.axis.measurand.joins_tests
-        return Words(en="Sensors", de="Messtaster") if joins else Words(en="Sensor", de="Messtaster")
-    return Words(en="Axis", de="Achse")
+        return Words("Sensors") if joins else Words("Sensor")
+    return Words("Axis")
 
 
 def _moved(job: Job, writer: Writer) -> tuple[str, Words, Iterator[Fact]]:
@@ -176,38 +171,38 @@ def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
     if axis.travel is not None:
         first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
         travel = f"{first} … {units.with_unit(last, writer.position_unit.symbol)}"
-        yield Fact(Words(en="Travel", de="Verfahrweg"), travel, ("axis.travel",))
+        yield Fact(Words("Travel"), travel, ("axis.travel",))
     for name, length, key in (
         (
-            Words(en="Screw or gear pitch", de="Spindel- oder Getriebesteigung"),
+            Words("Screw or gear pitch"),
             axis.screw_pitch,
             "screw_pitch",
         ),
         (
-            Words(en="Signal period of the scale", de="Signalperiode des Maßstabs"),
+            Words("Signal period of the scale"),
             axis.signal_period,
             "signal_period",
         ),
         (
-            Words(en="Length of a scale element", de="Länge eines Maßstabselements"),
+            Words("Length of a scale element"),
             axis.scale_element,
             "scale_element",
         ),
-        (Words(en="Distance of like poles", de="Abstand gleicher Pole"), axis.pole_pitch, "pole_pitch"),
+        (Words("Distance of like poles"), axis.pole_pitch, "pole_pitch"),
     ):
         yield Fact(name, None if length is None else writer.length(length), (f"axis.{key}",))
     yield Fact(
-        Words(en="Compensation table", de="Kompensationstabelle"),
+        Words("Compensation table"),
         _table(keys.compensation_table, writer),
         ("axis.compensation_table",),
     )
     yield Fact(
-        Words(en="Angular errors", de="Winkelabweichungen"),
+        Words("Angular errors"),
         _file_name(keys.angular_errors),
         ("axis.angular_errors",),
     )
     yield Fact(
-        Words(en="Distance of the measuring line from the scale", de="Abstand der Messlinie vom Maßstab"),
+        Words("Distance of the measuring line from the scale"),
         with_unit(keys.abbe_offset, "mm", writer),
         ("axis.abbe_offset",),
     )
@@ -224,10 +219,10 @@ def _file_name(path: Path | None) -> str | None:
 
 def _measurement(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:
     yield from measurement_facts(keys.measurement, measurements, writer, "measurement")
-    yield Fact(Words(en="Procedure", de="Arbeitsanweisung"), keys.procedure)
-    yield Fact(Words(en="Sampling", de="Probenahme"), keys.sampling, ("sampling",))
+    yield Fact(Words("Procedure"), keys.procedure)
+    yield Fact(Words("Sampling"), keys.sampling, ("sampling",))
     yield Fact(
-        Words(en="Date of sampling", de="Datum der Probenahme"),
+        Words("Date of sampling"),
         date(keys.dates.sampled, writer),
         ("dates.sampled",),
     )
@@ -240,41 +235,39 @@ def _instrument(
     if instrument is None:
         return
     for name, value, key in (
-        (Words(en="Instrument", de="Gerät"), instrument.name, "name"),
-        (Words(en="Manufacturer", de="Hersteller"), instrument.manufacturer, "manufacturer"),
-        (Words(en="Serial number", de="Seriennummer"), instrument.serial, "serial"),
-        (Words(en="Calibration certificate", de="Kalibrierschein"), instrument.certificate, "certificate"),
-        (Words(en="Calibrated", de="Kalibriert am"), date(instrument.calibrated, writer), "calibrated"),
-        (Words(en="Calibration due", de="Kalibrierung fällig"), date(instrument.due, writer), "due"),
+        (Words("Instrument"), instrument.name, "name"),
+        (Words("Manufacturer"), instrument.manufacturer, "manufacturer"),
+        (Words("Serial number"), instrument.serial, "serial"),
+        (Words("Calibration certificate"), instrument.certificate, "certificate"),
+        (Words("Calibrated"), date(instrument.calibrated, writer), "calibrated"),
+        (Words("Calibration due"), date(instrument.due, writer), "due"),
     ):
         yield Fact(name, value, (f"instrument.{key}",))
     yield Fact(
-        Words(en="Expanded uncertainty", de="Erweiterte Messunsicherheit"),
+        Words("Expanded uncertainty"),
         None if measurements.tests else _uncertainty(instrument, writer),
         ("instrument.expanded_uncertainty", "instrument.expanded_uncertainty_per_metre"),
     )
     yield Fact(
-        Words(en="Expansion coefficient of the instrument", de="Längenausdehnung des Messgeräts"),
+        Words("Expansion coefficient of the instrument"),
         with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
         ("instrument.expansion_coefficient",),
     )
     yield Fact(
-        Words(en="Compensation by the instrument", de="Kompensation durch das Messgerät"),
+        Words("Compensation by the instrument"),
         instrument.compensation,
         ("instrument.compensation",),
     )
     yield Fact(
-        Words(en="Corrected by the instrument", de="Vom Messgerät korrigiert"),
+        Words("Corrected by the instrument"),
         _compensates(instrument.compensates, writer),
         ("instrument.compensates",),
     )
 
 
-_MATERIAL = Words(
-    en="material to 20 °C by α = {alpha} µm/(m·K)", de="Werkstoff auf 20 °C mit α = {alpha} µm/(m·K)"
-)
-_AIR = Words(en="refractive index of the air", de="Brechzahl der Luft")
-_NOTHING = Words(en="nothing", de="nichts")
+_MATERIAL = Words("material to 20 °C by α = {alpha} µm/(m·K)")
+_AIR = Words("refractive index of the air")
+_NOTHING = Words("nothing")
 
 
 def _compensates(keys: CompensatesKeys | None, writer: Writer) -> str | None:
@@ -306,10 +299,10 @@ def correction_blocks(measurements: MeasurementSet, writer: Writer) -> Iterator[
     if not corrections:
         return
     columns = (
-        Column(writer.say(Words(en="Correction", de="Korrektion"))),
-        Column(writer.say(Words(en="By", de="Nach"))),
-        Column(writer.say(Words(en="From", de="Aus")) + writer.marks.after("environment", "corrections")),
-        Column(writer.say(Words(en="Largest", de="Größte")), writer.deviation_unit.symbol, Align.RIGHT),
+        Column(writer.say(Words("Correction"))),
+        Column(writer.say(Words("By"))),
+        Column(writer.say(Words("From")) + writer.marks.after("environment", "corrections")),
+        Column(writer.say(Words("Largest")), writer.deviation_unit.symbol, Align.RIGHT),
     )
     rows: tuple[tuple[Cell, ...], ...] = tuple(
         (

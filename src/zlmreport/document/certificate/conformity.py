@@ -36,84 +36,56 @@ _UNDERFLOW = 1e-300
 _EVEN = 0.5
 #: What each statement looks like, and its words.
 STATEMENTS = {
-    Conformity.MET: (Mark.MET, Words(en="conforms", de="eingehalten")),
+    Conformity.MET: (Mark.MET, Words("conforms")),
     Conformity.CONDITIONALLY_MET: (
         Mark.MET,
-        Words(en="conforms, conditionally", de="bedingt eingehalten"),
+        Words("conforms, conditionally"),
     ),
     Conformity.CONDITIONALLY_FAILED: (
         Mark.NOT_MET,
-        Words(en="does not conform, conditionally", de="bedingt nicht eingehalten"),
+        Words("does not conform, conditionally"),
     ),
-    Conformity.FAILED: (Mark.NOT_MET, Words(en="does not conform", de="nicht eingehalten")),
-    Conformity.UNDECIDED: (Mark.OPEN, Words(en="not decided", de="nicht entschieden")),
+    Conformity.FAILED: (Mark.NOT_MET, Words("does not conform")),
+    Conformity.UNDECIDED: (Mark.OPEN, Words("not decided")),
 }
 
 _SIMPLE = Words(
-    en="Decision rule: simple acceptance. A parameter conforms when its unrounded amount does not exceed "
+    "Decision rule: simple acceptance. A parameter conforms when its unrounded amount does not exceed "
     "the limit TL. The measurement uncertainty is not taken into account: for a value at the limit, the "
-    "risk of a wrong acceptance or rejection reaches 50 %{largest}.",
-    de="Entscheidungsregel: einfache Annahme. Eine Kenngröße hält den Grenzwert TL ein, wenn ihr "
-    "ungerundeter Betrag ihn nicht überschreitet. Die Messunsicherheit bleibt unberücksichtigt: für "
-    "einen Wert am Grenzwert erreicht das Risiko einer falschen Annahme oder Ablehnung 50 %{largest}.",
+    "risk of a wrong acceptance or rejection reaches 50 %{largest}."
 )
-_LARGEST = Words(
-    en="; the largest here is {risk} %, of {symbol}",
-    de="; das größte hier ist {risk} %, von {symbol}",
-)
+_LARGEST = Words("; the largest here is {risk} %, of {symbol}")
 _LARGER_IF_WIDE = Words(
-    en="{largest}: its uncertainty is as large as its limit, or known errors are not corrected",
-    de="{largest}: seine Unsicherheit ist so groß wie sein Grenzwert, oder bekannte Fehler sind nicht "
-    "korrigiert",
+    "{largest}: its uncertainty is as large as its limit, or known errors are not corrected"
 )
 _KNOWN_ERRORS = Words(
-    en="{rule} Where a known error that is not corrected would turn the statement, nothing is decided.",
-    de="{rule} Wo ein bekannter, nicht korrigierter Fehler die Aussage umkehren würde, ist nichts "
-    "entschieden.",
+    "{rule} Where a known error that is not corrected would turn the statement, nothing is decided."
 )
 _GUARD_BAND = Words(
-    en="Decision rule: guarded acceptance with the guard band w = {width}. A parameter conforms when its "
+    "Decision rule: guarded acceptance with the guard band w = {width}. A parameter conforms when its "
     "unrounded amount does not exceed TL − w; above, it does not conform. The risk of a wrong acceptance is "
-    "at most {risk} %.",
-    de="Entscheidungsregel: Annahme mit dem Schutzabstand w = {width}. Eine Kenngröße hält den Grenzwert "
-    "ein, wenn ihr ungerundeter Betrag TL − w nicht überschreitet; darüber gilt er als nicht "
-    "eingehalten. Das Risiko einer falschen Annahme beträgt höchstens {risk} %.",
+    "at most {risk} %."
 )
 _ISO_14253 = Words(
-    en="Decision rule: ISO 14253-1:2017 with a conformance probability of 95 %, applied as guard bands of "
+    "Decision rule: ISO 14253-1:2017 with a conformance probability of 95 %, applied as guard bands of "
     "1.65·u on both sides of the limit. Conformity is stated up to TL − 1.65·u, nonconformity beyond "
-    "TL + 1.65·u; in between nothing is decided. The risk of a wrong statement is at most 5 %.",
-    de="Entscheidungsregel: ISO 14253-1:2017 mit einer Konformitätswahrscheinlichkeit von 95 %, angewandt "
-    "als Schutzabstände von 1,65·u beiderseits des Grenzwerts. Konformität wird bis TL − 1,65·u "
-    "festgestellt, Nichtkonformität jenseits von TL + 1,65·u; dazwischen wird nichts entschieden. Das "
-    "Risiko einer falschen Aussage beträgt höchstens 5 %.",
+    "TL + 1.65·u; in between nothing is decided. The risk of a wrong statement is at most 5 %."
 )
 _NON_BINARY = Words(
-    en="Decision rule: non-binary statement with the guard band w = U (ILAC-G8:09/2019). Up to TL − U a "
+    "Decision rule: non-binary statement with the guard band w = U (ILAC-G8:09/2019). Up to TL − U a "
     "parameter conforms, up to TL conditionally; up to TL + U it conditionally does not conform, beyond "
-    "it does not. The risk of a wrong statement is at most {risk} %, of a conditional one at most 50 %.",
-    de="Entscheidungsregel: nicht binäre Aussage mit dem Schutzabstand w = U (ILAC-G8:09/2019). Bis TL − U "
-    "ist der Grenzwert eingehalten, bis TL bedingt eingehalten; bis TL + U ist er bedingt nicht "
-    "eingehalten, darüber nicht eingehalten. Das Risiko einer falschen Aussage beträgt höchstens {risk} "
-    "%, einer bedingten höchstens 50 %.",
+    "it does not. The risk of a wrong statement is at most {risk} %, of a conditional one at most 50 %."
 )
 _WITHOUT_UNCERTAINTY = Words(
-    en="{rule} It needs the expanded uncertainty of each parameter, which this document does not state; "
-    "conformity is therefore not decided.",
-    de="{rule} Sie braucht die erweiterte Messunsicherheit jeder Kenngröße, die dieses Dokument nicht "
-    "angibt; über die Konformität ist daher nicht entschieden.",
+    "{rule} It needs the expanded uncertainty of each parameter, which this document does not state; "
+    "conformity is therefore not decided."
 )
-_SPECIFICATION = Words(en="{rule} Limits{mark}: {names}.", de="{rule} Grenzwerte{mark}: {names}.")
-_OF_STANDARD = Words(en="{specification} ({standard})", de="{specification} ({standard})")
-_NO_SPECIFICATION = Words(
-    en="{rule} Limits as ordered; their source is not stated.",
-    de="{rule} Grenzwerte wie beauftragt; ihre Quelle ist nicht angegeben.",
-)
+_SPECIFICATION = Words("{rule} Limits{mark}: {names}.")
+_OF_STANDARD = Words("{specification} ({standard})")
+_NO_SPECIFICATION = Words("{rule} Limits as ordered; their source is not stated.")
 _CAPTION = Words(
-    en="Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
-    "normally distributed value with this uncertainty (JCGM 106:2012).",
-    de="Grenzwerte und was zu ihnen festgestellt wird. Das Risiko ist die Wahrscheinlichkeit, dass die "
-    "Aussage falsch ist, für einen normalverteilten Wert mit dieser Unsicherheit (JCGM 106:2012).",
+    "Limits and what is stated of them. The risk is the probability that the statement is wrong, for a "
+    "normally distributed value with this uncertainty (JCGM 106:2012)."
 )
 
 
@@ -187,16 +159,16 @@ def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Ta
     is_mixed = units != {writer.deviation_unit}
     unit = "" if is_mixed else writer.deviation_unit.symbol
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
-        Column(writer.say(Words(en="Amount", de="Betrag")), unit, Align.RIGHT),
+        Column(writer.say(Words("Symbol"))),
+        Column(writer.say(Words("Amount")), unit, Align.RIGHT),
         Column(
-            writer.say(Words(en="Limit TL", de="Grenzwert TL")) + writer.marks.after("evaluate.tolerances"),
+            writer.say(Words("Limit TL")) + writer.marks.after("evaluate.tolerances"),
             unit,
             Align.RIGHT,
         ),
-        Column(writer.say(Words(en="Accepted up to", de="Angenommen bis")), unit, Align.RIGHT),
-        Column(writer.say(Words(en="Statement", de="Aussage"))),
-        Column(writer.say(Words(en="Risk", de="Risiko")), "%", Align.RIGHT),
+        Column(writer.say(Words("Accepted up to")), unit, Align.RIGHT),
+        Column(writer.say(Words("Statement"))),
+        Column(writer.say(Words("Risk")), "%", Align.RIGHT),
     )
     groups = tuple(
         RowGroup(
@@ -230,7 +202,7 @@ def _row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell,
 def _accepted(limit: float, parameter: Parameter, writer: Writer) -> str:
     if limit == parameter.limit:
         return writer.number(writer.deviation_unit.from_si(limit))
-    return _rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words(en="none", de="keine"))
+    return _rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words("none"))
 
 
 def _rounded(value: float, parameter: Parameter, writer: Writer) -> str:

@@ -89,14 +89,8 @@ def _of_part(of: Material) -> Iterator[Block]:
     yield from statements.notices(job.keys, writer)
 
 
-_UNUSUAL = Words(
-    en="Values that are unusual in the unit in which they are stated",
-    de="Werte, die in der angegebenen Einheit ungewöhnlich sind",
-)
-_EVIDENCE = Words(
-    en="What readings and calibrations show",
-    de="Was Messwerte und Kalibrierungen zeigen",
-)
+_UNUSUAL = Words("Values that are unusual in the unit in which they are stated")
+_EVIDENCE = Words("What readings and calibrations show")
 
 
 def unlikely(of: Material | Certificate, writer: Writer) -> Iterator[Notice]:
@@ -132,7 +126,7 @@ def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: b
         )
         for page in pages
     )
-    caption = Words(en="Results in brief", de="Ergebnisse im Überblick")
+    caption = Words("Results in brief")
     shown = (each.quantity for page in pages for each in _in_brief(page[0].evaluation))
     told = told_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
     return Table(told, columns, groups, dense)
@@ -159,20 +153,12 @@ def shortfalls_of_parts(parts: Mapping[str, Sequence[Evaluation]], writer: Write
         yield Notice(writer.say(_NOT_MET), tuple(items))
 
 
-_IN_A_PART = Words(
-    en="{name}, {designation}: {count} not met; see its section",
-    de="{name}, {designation}: {count} nicht erfüllt; siehe den Abschnitt dazu",
-)
-_NOT_MET = Words(
-    en="Requirements that the test does not meet", de="Anforderungen, die die Messung nicht erfüllt"
-)
+_IN_A_PART = Words("{name}, {designation}: {count} not met; see its section")
+_NOT_MET = Words("Requirements that the test does not meet")
 
 
 def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_line: bool) -> Iterator[Notice]:
-    one = Words(
-        en="{designation}: {count} not met; see its section",
-        de="{designation}: {count} nicht erfüllt; siehe den Abschnitt dazu",
-    )
+    one = Words("{designation}: {count} not met; see its section")
     items = tuple(
         writer.say(one.given(designation=evaluation.designation, count=unmet))
         for evaluation in evaluations
@@ -180,7 +166,7 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_lin
     )
     if in_a_line and len(items) > 1:
         named = (each.designation for each in evaluations if any(one.met is False for one in each.findings))
-        words = Words(en="{designations}; see their sections", de="{designations}; siehe die Abschnitte dazu")
+        words = Words("{designations}; see their sections")
         items = (writer.say(words.given(designations=", ".join(named))),)
     if items:
         yield Notice(writer.say(_NOT_MET), items)
@@ -194,7 +180,7 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
     if customer:
         address = ", ".join(lines(customer.address))
         yield Fact(
-            Words(en="Customer", de="Auftraggeber"),
+            Words("Customer"),
             ", ".join(filter(None, (customer.name, address))),
             ("customer.name", "customer.address"),
         )
@@ -204,37 +190,37 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
         f"{machine.type} ({kind})" if machine.type else kind,
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
-    yield Fact(Words(en="Serial number", de="Seriennummer"), machine.serial, ("machine.serial",))
+    yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
     yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
     yield Fact(
-        Words(en="Evaluated in accordance with", de="Ausgewertet nach"),
+        Words("Evaluated in accordance with"),
         ", ".join(evaluation.designation for evaluation in evaluations),
         ("evaluate.standard",),
     )
     place = place_of_work(keys)
     if place:
-        yield Fact(Words(en="Place of the work", de="Ort der Arbeiten"), writer.say(place.words), place.keys)
+        yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
     received = date(keys.dates.received, writer)
-    yield Fact(Words(en="Received", de="Eingang"), received, ("dates.received",))
+    yield Fact(Words("Received"), received, ("dates.received",))
     if keys.as_found:
         yield Fact(
-            Words(en="Date of measurement as found", de="Datum der Messung vorher"),
+            Words("Date of measurement as found"),
             days(keys.as_found.measurement, writer),
             ("as_found.measurement.date", "as_found.measurement.end"),
         )
     yield Fact(
-        Words(en="Date of measurement", de="Datum der Messung"),
+        Words("Date of measurement"),
         days(keys.measurement, writer),
         ("measurement.date", "measurement.end"),
     )
-    yield Fact(Words(en="Date of issue", de="Ausstellungsdatum"), date(keys.certificate.issued, writer))
+    yield Fact(Words("Date of issue"), date(keys.certificate.issued, writer))
     if keys.next_due:
         yield Fact(
             statements.NEXT_DUE[keys.certificate.kind],
             writer.date(keys.next_due.date),
         )
     if person:
-        yield Fact(Words(en="Authorised by", de="Freigegeben durch"), in_a_line(person))
+        yield Fact(Words("Authorised by"), in_a_line(person))
     if not of.is_part:
         yield Fact(DIGEST, of.digest)
 
@@ -259,17 +245,13 @@ class PlaceOfWork:
 
 
 _KINDS = {
-    "laboratory": Words(en="in the laboratory", de="im Laboratorium"),
-    "customer": Words(en="at the customer's", de="beim Auftraggeber"),
-    "laboratory branch": Words(
-        en="at a branch of the laboratory", de="in einer Zweigstelle des Laboratoriums"
-    ),
-    "customer branch": Words(en="at a branch of the customer", de="in einer Zweigstelle des Auftraggebers"),
+    "laboratory": Words("in the laboratory"),
+    "customer": Words("at the customer's"),
+    "laboratory branch": Words("at a branch of the laboratory"),
+    "customer branch": Words("at a branch of the customer"),
 }
-_AT = Words(en="{kind}: {address}", de="{kind}: {address}")
-_WHERE_IT_STANDS = Words(
-    en="where the machine stands: {location}", de="am Aufstellort der Maschine: {location}"
-)
+_AT = Words("{kind}: {address}")
+_WHERE_IT_STANDS = Words("where the machine stands: {location}")
 
 
 def place_of_work(keys: JobKeys) -> PlaceOfWork | None:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: What it is called where it stands.
-DIGEST = Words(en="Digest of results", de="Prüfzeichen der Ergebnisse")
+DIGEST = Words("Digest of results")
 _ALPHABET = "0123456789ABCDEFGHJKMNPQRSTVWXYZ"
 _BITS, _BITS_OF_LETTER, _GROUP = 80, 5, 4
 _DECIMALS = 6

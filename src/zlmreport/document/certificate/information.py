@@ -36,60 +36,28 @@ class Information(Enum):
 
 _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
     {
-        Information.MOTION: Words(
-            en="Feed, dwell at each target and warm-up reported",
-            de="Vorschub, Verweilzeit je Position und Warmlauf angegeben",
-        ),
-        Information.PATH: Words(
-            en="Feed, place of the circle in the machine and warm-up reported",
-            de="Vorschub, Lage des Kreises in der Maschine und Warmlauf angegeben",
-        ),
-        Information.MEASURING_LINE: Words(
-            en="Measuring line, or where the other axes stood, reported",
-            de="Messlinie oder die Stellungen der übrigen Achsen angegeben",
-        ),
-        Information.COMPENSATION: Words(
-            en="Compensations of the machine that were active reported",
-            de="Wirksame Kompensationen der Maschine angegeben",
-        ),
-        Information.TEMPERATURES: Words(
-            en="Temperatures reported, and where they were measured",
-            de="Temperaturen und ihre Messstellen angegeben",
-        ),
+        Information.MOTION: Words("Feed, dwell at each target and warm-up reported"),
+        Information.PATH: Words("Feed, place of the circle in the machine and warm-up reported"),
+        Information.MEASURING_LINE: Words("Measuring line, or where the other axes stood, reported"),
+        Information.COMPENSATION: Words("Compensations of the machine that were active reported"),
+        Information.TEMPERATURES: Words("Temperatures reported, and where they were measured"),
         Information.REFERENCE_TEMPERATURE: Words(
-            en="Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion "
-            "in U",
-            de="Ergebnisse für 20 °C: dort gemessen, darauf korrigiert oder, bis 1 K davon, die Ausdehnung "
-            "in U enthalten",
+            "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
         ),
-        Information.INSTRUMENT: Words(
-            en="Measuring instrument, its calibration and its compensation reported",
-            de="Messgerät, seine Kalibrierung und seine Kompensation angegeben",
-        ),
+        Information.INSTRUMENT: Words("Measuring instrument, its calibration and its compensation reported"),
     }
 )
-_STATED = Words(en="stated", de="angegeben")
-_LACKING = Words(en="not stated: {lacking}", de="nicht angegeben: {lacking}")
-_UNKNOWN_TEMPERATURE = Words(
-    en="the temperature or the coefficient is not known",
-    de="Temperatur oder Koeffizient sind nicht bekannt",
-)
-_NOT_CORRECTED = Words(en="not at 20 °C, and not corrected", de="nicht bei 20 °C und nicht korrigiert")
-_IN_U = Words(en="not corrected; U holds the expansion whole", de="nicht korrigiert; U enthält sie ganz")
-_FAR_IN_U = Words(
-    en="{difference} K from 20 °C, and not corrected; U holds the expansion whole",
-    de="{difference} K von 20 °C entfernt und nicht korrigiert; U enthält sie ganz",
-)
-_BY_INSTRUMENT = Words(
-    en="corrected by the instrument, by α = {coefficient} µm/(m·K)",
-    de="vom Messgerät korrigiert, mit α = {coefficient} µm/(m·K)",
-)
+_STATED = Words("stated")
+_LACKING = Words("not stated: {lacking}")
+_UNKNOWN_TEMPERATURE = Words("the temperature or the coefficient is not known")
+_NOT_CORRECTED = Words("not at 20 °C, and not corrected")
+_IN_U = Words("not corrected; U holds the expansion whole")
+_FAR_IN_U = Words("{difference} K from 20 °C, and not corrected; U holds the expansion whole")
+_BY_INSTRUMENT = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)")
 #: Distance from 20 °C up to which an expansion that is counted in U may stand for a correction, K.
 _NEAR = 1.0
-_AT_REFERENCE = Words(en="measured at 20 °C", de="bei 20 °C gemessen")
-_CORRECTED = Words(
-    en="corrected by α = {coefficient} µm/(m·K)", de="korrigiert mit α = {coefficient} µm/(m·K)"
-)
+_AT_REFERENCE = Words("measured at 20 °C")
+_CORRECTED = Words("corrected by α = {coefficient} µm/(m·K)")
 
 
 def findings(
@@ -149,46 +117,46 @@ def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iter
     length = environment and (environment.axis_temperature or environment.material_temperature)
     stated: Mapping[Information, tuple[tuple[Words, object], ...]] = {
         Information.MOTION: (
-            (Words("feed", "Vorschub"), measurement.feed),
-            (Words("dwell at each target", "Verweilzeit je Position"), measurement.dwell),
-            (Words("warm-up", "Warmlauf"), measurement.warm_up),
+            (Words("feed"), measurement.feed),
+            (Words("dwell at each target"), measurement.dwell),
+            (Words("warm-up"), measurement.warm_up),
         ),
         Information.PATH: (
-            (Words("feed", "Vorschub"), circle and circle.feed),
-            (Words("centre of the circle", "Mittelpunkt"), circle and "centre" in circle.model_fields_set),
-            (Words("warm-up", "Warmlauf"), measurement.warm_up),
+            (Words("feed"), circle and circle.feed),
+            (Words("centre of the circle"), circle and "centre" in circle.model_fields_set),
+            (Words("warm-up"), measurement.warm_up),
         ),
         Information.MEASURING_LINE: (
-            (Words("measuring line", "Messlinie"), measurement.line or measurement.at or measurement.tests),
+            (Words("measuring line"), measurement.line or measurement.at or measurement.tests),
         ),
         Information.COMPENSATION: (
             (
-                Words("state of the compensation", "Zustand der Kompensation"),
+                Words("state of the compensation"),
                 measurement.compensation or keys.axis.compensation_table,
             ),
         ),
         Information.TEMPERATURES: (
             (
-                Words("temperature of the air", "Temperatur der Luft"),
+                Words("temperature of the air"),
                 (environment and environment.air_temperature) or "air_temperature" in logged,
             ),
             (
-                Words("temperature of the machine", "Temperatur der Maschine"),
+                Words("temperature of the machine"),
                 length or logged & {"axis_temperature", "material_temperature"},
             ),
             (
-                Words("sensor locations", "Messstellen"),
+                Words("sensor locations"),
                 environment and environment.sensors,
             ),
         ),
         Information.INSTRUMENT: (
-            (Words("instrument", "Messgerät"), instrument),
+            (Words("instrument"), instrument),
             (
-                Words("its calibration", "seine Kalibrierung"),
+                Words("its calibration"),
                 instrument and is_reference(instrument.certificate or ""),
             ),
             (
-                Words("its compensation", "seine Kompensation"),
+                Words("its compensation"),
                 instrument
                 and (
                     instrument.compensation

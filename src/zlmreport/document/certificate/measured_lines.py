@@ -14,10 +14,10 @@ from zlmreport.language import Words
 if TYPE_CHECKING:
     from zlmreport.document.certificate.results import Evaluated, Tested
 
-_NAMED = Words("{name}: {said}", "{name}: {said}")
+_NAMED = Words("{name}: {said}")
 #: Groups of facts that a line may have of its own: the machine is that of the document.
 _OWN = ("axis", "measurement", "instrument", "environment")
-_TABLE = Words(en="{name}: {caption}", de="{name}: {caption}")
+_TABLE = Words("{name}: {caption}")
 
 
 def said_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
     from zlmreport.measurement.measurement_set import MeasurementSet
 
-_TITLE = Words(en="Origin of the results", de="Herkunft der Ergebnisse")
+_TITLE = Words("Origin of the results")
 
 
 def section(
@@ -78,51 +78,40 @@ def section_of_several(
 
 #: Above the files of each measurement: of the axis as left, and as found if it was adjusted.
 _READINGS = (
-    Words(en="Readings, read by {source}", de="Messwerte, gelesen mit {source}"),
-    Words(
-        en="Readings as found, read by {source}",
-        de="Messwerte im vorgefundenen Zustand, gelesen mit {source}",
-    ),
+    Words("Readings, read by {source}"),
+    Words("Readings as found, read by {source}"),
 )
-_OF_LINE = Words(en="Readings of {name}, read by {source}", de="Messwerte von {name}, gelesen mit {source}")
+_OF_LINE = Words("Readings of {name}, read by {source}")
 _READING_AID = Words(
-    en="Values were computed from the unrounded readings, and limits are compared with unrounded values; "
+    "Values were computed from the unrounded readings, and limits are compared with unrounded values; "
     "only what is printed is rounded: a value with its uncertainty, any other to the decimals of the "
-    "readings.",
-    de="Gerechnet wurde mit ungerundeten Messwerten, und Grenzwerte werden mit ungerundeten Werten "
-    "verglichen; "
-    "gerundet ist nur, was gedruckt steht: ein Wert mit seiner Unsicherheit, jeder andere auf die "
-    "Dezimalstellen der Messwerte.",
+    "readings."
 )
 _SIGNS = Words(
-    en="Signs: deviation = {deviation}; {reversal} B = mean of the positive approach ↑ − mean of the "
-    "negative approach ↓.",
-    de="Vorzeichen: Abweichung = {deviation}; {reversal} B = Mittel der positiven Anfahrrichtung ↑ − "
-    "Mittel der negativen Anfahrrichtung ↓.",
+    "Signs: deviation = {deviation}; {reversal} B = mean of the positive approach ↑ − mean of the "
+    "negative approach ↓."
 )
-_SIGN = Words(en="Sign: {deviation}.", de="Vorzeichen: {deviation}.")
-_INDICATED = Words(en="indicated − calibrated position", de="angezeigte − kalibrierte Position")
+_SIGN = Words("Sign: {deviation}.")
+_INDICATED = Words("indicated − calibrated position")
 
 
 def _remarks(remarks: Iterable[Words], writer: Writer) -> Table:
     """Return what the reader of the files has to say of them."""
-    heading = writer.say(
-        Words(en="How the readings were understood", de="Wie die Messwerte verstanden wurden")
-    )
+    heading = writer.say(Words("How the readings were understood"))
     rows = tuple((said,) for said in dict.fromkeys(map(writer.say, remarks)))
-    return Table(writer.say(Words(en="Remarks", de="Bemerkungen")), (Column(heading),), (RowGroup(rows),))
+    return Table(writer.say(Words("Remarks")), (Column(heading),), (RowGroup(rows),))
 
 
 def _programs(generator: str, plugins: Mapping[str, str], writer: Writer) -> Facts:
     return Facts(
         (
-            (writer.say(Words(en="Program", de="Programm")), generator),
+            (writer.say(Words("Program")), generator),
             (
-                writer.say(Words(en="Plugins", de="Plugins")),
+                writer.say(Words("Plugins")),
                 ", ".join(f"{name} {version}" for name, version in sorted(plugins.items())),
             ),
         ),
-        writer.say(Words(en="Evaluated with", de="Ausgewertet mit")),
+        writer.say(Words("Evaluated with")),
     )
 
 
@@ -140,7 +129,7 @@ def _files_of(
     sources: Sequence[Source], headed: Sequence[tuple[Words, MeasurementSet]], writer: Writer
 ) -> Table:
     columns = (
-        Column(writer.say(Words(en="File", de="Datei"))),
+        Column(writer.say(Words("File"))),
         Column("Bytes", align=Align.RIGHT),
         Column("SHA-256"),
     )
@@ -153,9 +142,9 @@ def _files_of(
         for heading, line in headed
     ]
     others = tuple(_row(source) for source in sources if source not in readings)
-    groups.append(RowGroup(others, writer.say(Words(en="Job", de="Auftrag"))))
+    groups.append(RowGroup(others, writer.say(Words("Job"))))
     return Table(
-        writer.say(Words(en="Files", de="Dateien")),
+        writer.say(Words("Files")),
         columns,
         tuple(group for group in groups if group.rows),
         dense=True,

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from zlmreport.job.job import Job
 
 #: Above what no reading gives: nobody is to take it for a result.
-_QUOTED = Words(en="The laboratory's own words", de="Worte des Laboratoriums")
+_QUOTED = Words("The laboratory's own words")
 _PLACEHOLDER = re.compile(r"\{([a-z_]+(?:\.[a-z_]+)+)\}")
 _NAMES = frozenset({"conditions", "definitions", "uncertainty", "readings", "origin", "opinions", "model"})
 #: Sections that a calibration certificate cannot leave out: what they state, and its clause of ISO/IEC 17025.

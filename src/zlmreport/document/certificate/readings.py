@@ -33,37 +33,20 @@ _MOST_COLUMNS = 10
 #: Missing readings that are named one by one.
 _MOST_NAMED = 12
 
-_ONE_MISSING = Words(
-    en="{count} of {all} readings is missing; nothing was filled in",
-    de="{count} von {all} Messwerten fehlt; nichts wurde ergänzt",
-)
-_MISSING = Words(
-    en="{count} of {all} readings are missing; nothing was filled in",
-    de="{count} von {all} Messwerten fehlen; nichts wurde ergänzt",
-)
-_TITLE = Words(en="Readings", de="Messwerte")
+_ONE_MISSING = Words("{count} of {all} readings is missing; nothing was filled in")
+_MISSING = Words("{count} of {all} readings are missing; nothing was filled in")
+_TITLE = Words("Readings")
 _IN_FILES = Words(
-    en="The {count} readings that are evaluated are not printed. The files that they were read from are "
+    "The {count} readings that are evaluated are not printed. The files that they were read from are "
     "named under “Origin of the results”; the PDF carries them, and the means at each angle in its results "
-    "file.",
-    de="Die {count} ausgewerteten Messwerte sind nicht abgedruckt. Die Dateien, aus denen sie stammen, sind "
-    "unter „Herkunft der Ergebnisse“ genannt; das PDF enthält sie, und die Mittelwerte an jedem Winkel in "
-    "seiner Ergebnisdatei.",
+    "file."
 )
 _IN_FILES_OVER_TIME = Words(
-    en="The {count} readings that are evaluated are not printed. The files that they were read from are "
-    "named under “Origin of the results”; the PDF carries them.",
-    de="Die {count} ausgewerteten Messwerte sind nicht abgedruckt. Die Dateien, aus denen sie stammen, sind "
-    "unter „Herkunft der Ergebnisse“ genannt; das PDF enthält sie.",
+    "The {count} readings that are evaluated are not printed. The files that they were read from are "
+    "named under “Origin of the results”; the PDF carries them."
 )
-_CAPTION = Words(
-    en="Deviations x = {sign}, in the order of runs",
-    de="Abweichungen x = {sign}, in der Reihenfolge der Durchläufe",
-)
-_INDICATION = Words(
-    en="Deviations x = indicated − calibrated position, in the order of runs",
-    de="Abweichungen x = angezeigte − kalibrierte Position, in der Reihenfolge der Durchläufe",
-)
+_CAPTION = Words("Deviations x = {sign}, in the order of runs")
+_INDICATION = Words("Deviations x = indicated − calibrated position, in the order of runs")
 
 
 def section(measurements: MeasurementSet, writer: Writer, key: str = "measurement.source") -> Section:
@@ -105,10 +88,7 @@ def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[N
         count=len(missing),
         all=len(missing) + int(np.count_nonzero(np.isfinite(measurements.deviations()))),
     )
-    one = Words(
-        en="target {target} {arrow}, run {run}",
-        de="Sollposition {target} {arrow}, Durchlauf {run}",
-    )
+    one = Words("target {target} {arrow}, run {run}")
     items = [
         writer.say(
             one.given(
@@ -120,10 +100,7 @@ def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[N
         for reading in missing[:_MOST_NAMED]
     ]
     if len(missing) > _MOST_NAMED:
-        more = Words(
-            en="and {count} more (see the table of readings)",
-            de="und {count} weitere (siehe Tabelle der Messwerte)",
-        )
+        more = Words("and {count} more (see the table of readings)")
         items.append(writer.say(more.given(count=len(missing) - _MOST_NAMED)))
     yield Notice(writer.say(heading), tuple(items))
 

@@ -65,40 +65,27 @@ class Tested:
 
 _GROUPS = {
     Group.SYSTEMATIC: (
-        Words(en="Systematic deviations", de="Systematische Abweichungen"),
-        Words(
-            en="What repeats from run to run: the average error to expect.",
-            de="Was sich von Durchlauf zu Durchlauf wiederholt: der im Mittel zu erwartende Fehler.",
-        ),
+        Words("Systematic deviations"),
+        Words("What repeats from run to run: the average error to expect."),
     ),
     Group.RANDOM: (
-        Words(en="Random deviations", de="Zufällige Abweichungen"),
-        Words(
-            en="How far repeated approaches to one position scatter.",
-            de="Wie weit wiederholte Anfahrten einer Position streuen.",
-        ),
+        Words("Random deviations"),
+        Words("How far repeated approaches to one position scatter."),
     ),
     Group.COMPOSITE: (
-        Words(en="Composite deviations", de="Gesamtabweichungen"),
-        Words(
-            en="Systematic and random deviations together.",
-            de="Systematische und zufällige Abweichungen zusammen.",
-        ),
+        Words("Composite deviations"),
+        Words("Systematic and random deviations together."),
     ),
 }
 
-_OF_THE_AXIS = Words(en="Parameters of the axis", de="Kenngrößen der Achse")
-_PARAMETERS = Words(en="Parameters", de="Kenngrößen")
-_NO_PARAMETER = Words(
-    en="This test defines none of the parameters.", de="Diese Messung bestimmt keine der Kenngrößen."
-)
-_BY_STANDARD = Words(en="Results by {designations}", de="Ergebnisse nach {designations}")
-_BY_METHOD = Words(
-    en="Results by the method of {designations}", de="Ergebnisse nach dem Verfahren von {designations}"
-)
-_MET = Words(en="met", de="erfüllt")
-_NOT_MET = Words(en="not met", de="nicht erfüllt")
-_OPEN = Words(en="open", de="offen")
+_OF_THE_AXIS = Words("Parameters of the axis")
+_PARAMETERS = Words("Parameters")
+_NO_PARAMETER = Words("This test defines none of the parameters.")
+_BY_STANDARD = Words("Results by {designations}")
+_BY_METHOD = Words("Results by the method of {designations}")
+_MET = Words("met")
+_NOT_MET = Words("not met")
+_OPEN = Words("open")
 
 
 def title_of(evaluations: Sequence[Evaluation], writer: Writer) -> str:
@@ -135,11 +122,8 @@ def section(evaluated: Evaluated, writer: Writer) -> Section:
 
 
 _UNMET = {
-    Basis.PUBLISHED: Words(en="{requirement}; found: {found}", de="{requirement}; vorgefunden: {found}"),
-    Basis.APPLIED: Words(
-        en="{requirement} (as applied); found: {found}",
-        de="{requirement} (wie angewandt); vorgefunden: {found}",
-    ),
+    Basis.PUBLISHED: Words("{requirement}; found: {found}"),
+    Basis.APPLIED: Words("{requirement} (as applied); found: {found}"),
 }
 
 
@@ -154,7 +138,7 @@ def unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
 
 def shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Notice:
     """Return the notice of requirements that are not met."""
-    heading = Words(en="The test deviates from {designation}", de="Die Messung weicht von {designation} ab")
+    heading = Words("The test deviates from {designation}")
     return Notice(writer.say(heading.given(designation=designations)), items)
 
 
@@ -166,7 +150,7 @@ def parameters_in_words(evaluation: Evaluation) -> Words:
 
 def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
     values = Values.of([evaluation], writer, with_interval=True)
-    columns = values.columns(Words(en="Parameter and what it means", de="Kenngröße und ihre Bedeutung"))
+    columns = values.columns(Words("Parameter and what it means"))
     groups = []
     for group, (heading, note) in _GROUPS.items():
         rows = tuple(
@@ -196,7 +180,7 @@ def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
     for least, words in RAISED_TO.items():
         symbols = [each.quantity.notation for each in evaluation.parameters if each.raised_to is least]
         if symbols:
-            statement = Words(en="U of {symbols}: {what}.", de="U von {symbols}: {what}.")
+            statement = Words("U of {symbols}: {what}.")
             yield Paragraph(writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words)))
 
 
@@ -246,7 +230,7 @@ def positions(evaluation: Evaluation, writer: Writer) -> Table:
     for column in evaluation.columns:
         if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
             add(column.quantity.notation, column.values)
-    caption = Words(en="Results by target position", de="Ergebnisse nach Sollposition")
+    caption = Words("Results by target position")
     told = told_apart(
         caption,
         (column.quantity for column in evaluation.columns),
@@ -273,9 +257,9 @@ def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArra
 def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
     """Return what standards require of a test, and what was found; standards that agree share their rows."""
     columns = (
-        Column(writer.say(Words(en="Requirement on the test", de="Anforderung an die Messung"))),
-        Column(writer.say(Words(en="Found", de="Vorgefunden"))),
-        Column(writer.say(Words(en="Result", de="Ergebnis"))),
+        Column(writer.say(Words("Requirement on the test"))),
+        Column(writer.say(Words("Found"))),
+        Column(writer.say(Words("Result"))),
     )
     groups: dict[tuple[tuple[Cell, ...], ...], list[str]] = {}
     for evaluation in evaluations:
@@ -285,10 +269,8 @@ def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
         )
         groups.setdefault(rows, []).append(evaluation.designation)
     caption = Words(
-        en="Requirements on the test. Those marked * are applied as this program's reading of the "
-        "standard, not quoted from its text.",
-        de="Anforderungen an die Messung. Mit * bezeichnete werden nach dem Verständnis dieses Programms "
-        "angewandt und nicht aus dem Wortlaut der Norm zitiert.",
+        "Requirements on the test. Those marked * are applied as this program's reading of the "
+        "standard, not quoted from its text."
     )
     of_several = len(evaluations) > 1
     return Table(
@@ -315,11 +297,7 @@ def _mark(finding: Finding, writer: Writer) -> Verdict:
 
 def definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
     """Return the definitions of a standard's parameters."""
-    caption = Words(
-        en="Definitions. Names describe the parameters; the formulas define what was computed.",
-        de="Definitionen. Die Namen beschreiben die Kenngrößen; maßgebend für die Berechnung sind die "
-        "Formeln.",
-    )
+    caption = Words("Definitions. Names describe the parameters; the formulas define what was computed.")
     return Formulas(
         writer.say(caption),
         tuple(

@@ -30,20 +30,20 @@ _MOST_IN_COLUMNS, _FEWEST_IN_COLUMNS = 24, 4
 #: Lines in a column of who and what was measured; a longer one is running text.
 _MOST_LINES = 3
 
-_DETAILS = Words(en="Details", de="Einzelheiten")
-_ELSEWHERE = Words(en="On the page “{details}”: {what}.", de="Auf der Seite „{details}“: {what}.")
-_TO_BE_NOTED = Words(en="To be noted", de="Zu beachten")
-_SEE_DETAILS = Words(en="To be noted: see the page “{details}”", de="Zu beachten: siehe Seite „{details}“")
-_ITEM = Words("{heading}: {items}", "{heading}: {items}")
+_DETAILS = Words("Details")
+_ELSEWHERE = Words("On the page “{details}”: {what}.")
+_TO_BE_NOTED = Words("To be noted")
+_SEE_DETAILS = Words("To be noted: see the page “{details}”")
+_ITEM = Words("{heading}: {items}")
 
 
 #: How the page calls what stands elsewhere.
 _NAMES = {
-    "notices": Words(en="what is to be noted", de="was zu beachten ist"),
-    "who": Words(en="who and what", de="wer und was"),
-    "law": Words(en="decision rule and uncertainty", de="Entscheidungsregel und Messunsicherheit"),
-    "conditions": Words(en="further conditions", de="weitere Bedingungen"),
-    "corrections": Words(en="the corrections", de="die Korrektionen"),
+    "notices": Words("what is to be noted"),
+    "who": Words("who and what"),
+    "law": Words("decision rule and uncertainty"),
+    "conditions": Words("further conditions"),
+    "corrections": Words("the corrections"),
 }
 
 

@@ -64,7 +64,7 @@ _BESIDE_GRAPH = 8.0
 #: Groups of facts that need no heading, for their names say of what they are.
 _PLAIN_GROUPS = ("axis", "circle", "measurement", "environment")
 
-_DIGEST = Words("{name}: {digest}.", "{name}: {digest}.")
+_DIGEST = Words("{name}: {digest}.")
 #: Marks of verdicts in the order of their lines.
 _GRAVEST_FIRST = ("not met", "open", "met")
 

@@ -45,20 +45,12 @@ _MOST_BESIDE = 2
 #: Evaluations that share a page, page by page.
 Pages: TypeAlias = list[tuple[Evaluated, ...]]
 
-_SHARED = Words(
-    en="These readings give the same numbers by {others}; {named} are those of {first}.",
-    de="Diese Messwerte ergeben nach {others} dieselben Zahlen; {named} sind die von {first}.",
-)
-_NAMES = Words(en="the names", de="die Benennungen")
-_NAMES_AND_LIMITS = Words(en="names and limits", de="Benennungen und Grenzwerte")
-_DEFINITIONS = Words(
-    en="Limits, requirements and definitions", de="Grenzwerte, Anforderungen und Definitionen"
-)
-_IN_THREE_GROUPS = Words(
-    en="{parameters}: systematic, random and composite deviations",
-    de="{parameters}: systematische, zufällige und Gesamtabweichungen",
-)
-_DEFINED = Words(en="{caption} {designations}.", de="{caption} {designations}.")
+_SHARED = Words("These readings give the same numbers by {others}; {named} are those of {first}.")
+_NAMES = Words("the names")
+_NAMES_AND_LIMITS = Words("names and limits")
+_DEFINITIONS = Words("Limits, requirements and definitions")
+_IN_THREE_GROUPS = Words("{parameters}: systematic, random and composite deviations")
+_DEFINED = Words("{caption} {designations}.")
 
 
 def lay_out(of: Material) -> LaidOut:

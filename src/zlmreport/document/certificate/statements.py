@@ -21,126 +21,74 @@ if TYPE_CHECKING:
 
 #: What a document of each kind is about: a measuring report calibrates nothing.
 ITEM = {
-    "certificate": Words(en="Item calibrated", de="Kalibriergegenstand"),
-    "report": Words(en="Item measured", de="Messgegenstand"),
+    "certificate": Words("Item calibrated"),
+    "report": Words("Item measured"),
 }
 WORK = {
-    "certificate": Words(en="Calibration", de="Kalibrierung"),
-    "report": Words(en="Report", de="Bericht"),
+    "certificate": Words("Calibration"),
+    "report": Words("Report"),
 }
 NEXT_DUE = {
-    "certificate": Words(
-        en="Next calibration due, as agreed with the customer",
-        de="Nächste Kalibrierung, wie mit dem Auftraggeber vereinbart",
-    ),
-    "report": Words(
-        en="Next measurement due, as agreed with the customer",
-        de="Nächste Messung, wie mit dem Auftraggeber vereinbart",
-    ),
+    "certificate": Words("Next calibration due, as agreed with the customer"),
+    "report": Words("Next measurement due, as agreed with the customer"),
 }
 _ONLY_THIS_ITEM = {
     "certificate": Words(
-        en="The results relate only to the item calibrated, in its condition at the time of the measurement.",
-        de="Die Ergebnisse gelten nur für den Kalibriergegenstand in seinem Zustand zur Zeit der Messung.",
+        "The results relate only to the item calibrated, in its condition at the time of the measurement."
     ),
     "report": Words(
-        en="The results relate only to the item measured, in its condition at the time of the measurement.",
-        de="Die Ergebnisse gelten nur für den Messgegenstand in seinem Zustand zur Zeit der Messung.",
+        "The results relate only to the item measured, in its condition at the time of the measurement."
     ),
 }
 #: The statement of 7.8.4.1 c.
 TRACEABLE = Words(
-    en="The results are metrologically traceable through the calibration of the measuring instrument "
-    "(calibration certificate {certificate}).",
-    de="Die Ergebnisse sind über die Kalibrierung des Messgeräts (Kalibrierschein {certificate}) "
-    "metrologisch rückführbar.",
+    "The results are metrologically traceable through the calibration of the measuring instrument "
+    "(calibration certificate {certificate})."
 )
 _ONLY_IN_FULL = Words(
-    en="This certificate may be reproduced only in full, unless the laboratory agrees in writing.",
-    de="Dieser Kalibrierschein darf nur vollständig vervielfältigt werden; Auszüge bedürfen der "
-    "schriftlichen Zustimmung des Laboratoriums.",
+    "This certificate may be reproduced only in full, unless the laboratory agrees in writing."
 )
 _SIMPLIFIED = Words(
-    en="By agreement with the customer{reference} the results are reported in a simplified way: the single "
-    "readings are not printed. The laboratory keeps them available.",
-    de="Nach Vereinbarung mit dem Auftraggeber{reference} sind die Ergebnisse vereinfacht dargestellt: Die "
-    "einzelnen Messwerte sind nicht abgedruckt. Das Laboratorium hält sie verfügbar.",
+    "By agreement with the customer{reference} the results are reported in a simplified way: the single "
+    "readings are not printed. The laboratory keeps them available."
 )
 _SUPPLIED = Words(
-    en="{mark} Provided by the customer. The laboratory is not responsible for these data, which can affect "
-    "the validity of the results.",
-    de="{mark} Angaben des Auftraggebers. Das Laboratorium ist für sie nicht verantwortlich; sie können die "
-    "Gültigkeit der Ergebnisse beeinflussen.",
+    "{mark} Provided by the customer. The laboratory is not responsible for these data, which can affect "
+    "the validity of the results."
 )
-_DEVIATIONS = Words(
-    en="Additions to, deviations and exclusions from the method",
-    de="Ergänzungen, Abweichungen und Ausschlüsse gegenüber dem Verfahren",
-)
-_EXTERNAL = Words(en="{mark} Results from external providers", de="{mark} Ergebnisse von externen Anbietern")
-_FROM = Words(en="{results}: {provider}", de="{results}: {provider}")
-_FROM_REPORT = Words(en="{results}: {provider}, {reference}", de="{results}: {provider}, {reference}")
-_ONE = Words(
-    en="{count} reading was set aside and did not enter the results",
-    de="{count} Messwert wurde beiseite gelegt und ging nicht in die Ergebnisse ein",
-)
-_SEVERAL = Words(
-    en="{count} readings were set aside and did not enter the results",
-    de="{count} Messwerte wurden beiseite gelegt und gingen nicht in die Ergebnisse ein",
-)
-_READING = Words(
-    en="target {target} {arrow}, run {run}, read {deviation}: {reason}",
-    de="Sollposition {target} {arrow}, Durchlauf {run}, gelesen {deviation}: {reason}",
-)
-_EXCLUSION_STATED = Words(
-    en="Set aside{mark}: target {target} {arrow}, run {run}: {reason}",
-    de="Beiseite gelegt{mark}: Sollposition {target} {arrow}, Durchlauf {run}: {reason}",
-)
-_STATED_AS_FOUND = Words(
-    en="Set aside as found{mark}: target {target} {arrow}, run {run}: {reason}",
-    de="Beiseite gelegt, vorgefundener Zustand{mark}: Sollposition {target} {arrow}, "
-    "Durchlauf {run}: {reason}",
-)
+_DEVIATIONS = Words("Additions to, deviations and exclusions from the method")
+_EXTERNAL = Words("{mark} Results from external providers")
+_FROM = Words("{results}: {provider}")
+_FROM_REPORT = Words("{results}: {provider}, {reference}")
+_ONE = Words("{count} reading was set aside and did not enter the results")
+_SEVERAL = Words("{count} readings were set aside and did not enter the results")
+_READING = Words("target {target} {arrow}, run {run}, read {deviation}: {reason}")
+_EXCLUSION_STATED = Words("Set aside{mark}: target {target} {arrow}, run {run}: {reason}")
+_STATED_AS_FOUND = Words("Set aside as found{mark}: target {target} {arrow}, run {run}: {reason}")
 _KEY = "measurement.excluded"
 _ARROWS = {"+": "↑", "-": "↓"}
 #: Readings that the first page names one by one.
 _MOST_NAMED = 6
-_MORE = Words(
-    en="Set aside besides: {count} more, see the section on the readings",
-    de="Außerdem beiseite gelegt: {count} weitere, siehe den Abschnitt über die Messwerte",
-)
+_MORE = Words("Set aside besides: {count} more, see the section on the readings")
 TITLES = {
-    "certificate": Words(en="Calibration Certificate", de="Kalibrierschein"),
-    "report": Words(en="Measuring Report", de="Messbericht"),
+    "certificate": Words("Calibration Certificate"),
+    "report": Words("Measuring Report"),
 }
 _AMENDMENT = {
-    "certificate": Words(
-        en="Amendment to Calibration Certificate {number}", de="Änderung zum Kalibrierschein {number}"
-    ),
-    "report": Words(en="Amendment to Measuring Report {number}", de="Änderung zum Messbericht {number}"),
+    "certificate": Words("Amendment to Calibration Certificate {number}"),
+    "report": Words("Amendment to Measuring Report {number}"),
 }
-_AMENDMENT_OF_OWN_TITLE = Words(en="Amendment to {title} {number}", de="Änderung zu {title} {number}")
-_RUNNING_AMENDMENT = Words(en="Amendment {number}", de="Änderung {number}")
+_AMENDMENT_OF_OWN_TITLE = Words("Amendment to {title} {number}")
+_RUNNING_AMENDMENT = Words("Amendment {number}")
 
-_AMENDS = Words(
-    en="This document amends {number}, which remains valid in all that is not changed here",
-    de="Dieses Dokument ändert {number}; was hier nicht geändert ist, gilt dort unverändert",
-)
-_REPLACES = Words(
-    en="This document replaces {number}, which is no longer valid",
-    de="Dieses Dokument ersetzt {number}; jenes ist nicht mehr gültig",
-)
-_REASON = Words(en="Reason: {reason}", de="Grund: {reason}")
-_CHANGE = Words(en="Changed: {change}", de="Geändert: {change}")
+_AMENDS = Words("This document amends {number}, which remains valid in all that is not changed here")
+_REPLACES = Words("This document replaces {number}, which is no longer valid")
+_REASON = Words("Reason: {reason}")
+_CHANGE = Words("Changed: {change}")
 #: Above every opinion of a document.
-OPINION = Words(
-    en="Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement",
-    de="Meinung und Interpretation (ISO/IEC 17025:2017, 7.8.7), kein Ergebnis der Messung",
-)
-_OPINIONS = Words(en="Opinions and interpretations", de="Meinungen und Interpretationen")
-_RESTS = Words(
-    en="Each is stated by an authorised person and rests on what is named as its basis.",
-    de="Jede stammt von einer dazu befugten Person und beruht auf dem, was als Grundlage genannt ist.",
-)
+OPINION = Words("Opinion and interpretation (ISO/IEC 17025:2017, 7.8.7), not a result of the measurement")
+_OPINIONS = Words("Opinions and interpretations")
+_RESTS = Words("Each is stated by an authorised person and rests on what is named as its basis.")
 
 
 def notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> Iterator[Notice]:
@@ -243,13 +191,13 @@ def document_title(keys: CertificateKeys) -> Words:
     usual = TITLES[keys.kind]
     amends = keys.amends
     if amends is None or amends.kind == "replacement":
-        return usual if keys.title is None else Words("{title}", "{title}").given(title=keys.title)
+        return usual if keys.title is None else Words("{title}").given(title=keys.title)
     if keys.title is None:
         return _AMENDMENT[keys.kind].given(number=amends.number)
     return _AMENDMENT_OF_OWN_TITLE.given(title=keys.title, number=amends.number)
 
 
-_BY_VDI = Words("{symbol} (VDI/VDE 2617-3: {vdi})", "{symbol} (VDI/VDE 2617-3: {vdi})")
+_BY_VDI = Words("{symbol} (VDI/VDE 2617-3: {vdi})")
 
 
 def subject_of(job: Job) -> Words:
@@ -265,7 +213,7 @@ def running_title(keys: CertificateKeys) -> Words:
     """Return what stands on every page: what the document is, with its number."""
     if keys.amends and keys.amends.kind == "amendment":
         return _RUNNING_AMENDMENT.given(number=keys.number)
-    return Words("{title} {number}", "{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
+    return Words("{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
 
 
 def amendment_notice(keys: CertificateKeys, writer: Writer) -> Iterator[Notice]:
@@ -294,9 +242,9 @@ def _opinion_table(keys: JobKeys, writer: Writer) -> Table:
     columns = tuple(
         Column(writer.say(heading))
         for heading in (
-            Words(en="Opinion", de="Meinung"),
-            Words(en="Basis", de="Grundlage"),
-            Words(en="Stated by", de="Geäußert von"),
+            Words("Opinion"),
+            Words("Basis"),
+            Words("Stated by"),
         )
     )
     rows = tuple(

@@ -32,116 +32,68 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation
     from zlmreport.measurement.axis import Axis
 
-_TITLE = Words(en="Uncertainty of measurement", de="Messunsicherheit")
+_TITLE = Words("Uncertainty of measurement")
 _COVERAGE = Words(
-    en="U = k·u is the expanded uncertainty of this test: y ± U holds, with a probability of about 95 %, the "
-    "value that a faultless measuring set-up would have found in it.",
-    de="U = k·u ist die erweiterte Messunsicherheit dieser Messung: y ± U enthält mit einer "
-    "Wahrscheinlichkeit von etwa 95 % den Wert, den eine fehlerfreie Messeinrichtung darin gefunden hätte.",
+    "U = k·u is the expanded uncertainty of this test: y ± U holds, with a probability of about 95 %, the "
+    "value that a faultless measuring set-up would have found in it."
 )
 _INTERVAL = Words(
-    en="{coverage} The interval of the axis holds, with the same probability, what another test of this "
+    "{coverage} The interval of the axis holds, with the same probability, what another test of this "
     "axis by the same plan would find with the same set-up left in place; errors of the set-up are not in "
-    "it.",
-    de="{coverage} Das Intervall der Achse enthält mit derselben Wahrscheinlichkeit, was eine weitere "
-    "Messung nach demselben Plan mit derselben, unveränderten Messeinrichtung fände; Fehler der "
-    "Messeinrichtung enthält es nicht.",
+    "it."
 )
-_INCOMPLETE = Words(
-    en="U incomplete: {missing} not considered",
-    de="U unvollständig: {missing} nicht berücksichtigt",
-)
+_INCOMPLETE = Words("U incomplete: {missing} not considered")
 _INCOMPLETE_MEANS = Words(
-    en="Nothing is stated of these contributors to the uncertainty. y ± U holds the errors of the others "
-    "only; no probability is stated for it, and no rule that uses U decides anything.",
-    de="Zu diesen Beiträgen zur Messunsicherheit ist nichts angegeben. y ± U enthält nur die Fehler der "
-    "übrigen; eine Wahrscheinlichkeit ist dafür nicht angegeben, und keine Regel, die U benutzt, "
-    "entscheidet.",
+    "Nothing is stated of these contributors to the uncertainty. y ± U holds the errors of the others "
+    "only; no probability is stated for it, and no rule that uses U decides anything."
 )
 _NOT_AT_REFERENCE = Words(
-    en="The temperature or the expansion of the measured length is not known: the results hold at the "
-    "temperature of the test, and not at 20 °C",
-    de="Temperatur oder Ausdehnung der gemessenen Länge sind nicht bekannt: die Ergebnisse gelten bei der "
-    "Temperatur der Messung, nicht bei 20 °C",
+    "The temperature or the expansion of the measured length is not known: the results hold at the "
+    "temperature of the test, and not at 20 °C"
 )
 _EXPANDED = Words(
-    en="The measured length was {expansion} µm {longer} than at 20 °C; the readings are not corrected for "
-    "it.",
-    de="Die gemessene Länge war um {expansion} µm {longer} als bei 20 °C; die Messwerte sind dafür nicht "
-    "korrigiert.",
+    "The measured length was {expansion} µm {longer} than at 20 °C; the readings are not corrected for it."
 )
-_LONGER, _SHORTER = Words(en="longer", de="länger"), Words(en="shorter", de="kürzer")
+_LONGER, _SHORTER = Words("longer"), Words("shorter")
 _KNOWN_ERRORS = Words(
-    en="Known errors that are in the readings ({names}) are added to U whole: U = k·u + |b|, where b is what "
-    "the parameter would change by if they were taken out of every reading (JCGM 100:2008, F.2.4.5).",
-    de="Bekannte Fehler, die in den Messwerten stehen ({names}), sind in U ganz enthalten: U = k·u + |b|, wo "
-    "b die Änderung der Kenngröße ist, wenn man sie aus jedem Messwert herausnähme (JCGM 100:2008, F.2.4.5).",
+    "Known errors that are in the readings ({names}) are added to U whole: U = k·u + |b|, where b is what "
+    "the parameter would change by if they were taken out of every reading (JCGM 100:2008, F.2.4.5)."
 )
-_NEGLIGIBLE = Words(
-    en="Declared negligible by the laboratory",
-    de="Vom Laboratorium als vernachlässigbar erklärt",
-)
-_REASON = Words(en="{contributor}: {reason}", de="{contributor}: {reason}")
+_NEGLIGIBLE = Words("Declared negligible by the laboratory")
+_REASON = Words("{contributor}: {reason}")
 _METHOD = Words(
-    en="The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
+    "The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
     "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
     "formulas of each standard. Errors that readings share stay shared. y ± U holds 95.45 % of the simulated "
-    "values.",
-    de="Die folgende Bilanz wurde mit der Monte-Carlo-Methode (JCGM 101:2008) auf jede Kenngröße übertragen: "
-    "{trials} simulierte Messungen, die Messwerte mit Fehlern nach der Bilanz, wurden nach den Formeln jeder "
-    "Norm ausgewertet. Fehler, die Messwerten gemeinsam sind, bleiben gemeinsam. y ± U enthält 95,45 % der "
-    "simulierten Werte.",
+    "values."
 )
 _METHOD_BY_POSITION = Words(
-    en="{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
-    "with k = 2.",
-    de="{method} U der mittleren Abweichungen an den Sollpositionen folgt aus dem Fortpflanzungsgesetz (JCGM "
-    "100:2008), mit k = 2.",
+    "{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
+    "with k = 2."
 )
 _SCATTER = Words(
-    en="The scatter of the axis itself is a property of the axis, which the parameters state, and no "
-    "uncertainty of the measurement.",
-    de="Die Streuung der Achse selbst ist eine Eigenschaft der Achse, die die Kenngrößen angeben, und keine "
-    "Unsicherheit der Messung.",
+    "The scatter of the axis itself is a property of the axis, which the parameters state, and no "
+    "uncertainty of the measurement."
 )
 _UNSEEN_SCATTER = Words(
-    en="The scatter of the axis itself is a property of the axis and no uncertainty of the measurement; a "
-    "single run does not show it.",
-    de="Die Streuung der Achse selbst ist eine Eigenschaft der Achse und keine Unsicherheit der Messung; ein "
-    "einzelner Durchlauf zeigt sie nicht.",
+    "The scatter of the axis itself is a property of the axis and no uncertainty of the measurement; a "
+    "single run does not show it."
 )
 _SCATTER_OF_THE_MACHINE = Words(
-    en="What the machine does otherwise from time to time is a property of the machine, and no uncertainty "
-    "of the measurement.",
-    de="Was die Maschine von Mal zu Mal anders macht, ist eine Eigenschaft der Maschine und keine "
-    "Unsicherheit der Messung.",
+    "What the machine does otherwise from time to time is a property of the machine, and no uncertainty "
+    "of the measurement."
 )
 _CAPTION = Words(
-    en="Uncertainty budget, grouped by the readings that share an error. u is the root mean square of the "
-    "error of a reading{at_the_end}; the share is that of u² in the combined u².",
-    de="Messunsicherheitsbilanz, nach den Messwerten geordnet, denen ein Fehler gemeinsam ist. u ist der "
-    "quadratische Mittelwert des Fehlers eines Messwerts{at_the_end}; der Anteil ist der von u² an der "
-    "kombinierten u².",
+    "Uncertainty budget, grouped by the readings that share an error. u is the root mean square of the "
+    "error of a reading{at_the_end}; the share is that of u² in the combined u²."
 )
-_COMBINED = Words(en="all contributions together", de="alle Beiträge zusammen")
-_KNOWN = Words(
-    en="known errors, not corrected: in no u, and in every U whole",
-    de="bekannte Fehler, nicht korrigiert: in keinem u, in jedem U ganz",
-)
-_OF_KNOWN_SIZE = Words(en="known", de="bekannt")
-_AT_THE_END = Words(
-    en=" at the end of the measured length, where every contribution has its full effect",
-    de=" am Ende der Messlänge, wo jeder Beitrag voll wirkt",
-)
-_COMBINED_OF = Words(
-    en="A single reading at the end of the measured length",
-    de="Ein einzelner Messwert am Ende der Messlänge",
-)
-_SINGLE = Words(en="A single reading", de="Ein einzelner Messwert")
-_NO_BUDGET = Words(
-    en="The uncertainty of the parameters is not evaluated: {reason}.",
-    de="Die Messunsicherheit der Kenngrößen ist nicht ermittelt: {reason}.",
-)
+_COMBINED = Words("all contributions together")
+_KNOWN = Words("known errors, not corrected: in no u, and in every U whole")
+_OF_KNOWN_SIZE = Words("known")
+_AT_THE_END = Words(" at the end of the measured length, where every contribution has its full effect")
+_COMBINED_OF = Words("A single reading at the end of the measured length")
+_SINGLE = Words("A single reading")
+_NO_BUDGET = Words("The uncertainty of the parameters is not evaluated: {reason}.")
 
 
 def statement(
@@ -221,15 +173,12 @@ def _declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
 
 def _table(budget: Budget, writer: Writer) -> Table:
     columns = (
-        Column(writer.say(Words(en="Symbol", de="Formelzeichen"))),
-        Column(writer.say(Words(en="Contribution and its source", de="Beitrag und seine Quelle"))),
-        Column(
-            writer.say(Words(en="Stated", de="Angabe"))
-            + writer.marks.after("instrument", "environment", "uncertainty")
-        ),
-        Column(writer.say(Words(en="Distribution", de="Verteilung"))),
+        Column(writer.say(Words("Symbol"))),
+        Column(writer.say(Words("Contribution and its source"))),
+        Column(writer.say(Words("Stated")) + writer.marks.after("instrument", "environment", "uncertainty")),
+        Column(writer.say(Words("Distribution"))),
         Column(Symbol("u"), writer.deviation_unit.symbol, Align.RIGHT),
-        Column(writer.say(Words(en="Share", de="Anteil")), "%", Align.RIGHT),
+        Column(writer.say(Words("Share")), "%", Align.RIGHT),
     )
     groups = [
         RowGroup(rows, writer.say(wording.ACTS[acts]))

@@ -16,17 +16,14 @@ from zlmreport.measurement.units import with_unit
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
 
-_SYMBOL = Words(en="Symbol", de="Formelzeichen")
-_PARAMETER = Words(en="Parameter", de="Kenngröße")
-_VALUE = Words(en="Value", de="Wert")
-_AXIS = Words(en="Axis, 95 %", de="Achse, 95 %")
-_LIMIT = Words(en="Limit", de="Grenzwert")
-_CONFORMITY = Words(en="Conformity", de="Konformität")
+_SYMBOL = Words("Symbol")
+_PARAMETER = Words("Parameter")
+_VALUE = Words("Value")
+_AXIS = Words("Axis, 95 %")
+_LIMIT = Words("Limit")
+_CONFORMITY = Words("Conformity")
 _DECIMALS_OF_K = 2
-_TOLD_APART = Words(
-    en="{caption}. U is the expanded uncertainty of measurement; {others}",
-    de="{caption}. U ist die erweiterte Messunsicherheit; {others}",
-)
+_TOLD_APART = Words("{caption}. U is the expanded uncertainty of measurement; {others}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,32 +12,21 @@ from zlmreport.language.numbers import number_words
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import behind
 
-_UNCERTAIN_TITLE = Words(
-    en="{bearer}: amounts in percent of their limits TL with their uncertainty ± U",
-    de="{bearer}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U",
-)
+_UNCERTAIN_TITLE = Words("{bearer}: amounts in percent of their limits TL with their uncertainty ± U")
 _GUARDED_TITLE = Words(
-    en="{bearer}: amounts in percent of their limits TL with their uncertainty ± U; a line across a bar "
-    "is the acceptance limit",
-    de="{bearer}: Beträge in Prozent ihrer Grenzwerte TL mit ihrer Unsicherheit ± U; ein Strich über "
-    "einem Balken ist die Annahmegrenze",
+    "{bearer}: amounts in percent of their limits TL with their uncertainty ± U; a line across a bar "
+    "is the acceptance limit"
 )
-_BARE_TITLE = Words(
-    en="{bearer}: amounts in percent of their limits TL",
-    de="{bearer}: Beträge in Prozent ihrer Grenzwerte TL",
-)
-_GRAPH = Words(
-    en="{bearer}: bar chart of the parameters that have a limit.",
-    de="{bearer}: Balkendiagramm der Kenngrößen, die einen Grenzwert haben.",
-)
+_BARE_TITLE = Words("{bearer}: amounts in percent of their limits TL")
+_GRAPH = Words("{bearer}: bar chart of the parameters that have a limit.")
 #: One by itself compares nothing.
 _FEWEST_BARS = 2
-_X_TITLE = Words(en="Parameters with a limit", de="Kenngrößen mit Grenzwert")
-_Y_TITLE = Words(en="Share of limit", de="Anteil am Grenzwert")
-_BAR = Words(en="{symbol}: {percent} % of its limit", de="{symbol}: {percent} % des Grenzwerts")
-_UNCERTAIN = Words(en="{bar} ± {uncertainty} %", de="{bar} ± {uncertainty} %")
-_ACCEPTED = Words(en="{bar}, accepted up to {accepted} %", de="{bar}, angenommen bis {accepted} %")
-_SENTENCE = Words(en="{bar}.", de="{bar}.")
+_X_TITLE = Words("Parameters with a limit")
+_Y_TITLE = Words("Share of limit")
+_BAR = Words("{symbol}: {percent} % of its limit")
+_UNCERTAIN = Words("{bar} ± {uncertainty} %")
+_ACCEPTED = Words("{bar}, accepted up to {accepted} %")
+_SENTENCE = Words("{bar}.")
 
 
 def conformity_graph(evaluation: Evaluation) -> Figure | None:
@@ -87,13 +76,10 @@ def _sentence(parameter: Parameter, bar: Bar) -> Words:
     return _SENTENCE.given(bar=words)
 
 
-_BUDGET_TITLE = Words(
-    en="Standard uncertainties of the contributions at full effect",
-    de="Standardunsicherheiten der Beiträge bei voller Wirkung",
-)
-_CONTRIBUTIONS = Words(en="Contributions", de="Beiträge")
-_STANDARD_UNCERTAINTY = Words(en="Standard uncertainty", de="Standardunsicherheit")
-_CONTRIBUTION = Words(en="{symbol}, {name}: {value}{unit}.", de="{symbol}, {name}: {value}{unit}.")
+_BUDGET_TITLE = Words("Standard uncertainties of the contributions at full effect")
+_CONTRIBUTIONS = Words("Contributions")
+_STANDARD_UNCERTAINTY = Words("Standard uncertainty")
+_CONTRIBUTION = Words("{symbol}, {name}: {value}{unit}.")
 
 
 def budget_bars(budget: Budget, axis: Axis) -> Figure:

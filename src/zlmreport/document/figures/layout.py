@@ -139,9 +139,7 @@ def _value_titles(
         yield PlacedLabel(label, box.left - room.left + _EDGE + 0.8 * TEXT_SIZE, foot, 90.0)
 
 
-_DIVISION = Words(
-    en="{title}: from circle to circle {division} {unit}", de="{title}: von Kreis zu Kreis {division} {unit}"
-)
+_DIVISION = Words("{title}: from circle to circle {division} {unit}")
 
 
 def _magnified(figure: Figure, panels: Sequence[PanelLayout], language: Language) -> str:

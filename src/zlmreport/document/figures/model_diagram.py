@@ -26,17 +26,11 @@ UNCERTAINTY = {
 }
 #: The scatter of single readings is drawn this many standard deviations to both sides.
 SPREAD = 2.0
-RESIDUAL_TITLE = Words(en="Residual", de="Residuum")
+RESIDUAL_TITLE = Words("Residual")
 
-_RANGE = Words(en="{name} from {low} to {high}.", de="{name} von {low} bis {high}.")
-_SENTENCE = Words(
-    en="Residuals from {low} to {high}, root mean square {rms}.",
-    de="Residuen von {low} bis {high}, quadratischer Mittelwert {rms}.",
-)
-_NOISE = Words(
-    en="Single readings scatter by {noise} (standard deviation).",
-    de="Einzelne Messwerte streuen um {noise} (Standardabweichung).",
-)
+_RANGE = Words("{name} from {low} to {high}.")
+_SENTENCE = Words("Residuals from {low} to {high}, root mean square {rms}.")
+_NOISE = Words("Single readings scatter by {noise} (standard deviation).")
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,25 +147,15 @@ class ModelDiagram:
 
 
 _TITLE = Words(
-    en="Deviation estimated by the error model at any position of the travel, with its expanded uncertainty "
-    "U (about 95 %)",
-    de="Vom Fehlermodell geschätzte Abweichung an jeder Stelle des Verfahrwegs mit ihrer erweiterten "
-    "Messunsicherheit U (etwa 95 %)",
+    "Deviation estimated by the error model at any position of the travel, with its expanded uncertainty "
+    "U (about 95 %)"
 )
-_AT_THE_MEAN = Words(
-    en="{title}; at the mean time and the mean logged conditions of the test",
-    de="{title}; zur mittleren Zeit und bei den mittleren aufgezeichneten Bedingungen der Messung",
-)
+_AT_THE_MEAN = Words("{title}; at the mean time and the mean logged conditions of the test")
 _REACH = Words(
-    en="{title}; its waves are too short to be parted on this length: the line shows how far they reach",
-    de="{title}; ihre Wellen sind zu kurz, um auf dieser Länge einzeln sichtbar zu sein: Die Linie zeigt, "
-    "wie weit sie reichen",
+    "{title}; its waves are too short to be parted on this length: the line shows how far they reach"
 )
-_ESTIMATE = Words(en="Estimate {arrow}", de="Schätzwert {arrow}")
-_LARGEST = Words(
-    en="The expanded uncertainty is {largest} at most.",
-    de="Die erweiterte Messunsicherheit beträgt höchstens {largest}.",
-)
+_ESTIMATE = Words("Estimate {arrow}")
+_LARGEST = Words("The expanded uncertainty is {largest} at most.")
 
 
 def estimate(diagram: ModelDiagram) -> Figure:

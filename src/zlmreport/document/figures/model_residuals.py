@@ -26,29 +26,19 @@ _MINUTE = 60.0
 _LONG = 600.0
 
 _AGAINST_MODEL = Words(
-    en="Readings and error model over the target position; below, what the model leaves of the readings "
-    "(residual e = x − x̂), with twice the scatter of single readings",
-    de="Messwerte und Fehlermodell über der Sollposition; darunter, was das Modell von den Messwerten übrig "
-    "lässt (Residuum e = x − x̂), mit dem Doppelten der Streuung einzelner Messwerte",
+    "Readings and error model over the target position; below, what the model leaves of the readings "
+    "(residual e = x − x̂), with twice the scatter of single readings"
 )
-_OVER = Words(
-    en="Residuals over {quantity}, with twice the scatter of single readings",
-    de="Residuen über {quantity}, mit dem Doppelten der Streuung einzelner Messwerte",
-)
-_SLOPE = Words(en="Slope of the residuals", de="Steigung der Residuen")
-_SLOPES = Words(
-    en="Slope over the position of what the model leaves of each pass, over {quantity}",
-    de="Steigung über der Position dessen, was das Modell von jedem Durchgang übrig lässt, über {quantity}",
-)
-_SLOPES_RANGE = Words(
-    en="{caption}: from {low} to {high}{unit}.", de="{caption}: von {low} bis {high}{unit}."
-)
-_MEASURED = Words(en="Measured and model", de="Gemessen und Modell")
-_RUN = (Words(en="Run", de="Durchlauf"), Words(en="the run", de="dem Durchlauf"))
-_TIME = (Words(en="Time", de="Zeit"), Words(en="time", de="der Zeit"))
+_OVER = Words("Residuals over {quantity}, with twice the scatter of single readings")
+_SLOPE = Words("Slope of the residuals")
+_SLOPES = Words("Slope over the position of what the model leaves of each pass, over {quantity}")
+_SLOPES_RANGE = Words("{caption}: from {low} to {high}{unit}.")
+_MEASURED = Words("Measured and model")
+_RUN = (Words("Run"), Words("the run"))
+_TIME = (Words("Time"), Words("time"))
 _COUNTED = (
-    Words(en="Number of the reading", de="Nummer des Messwerts"),
-    Words(en="their order", de="ihrer Reihenfolge"),
+    Words("Number of the reading"),
+    Words("their order"),
 )
 
 
@@ -69,8 +59,8 @@ def over_position(diagram: ModelDiagram) -> Figure:
         "model",
         _AGAINST_MODEL,
         alternative_text(
-            diagram.range_sentence(Words(en="Readings", de="Messwerte"), fit.deviation),
-            diagram.range_sentence(Words(en="Model", de="Modell"), fit.fitted),
+            diagram.range_sentence(Words("Readings"), fit.deviation),
+            diagram.range_sentence(Words("Model"), fit.fitted),
             *diagram.residual_sentences(),
         ),
         POSITION_TITLE,
@@ -167,9 +157,7 @@ def _residuals(
     return diagram.figure(
         f"residuals-{key}",
         caption,
-        alternative_text(
-            Words("{caption}.", "{caption}.").given(caption=caption), *diagram.residual_sentences()
-        ),
+        alternative_text(Words("{caption}.").given(caption=caption), *diagram.residual_sentences()),
         title,
         unit,
         panel,
@@ -197,18 +185,16 @@ def _followers(x: FloatArray) -> IntArray:
 
 
 _TITLE = Words(
-    en="Root mean square error after each effect of the model; σ₀ is the noise floor, which no effect can "
-    "take away",
-    de="Quadratischer Mittelwert der Abweichungen nach jedem Einfluss des Modells; σ₀ ist das Grundrauschen, "
-    "das kein Einfluss wegnehmen kann",
+    "Root mean square error after each effect of the model; σ₀ is the noise floor, which no effect can "
+    "take away"
 )
-_WITHOUT = Words(en="without model", de="ohne Modell")
-_ADDED = Words(en="+ {effect}", de="+ {effect}")
-_WITH = Words(en="with {effect}", de="mit {effect}")
-_BAR = Words(en="{label}: {value}{unit}.", de="{label}: {value}{unit}.")
-_FLOOR = Words(en="Noise floor: {value}{unit}.", de="Grundrauschen: {value}{unit}.")
-_X_TITLE = Words(en="Effects, one after another", de="Einflüsse, einer nach dem anderen")
-_Y_TITLE = Words(en="Root mean square error", de="Quadratischer Mittelwert")
+_WITHOUT = Words("without model")
+_ADDED = Words("+ {effect}")
+_WITH = Words("with {effect}")
+_BAR = Words("{label}: {value}{unit}.")
+_FLOOR = Words("Noise floor: {value}{unit}.")
+_X_TITLE = Words("Effects, one after another")
+_Y_TITLE = Words("Root mean square error", context="axis of a graph")
 
 
 def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:

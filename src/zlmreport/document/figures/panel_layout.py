@@ -182,7 +182,7 @@ _ROW_HEIGHT = 13.0
 _SAMPLE_GAP = 4.0
 _ENTRY_GAP = 14.0
 _HEADING_GAP = 14.0
-_READINGS = Words("single readings", "Einzelmesswerte")
+_READINGS = Words("single readings")
 
 #: What an entry explains; the readings of all approaches share one.
 Explained: TypeAlias = Curve | Band | Level | tuple[Readings, ...]

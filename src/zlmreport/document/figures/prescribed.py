@@ -40,11 +40,11 @@ MEANS = {Approach.POSITIVE: Role.MEAN_POSITIVE, Approach.NEGATIVE: Role.MEAN_NEG
 LIMITS = {Approach.POSITIVE: Role.LIMIT_POSITIVE, Approach.NEGATIVE: Role.LIMIT_NEGATIVE}
 #: What the graph of each approach is called.
 DIRECTIONS = {
-    Approach.POSITIVE: Words("Positive direction of approach ↑", "Positive Anfahrrichtung ↑"),
-    Approach.NEGATIVE: Words("Negative direction of approach ↓", "Negative Anfahrrichtung ↓"),
+    Approach.POSITIVE: Words("Positive direction of approach ↑"),
+    Approach.NEGATIVE: Words("Negative direction of approach ↓"),
 }
-POSITION_TITLE = Words("Target position", "Sollposition")
-DEVIATION_TITLE = Words("Deviation", "Abweichung")
+POSITION_TITLE = Words("Target position")
+DEVIATION_TITLE = Words("Deviation")
 
 
 def worst(values: FloatArray) -> int | None:
@@ -211,11 +211,8 @@ def _defined(marks: Iterable[Mark | None]) -> tuple[Mark, ...]:
     return tuple(mark for mark in marks if mark is not None)
 
 
-_TITLE = Words(
-    en="Mean deviations: {before} (above) and {after} (below), on one scale",
-    de="Mittlere Abweichungen: {before} (oben) und {after} (unten), in einem Maßstab",
-)
-_NAME = Words(en="{measurement}, {direction}:", de="{measurement}, {direction}:")
+_TITLE = Words("Mean deviations: {before} (above) and {after} (below), on one scale")
+_NAME = Words("{measurement}, {direction}:")
 
 
 def comparison_graph(before: Evaluation, after: Evaluation, names: tuple[Words, Words]) -> Figure:
@@ -269,8 +266,7 @@ def graph_in_words(evaluation: Evaluation) -> Words:
     targets = evaluation.measurements.target_positions
     axis = evaluation.measurements.axis
     return Words(
-        "Graph of the deviation over the target position for axis {axis}: {positions}, {first} to {last}.",
-        "Diagramm der Abweichung über der Sollposition für Achse {axis}: {positions}, {first} bis {last}.",
+        "Graph of the deviation over the target position for axis {axis}: {positions}, {first} to {last}."
     ).given(
         axis=axis.name,
         positions=positions_in_words(len(targets)),
@@ -283,7 +279,7 @@ def range_in_words(axis: Axis, name: Words, values: FloatArray) -> Words | None:
     """Return the sentence on where values (m or rad) lie; None where none is defined."""
     if not np.isfinite(values).any():
         return None
-    return Words("{name} from {low} to {high}.", "{name} von {low} bis {high}.").given(
+    return Words("{name} from {low} to {high}.").given(
         name=name,
         low=deviation_in_words(axis, float(np.nanmin(values))),
         high=deviation_in_words(axis, float(np.nanmax(values))),
@@ -293,11 +289,11 @@ def range_in_words(axis: Axis, name: Words, values: FloatArray) -> Words | None:
 def marks_in_words(axis: Axis, found: Iterable[Arrow | Bracket]) -> Words | None:
     """Return the sentence on arrows and brackets: symbol, length, place; None where there are none."""
     written = [_arrow(axis, mark) if isinstance(mark, Arrow) else _bracket(axis, mark) for mark in found]
-    return Words("{marks}.", "{marks}.").given(marks=_joined(written, "; ")) if written else None
+    return Words("{marks}.").given(marks=_joined(written, "; ")) if written else None
 
 
 def _arrow(axis: Axis, arrow: Arrow) -> Words:
-    return Words("{symbol} = {length} at {x}", "{symbol} = {length} bei {x}").given(
+    return Words("{symbol} = {length} at {x}").given(
         symbol=plain(arrow.notation),
         length=_printed_length(axis, arrow.high - arrow.low),
         x=_printed_position(axis, arrow.x),
@@ -307,10 +303,7 @@ def _arrow(axis: Axis, arrow: Arrow) -> Words:
 def _bracket(axis: Axis, bracket: Bracket) -> Words:
     if bracket.low_at == bracket.high_at:
         return _arrow(axis, Arrow(bracket.notation, bracket.low_at, bracket.low, bracket.high))
-    return Words(
-        "{symbol} = {length}, from its lowest point at {low_at} to its highest at {high_at}",
-        "{symbol} = {length}, vom tiefsten Punkt bei {low_at} bis zum höchsten bei {high_at}",
-    ).given(
+    return Words("{symbol} = {length}, from its lowest point at {low_at} to its highest at {high_at}").given(
         symbol=plain(bracket.notation),
         length=_printed_length(axis, bracket.high - bracket.low),
         low_at=_printed_position(axis, bracket.low_at),
@@ -328,4 +321,4 @@ def _printed_position(axis: Axis, value: float) -> Words:
 
 def _joined(phrases: list[Words], between: str) -> Words:
     pattern = between.join(f"{{part{number}}}" for number in range(len(phrases)))
-    return Words(pattern, pattern, {f"part{number}": phrase for number, phrase in enumerate(phrases)})
+    return Words(pattern, values={f"part{number}": phrase for number, phrase in enumerate(phrases)})

@@ -16,18 +16,13 @@ from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.model.planning.programs import Motion, ProgramStop
 
 _TITLE = Words(
-    en="Position of the axis over its readings, in the order in which they are taken; ↑ and ↓ are the "
-    "directions in which it comes to a target",
-    de="Position der Achse über den Messwerten in der Reihenfolge, in der sie aufgenommen werden; ↑ und ↓ "
-    "sind die Richtungen, in denen sie eine Zielposition anfährt",
+    "Position of the axis over its readings, in the order in which they are taken; ↑ and ↓ are the "
+    "directions in which it comes to a target"
 )
-_SENTENCE = Words(
-    en="{readings} readings, {runs} at each of {positions} from {first} to {last}.",
-    de="{readings} Messwerte, {runs} an jeder von {positions} von {first} bis {last}.",
-)
-_TURNS = Words(en="The axis turns round {overrun} beyond.", de="Die Achse kehrt {overrun} dahinter um.")
-_X_TITLE = Words(en="Number of the reading", de="Nummer des Messwerts")
-_Y_TITLE = Words(en="Position", de="Position")
+_SENTENCE = Words("{readings} readings, {runs} at each of {positions} from {first} to {last}.")
+_TURNS = Words("The axis turns round {overrun} beyond.")
+_X_TITLE = Words("Number of the reading")
+_Y_TITLE = Words("Position")
 
 
 def sequence(motion: Motion) -> Figure:

@@ -38,21 +38,14 @@ if TYPE_CHECKING:
     from zlmreport.model.planning.experiment import Experiment
 
 _KEY = "model"
-_TITLE = Words(
-    en="Annex: error model – opinion and interpretation",
-    de="Anhang: Fehlermodell – Meinung und Interpretation",
-)
+_TITLE = Words("Annex: error model – opinion and interpretation")
 _BASIS = Words(
-    en="It rests on the readings of this document alone: a model of physical effects was fitted to them. "
-    "What the model explains is not proved to be the cause.",
-    de="Sie beruht allein auf den Messwerten dieses Dokuments: An sie wurde ein Modell physikalischer "
-    "Einflüsse angepasst. Was das Modell erklärt, ist damit nicht als Ursache bewiesen.",
+    "It rests on the readings of this document alone: a model of physical effects was fitted to them. "
+    "What the model explains is not proved to be the cause."
 )
 _SYMBOLS = Words(
-    en="P: target position; d: +1 approaching in the positive direction, −1 in the negative; t: time; s: "
-    "distance since the last reversal; ΔT: temperature less 20 °C; the other symbols are parameters.",
-    de="P: Sollposition; d: +1 beim Anfahren in positiver, −1 in negativer Richtung; t: Zeit; s: Weg seit "
-    "der letzten Umkehr; ΔT: Temperatur minus 20 °C; die übrigen Zeichen sind Parameter.",
+    "P: target position; d: +1 approaching in the positive direction, −1 in the negative; t: time; s: "
+    "distance since the last reversal; ΔT: temperature less 20 °C; the other symbols are parameters."
 )
 #: What an annex leaves out: effects that are hardly missing; what the table at its end shows of all effects.
 _ELSEWHERE = ("improbable", "hidden")

@@ -17,33 +17,24 @@ from zlmreport.model.planning.circle_path import SENSES, CirclePath
 
 _MINUTE = 60.0
 _DIGITS = 3
-_SIZE = Words(en="{count} turns of radius {radius} mm", de="{count} Umläufe mit Radius {radius} mm")
-_PATH = Words(en="Path", de="Bahn")
+_SIZE = Words("{count} turns of radius {radius} mm")
+_PATH = Words("Path")
 _ROUND = Words(
-    en="evaluated from {first} to {last}°, +{from_axis} towards +{to_axis}, counter-clockwise and back "
-    "clockwise",
-    de="ausgewertet von {first} bis {last}°, +{from_axis} nach +{to_axis}, gegen und zurück im Uhrzeigersinn",
+    "evaluated from {first} to {last}°, +{from_axis} towards +{to_axis}, counter-clockwise and back clockwise"
 )
-_RUNS = Words(en="{runs} in each sense{assumed}", de="{runs} in jedem Drehsinn{assumed}")
-_ASSUMED = Words(en=" (assumed)", de=" (angenommen)")
+_RUNS = Words("{runs} in each sense{assumed}")
+_ASSUMED = Words(" (assumed)")
 _BESIDE = Words(
-    en="{arc}° of the circle before and behind it; the tool comes up from {run_up} mm outside, and rests "
-    "{rest} s between two turns",
-    de="{arc}° des Kreises davor und dahinter; das Werkzeug kommt aus {run_up} mm außerhalb und ruht {rest} "
-    "s zwischen zwei Umläufen",
+    "{arc}° of the circle before and behind it; the tool comes up from {run_up} mm outside, and rests "
+    "{rest} s between two turns"
 )
-_FEEDS = Words(en="Feeds", de="Vorschübe")
+_FEEDS = Words("Feeds")
 _SLOWER = Words(
-    en="a control that allows less acceleration runs slower than it is told; the readings then tell their "
-    "own time",
-    de="eine Steuerung, die weniger Beschleunigung zulässt, fährt langsamer als angegeben; die Messwerte "
-    "nennen dann ihre eigene Zeit",
+    "a control that allows less acceleration runs slower than it is told; the readings then tell their "
+    "own time"
 )
-_TO_READ = Words(en="To read the circle", de="Zum Einlesen des Kreises")
-_SOURCE = Words(
-    en="source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}",
-    de="source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}",
-)
+_TO_READ = Words("To read the circle")
+_SOURCE = Words("source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}")
 
 
 def size_of_circle(path: CirclePath) -> Words:
@@ -81,9 +72,9 @@ def _path(job: Job, path: CirclePath) -> Iterator[Words]:
 def _feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
     columns = (
         Column("", "mm/min", Align.RIGHT),
-        Column(Words(en="turn", de="Umlauf").in_language(language), "s", Align.RIGHT),
-        Column(Words(en="test", de="Messung").in_language(language), "min", Align.RIGHT),
-        Column(Words(en="acceleration", de="Beschleunigung").in_language(language), "m/s²", Align.RIGHT),
+        Column(Words("turn").in_language(language), "s", Align.RIGHT),
+        Column(Words("test").in_language(language), "min", Align.RIGHT),
+        Column(Words("acceleration").in_language(language), "m/s²", Align.RIGHT),
     )
     sign = language.decimal_sign
     rows = tuple(

@@ -43,93 +43,56 @@ if TYPE_CHECKING:
     from zlmreport.model.compensation.forecast import Figures
     from zlmreport.model.compensation.making import Made
 
-_TITLE = Words(en="Compensation table", de="Kompensationstabelle")
-_SUBTITLE = Words(en="Axis {axis}, for {control}", de="Achse {axis}, für {control}")
+_TITLE = Words("Compensation table")
+_SUBTITLE = Words("Axis {axis}, for {control}")
 _CONFIDENCE = {
-    "verified": Words(en="tried on the control", de="an der Steuerung erprobt"),
-    "documented": Words(
-        en="documented by the maker, not tried on the control",
-        de="vom Hersteller dokumentiert, nicht an der Steuerung erprobt",
-    ),
-    "unconfirmed": Words(
-        en="not confirmed: sign or format may be another",
-        de="nicht bestätigt: Vorzeichen oder Format können andere sein",
-    ),
+    "verified": Words("tried on the control"),
+    "documented": Words("documented by the maker, not tried on the control"),
+    "unconfirmed": Words("not confirmed: sign or format may be another"),
 }
 _CHECK = Words(
-    en="Load the table, reference the axis, and measure this row again: its deviation must vanish. If it "
+    "Load the table, reference the axis, and measure this row again: its deviation must vanish. If it "
     "doubles, the sign is wrong: take the table out. A backlash parameter of the control must not correct "
-    "the same play a second time.",
-    de="Tabelle laden, Achse referenzieren und diese Zeile erneut messen: ihre Abweichung muss verschwinden. "
-    "Verdoppelt sie sich, ist das Vorzeichen falsch: Tabelle herausnehmen. Ein Loseparameter der Steuerung "
-    "darf dasselbe Spiel nicht ein zweites Mal korrigieren.",
+    "the same play a second time."
 )
 _NO_MEASUREMENT = Words(
-    en="A forecast is no measurement: the axis with its table needs a test of its own "
-    "(zlmreport compensate --confirm).",
-    de="Eine Vorhersage ist keine Messung: die Achse mit ihrer Tabelle braucht eine eigene Prüfung "
-    "(zlmreport compensate --confirm).",
+    "A forecast is no measurement: the axis with its table needs a test of its own "
+    "(zlmreport compensate --confirm)."
 )
 _BOTH_SET_UPS = Words(
-    en="A second test shows the scatter of both tests, and the errors of two set-ups of this test's budget.",
-    de="Eine zweite Prüfung zeigt die Streuung beider Prüfungen und die Fehler zweier Aufbauten nach dem "
-    "Budget dieser Prüfung.",
+    "A second test shows the scatter of both tests, and the errors of two set-ups of this test's budget."
 )
 _SCATTER_ALONE = Words(
-    en="A second test shows the scatter of both tests; of the set-up's errors the job states no budget.",
-    de="Eine zweite Prüfung zeigt die Streuung beider Prüfungen; für die Fehler des Aufbaus nennt der "
-    "Auftrag kein Budget.",
+    "A second test shows the scatter of both tests; of the set-up's errors the job states no budget."
 )
 _ALTERNATIVE = Words(
-    en="The mean deviations with the table, from {low} to {high}; and what the table leaves of them, from "
-    "{least} to {most}.",
-    de="Die mittleren Abweichungen mit der Tabelle, von {low} bis {high}; und was die Tabelle davon "
-    "übrig lässt, von {least} bis {most}.",
+    "The mean deviations with the table, from {low} to {high}; and what the table leaves of them, from "
+    "{least} to {most}."
 )
 #: What a second test says of the table.
 CONFIRMED = {
-    ConfirmationVerdict.HELD: Words(
-        en="The second test holds the forecast.", de="Die zweite Prüfung hält die Vorhersage."
-    ),
-    ConfirmationVerdict.WRONG_SIGN: Words(
-        en="The table acts with the wrong sign: turn it.",
-        de="Die Tabelle wirkt mit falschem Vorzeichen: Kehren Sie es um.",
-    ),
-    ConfirmationVerdict.HALF: Words(
-        en="Half of the table acts; look for a factor of two.",
-        de="Die Tabelle wirkt zur Hälfte; suchen Sie einen Faktor zwei.",
-    ),
-    ConfirmationVerdict.SHIFTED: Words(
-        en="The table acts at other positions; look at its start.",
-        de="Die Tabelle wirkt an anderen Positionen; prüfen Sie ihren Anfang.",
-    ),
-    ConfirmationVerdict.OTHER: Words(
-        en="The second test does not show this table; is it active?",
-        de="Die zweite Prüfung zeigt diese Tabelle nicht; ist sie wirksam?",
-    ),
+    ConfirmationVerdict.HELD: Words("The second test holds the forecast."),
+    ConfirmationVerdict.WRONG_SIGN: Words("The table acts with the wrong sign: turn it."),
+    ConfirmationVerdict.HALF: Words("Half of the table acts; look for a factor of two."),
+    ConfirmationVerdict.SHIFTED: Words("The table acts at other positions; look at its start."),
+    ConfirmationVerdict.OTHER: Words("The second test does not show this table; is it active?"),
 }
-_RATIO = Words(en="E after is {share} % of E before.", de="E danach ist {share} % von E davor.")
-_APPLIED = Words(
-    en="{share} % of the table shows in the second test.",
-    de="{share} % der Tabelle zeigt sich in der zweiten Prüfung.",
-)
-_SHIFTED = Words(en="It is shifted by {length}.", de="Sie ist um {length} verschoben.")
-_WITHIN, _OUTSIDE = Words(en="within", de="innerhalb"), Words(en="outside", de="außerhalb")
-_SYMBOL, _PARAMETER = Words(en="Symbol", de="Formelzeichen"), Words(en="Parameter", de="Kenngröße")
-_BEFORE, _SECOND_TEST = Words(en="Before", de="Vorher"), Words(en="Second test", de="Zweite Prüfung")
-_FORECAST = Words(
-    en="Forecast from the files as the control reads them",
-    de="Vorhersage aus den Dateien, wie die Steuerung sie liest",
-)
+_RATIO = Words("E after is {share} % of E before.")
+_APPLIED = Words("{share} % of the table shows in the second test.")
+_SHIFTED = Words("It is shifted by {length}.")
+_WITHIN, _OUTSIDE = Words("within"), Words("outside")
+_SYMBOL, _PARAMETER = Words("Symbol"), Words("Parameter")
+_BEFORE, _SECOND_TEST = Words("Before"), Words("Second test")
+_FORECAST = Words("Forecast from the files as the control reads them")
 #: U of E, M, B and A by their symbols, before and with the table, in the unit of deviations.
 Uncertainties = tuple[Mapping[str, float], Mapping[str, float]]
 #: Of what is left, m or rad: the rounding of doubles is no curve.
 _DIGITS_DRAWN = 12
 _FIGURES = {
-    "E": Words(en="Systematic deviation", de="Systematische Abweichung"),
-    "M": Words(en="Mean bidirectional deviation", de="Mittlere Abweichung beider Richtungen"),
-    "B": Words(en="Reversal value", de="Umkehrspanne"),
-    "A": Words(en="Accuracy", de="Positioniergenauigkeit"),
+    "E": Words("Systematic deviation"),
+    "M": Words("Mean bidirectional deviation"),
+    "B": Words("Reversal value"),
+    "A": Words("Accuracy"),
 }
 
 
@@ -157,18 +120,18 @@ def compensation_sheet(
         sections=(
             Section(
                 "loading",
-                say(Words(en="Loading and checking", de="Laden und prüfen")),
+                say(Words("Loading and checking")),
                 _loading(made, writer),
             ),
             conditions.section(job, measurements, (), writer),
         ),
         page_words=PageWords(
             number=f"{title} {keys.number}",
-            page=say(Words(en="page", de="Seite")),
-            of=say(Words(en="of", de="von")),
-            end=say(Words(en="End of document", de="Ende des Dokuments")),
-            figure=say(Words(en="Figure", de="Bild")),
-            table=say(Words(en="Table", de="Tabelle")),
+            page=say(Words("page")),
+            of=say(Words("of")),
+            end=say(Words("End of document")),
+            figure=say(Words("Figure")),
+            table=say(Words("Table")),
         ),
         description=f"{title}, {control}",
         measurements=measurements,
@@ -180,13 +143,13 @@ def compensation_sheet(
 
 def _facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str]]:
     say, active = writer.say, job.keys.axis.compensation_table
-    none = Words(en="no table", de="keine Tabelle")
+    none = Words("no table")
     names = ", ".join(f"{job.keys.certificate.number}{end}" for end in made.files)
-    yield say(Words(en="Files", de="Dateien")), names
-    yield say(Words(en="Format", de="Format")), say(_CONFIDENCE[made.controller.confidence])
-    yield say(Words(en="Rows", de="Zeilen")), str(len(made.decoded.positions))
+    yield say(Words("Files")), names
+    yield say(Words("Format")), say(_CONFIDENCE[made.controller.confidence])
+    yield say(Words("Rows")), str(len(made.decoded.positions))
     yield (
-        say(Words(en="Active during the test", de="Bei der Prüfung wirksam")),
+        say(Words("Active during the test")),
         active.name if isinstance(active, Path) else say(none),
     )
 
@@ -210,8 +173,8 @@ def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Sectio
         Column(say(_SYMBOL)),
         Column(say(_PARAMETER)),
         Column(say(_BEFORE), unit.symbol, Align.RIGHT),
-        Column(say(Words(en="With the table", de="Mit Tabelle")), unit.symbol, Align.RIGHT),
-        Column(say(Words(en="A second test, 95 %", de="Zweite Prüfung, 95 %")), unit.symbol, Align.RIGHT),
+        Column(say(Words("With the table")), unit.symbol, Align.RIGHT),
+        Column(say(Words("A second test, 95 %")), unit.symbol, Align.RIGHT),
     )
     sentences = (*remarks(made, writer), _NO_MEASUREMENT)
     return Section(
@@ -258,7 +221,7 @@ def confirmation(found: Confirmation, made: Made, shown: Figures, writer: Writer
         Column(say(_SYMBOL)),
         Column(say(_PARAMETER)),
         Column(say(_BEFORE), unit.symbol, Align.RIGHT),
-        Column(say(Words(en="Forecast, 95 %", de="Vorhersage, 95 %")), unit.symbol, Align.RIGHT),
+        Column(say(Words("Forecast, 95 %")), unit.symbol, Align.RIGHT),
         Column(say(_SECOND_TEST), unit.symbol, Align.RIGHT),
         Column(""),
     )
@@ -295,10 +258,7 @@ def remarks(made: Made, writer: Writer) -> Iterator[Words]:
 
     yield _grid(made, writer, amount)
     yield Words(
-        en="Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes "
-        "{rounding}.",
-        de="Zwischen den {rows} Zeilen bleiben bis zu {between}, am meisten bei {at}; Runden nimmt "
-        "{rounding}.",
+        "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
     ).given(
         rows=len(made.decoded.positions),
         between=amount(found.between),
@@ -307,54 +267,41 @@ def remarks(made: Made, writer: Writer) -> Iterator[Words]:
     )
     if made.left_out:
         names = ", ".join(f"{name} ({writer.length(wave)})" for name, wave in made.left_out)
-        yield Words(
-            en="Left out, for no row carries it: {names}. It stays, with up to {error}.",
-            de="Weggelassen, weil keine Zeile es trägt: {names}. Es bleibt, mit bis zu {error}.",
-        ).given(names=names, error=amount(found.left_out))
+        yield Words("Left out, for no row carries it: {names}. It stays, with up to {error}.").given(
+            names=names, error=amount(found.left_out)
+        )
     if found.second_test:
         yield _BOTH_SET_UPS if found.has_set_up else _SCATTER_ALONE
     if abs(found.constant) > found.rounding:
-        yield Words(
-            en="The control's table begins at zero: a constant of {constant} was taken out.",
-            de="Die Tabelle der Steuerung beginnt bei null: eine Konstante von {constant} wurde entfernt.",
-        ).given(constant=amount(-found.constant))
+        yield Words("The control's table begins at zero: a constant of {constant} was taken out.").given(
+            constant=amount(-found.constant)
+        )
     if found.play:
         yield Words(
-            en="The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
-            "control's backlash parameter.",
-            de="Die Tabelle hat eine Spalte: die mittlere Umkehrspanne, {play} (vorwärts − rückwärts), "
-            "bleibt dem Loseparameter der Steuerung.",
+            "The table has one column: the mean lost motion, {play} (forward − reverse), is left to the "
+            "control's backlash parameter."
         ).given(play=amount(found.play))
 
 
 _GRIDS = {
     GridReason.STATED: Words(
-        en="{rows} rows, {step} apart, as stated: the lines between them miss up to {added}.",
-        de="{rows} Zeilen im Abstand von {step}, wie verlangt: Geraden dazwischen verfehlen bis zu {added}.",
+        "{rows} rows, {step} apart, as stated: the lines between them miss up to {added}."
     ),
     GridReason.TARGETS: Words(
-        en="{rows} rows at the targets: the lines between them miss up to {added}, and U of a mean is "
-        "{allowed} (scatter, k = 2).",
-        de="{rows} Zeilen an den Zielpositionen: Geraden dazwischen verfehlen bis zu {added}, und U eines "
-        "Mittelwerts ist {allowed} (Streuung, k = 2).",
+        "{rows} rows at the targets: the lines between them miss up to {added}, and U of a mean is "
+        "{allowed} (scatter, k = 2)."
     ),
     GridReason.UNCERTAINTY: Words(
-        en="{rows} rows, {step} apart, are the fewest whose lines miss no more than U of a mean, {allowed} "
-        "(scatter, k = 2): up to {added}.",
-        de="{rows} Zeilen im Abstand von {step} sind die wenigsten, deren Geraden nicht mehr verfehlen als U "
-        "eines Mittelwerts, {allowed} (Streuung, k = 2): bis zu {added}.",
+        "{rows} rows, {step} apart, are the fewest whose lines miss no more than U of a mean, {allowed} "
+        "(scatter, k = 2): up to {added}."
     ),
     GridReason.CONTROL: Words(
-        en="{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
-        "{allowed} (scatter, k = 2), for the control takes no more rows.",
-        de="{rows} Zeilen im Abstand von {step}: die Geraden dazwischen verfehlen bis zu {added}, mehr als U "
-        "eines Mittelwerts, {allowed} (Streuung, k = 2), denn mehr Zeilen nimmt die Steuerung nicht.",
+        "{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
+        "{allowed} (scatter, k = 2), for the control takes no more rows."
     ),
     GridReason.SUPPORT: Words(
-        en="{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
-        "{allowed} (scatter, k = 2); the targets support no finer rows.",
-        de="{rows} Zeilen im Abstand von {step}: die Geraden dazwischen verfehlen bis zu {added}, mehr als U "
-        "eines Mittelwerts, {allowed} (Streuung, k = 2); feinere Zeilen tragen die Zielpositionen nicht.",
+        "{rows} rows, {step} apart: the lines between them miss up to {added}, more than U of a mean, "
+        "{allowed} (scatter, k = 2); the targets support no finer rows."
     ),
 }
 
@@ -380,15 +327,13 @@ def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
         return f"{up} ↑, {down} ↓ {unit.symbol}"
 
     worked = Words(
-        en="Worked row: at {at} the axis was off by {stood} (actual − target, ↑ moving forward, "
-        "↓ moving back); the table takes away {taken}.",
-        de="Beispielzeile: bei {at} wich die Achse um {stood} ab (Ist − Soll, ↑ vorwärts, "
-        "↓ rückwärts); die Tabelle nimmt {taken} weg.",
+        "Worked row: at {at} the axis was off by {stood} (actual − target, ↑ moving forward, "
+        "↓ moving back); the table takes away {taken}."
     ).given(at=writer.length(float(at[0])), stood=both(made.meant.at(at)), taken=both(made.decoded.at(at)))
     return (
         Paragraph(say(worked)),
         Notice(
-            say(Words(en="For who loads it", de="Für den, der sie lädt")),
+            say(Words("For who loads it")),
             (*map(say, made.controller.notes), say(_CHECK)),
         ),
     )
@@ -434,19 +379,16 @@ def _figure(made: Made, writer: Writer) -> Figure:
     }
     return Figure(
         key="compensation",
-        title=Words(
-            en="The mean deviations with the table C, and what it leaves",
-            de="Die mittleren Abweichungen mit der Tabelle C, und was sie übrig lässt",
-        ),
+        title=Words("The mean deviations with the table C, and what it leaves"),
         alternative=_ALTERNATIVE.given(**words),
         x_title=POSITION_TITLE,
         y_title=DEVIATION_TITLE,
         x_unit=writer.position_unit.symbol,
         y_unit=unit,
         panels=(
-            Panel(Words(en="Before, and the table", de="Vorher, und die Tabelle"), curves=before),
+            Panel(Words("Before, and the table"), curves=before),
             Panel(
-                Words(en="With the table, and U of a mean", de="Mit Tabelle, und U eines Mittelwerts"),
+                Words("With the table, and U of a mean"),
                 bands=(band,) if known else (),
                 curves=left,
             ),

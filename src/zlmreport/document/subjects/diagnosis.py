@@ -43,62 +43,44 @@ from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
 
 #: Titles of what is said of a diagnosis.
-VERDICT = Words(en="Verdict", de="Befund")
-FAILURES = Words(en="Where the model fails", de="Wo das Modell versagt")
-CANDIDATES = Words(en="What may be missing", de="Was fehlen kann")
-HIDDEN = Words(en="What this test cannot see", de="Was diese Messung nicht sehen kann")
-LEFT = Words(en="What is left without a name", de="Was ohne Namen übrig bleibt")
-REMEDY = Words(en="What to do if this is the cause", de="Was zu tun ist, wenn dies die Ursache ist")
-EXPERIMENT = Words(en="The next experiment", de="Der nächste Versuch")
-NOT_TRIED = Words(
-    en="Effects that this test could not try", de="Einflüsse, die mit dieser Messung nicht prüfbar sind"
-)
-_ASSUMED = Words(en="Taken for granted", de="Angenommen")
+VERDICT = Words("Verdict")
+FAILURES = Words("Where the model fails")
+CANDIDATES = Words("What may be missing")
+HIDDEN = Words("What this test cannot see")
+LEFT = Words("What is left without a name")
+REMEDY = Words("What to do if this is the cause")
+EXPERIMENT = Words("The next experiment")
+NOT_TRIED = Words("Effects that this test could not try")
+_ASSUMED = Words("Taken for granted")
 _NO_FAILURE = Words(
-    en="No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
-    "run, time and the logged conditions.",
-    de="Keine Prüfung der Residuen schlägt an: weder die der Mittelwerte gegen die Wiederholungen noch die "
-    "über Richtung, Durchlauf, Zeit und die aufgezeichneten Bedingungen.",
+    "No test of the residuals fails: not that of the means against the repeats, nor those over direction, "
+    "run, time and the logged conditions."
 )
-_NOT_EXCLUDED = Words(
-    en="Not excluded, for this test could not try them: {effects}.",
-    de="Nicht ausgeschlossen, weil mit dieser Messung nicht prüfbar: {effects}.",
-)
+_NOT_EXCLUDED = Words("Not excluded, for this test could not try them: {effects}.")
 _CANDIDATES = Words(
-    en="Effects that the model may lack, each with the probability that it is there, beside the others of "
-    "the set and what has no name",
-    de="Einflüsse, die dem Modell fehlen können, jeder mit der Wahrscheinlichkeit, dass er da ist, neben den "
-    "anderen des Satzes und dem, was keinen Namen hat",
+    "Effects that the model may lack, each with the probability that it is there, beside the others of "
+    "the set and what has no name"
 )
 _VISIBILITY = Words(
-    en="What the plan of this test can see of effects that are not in the model: the share that the "
+    "What the plan of this test can see of effects that are not in the model: the share that the "
     "model does not imitate, and the smallest effect that is found half of the time (root mean "
-    "square over all readings)",
-    de="Was der Plan dieser Messung von Einflüssen sieht, die nicht im Modell stehen: der Anteil, "
-    "den das Modell nicht nachahmt, und der kleinste Einfluss, der in der Hälfte der Fälle gefunden "
-    "wird (quadratischer Mittelwert über alle Messwerte)",
+    "square over all readings)"
 )
-_SHAPE = Words(en="Shape", de="Form")
-_WHERE = Words(en="Place", de="Ort")
-_SIZE = Words(en="Root mean square", de="Quadratischer Mittelwert")
-_OF_THE_REST = Words(en="Share of what the model leaves", de="Anteil an dem, was das Modell übrig lässt")
-_FORMULA = Words(en="Formula to try", de="Formel zum Probieren")
-_IMPROBABLE = Words(en="Hardly missing", de="Kaum fehlend")
+_SHAPE = Words("Shape")
+_WHERE = Words("Place")
+_SIZE = Words("Root mean square")
+_OF_THE_REST = Words("Share of what the model leaves")
+_FORMULA = Words("Formula to try")
+_IMPROBABLE = Words("Hardly missing")
 _SENTENCES = ColumnKind.SENTENCES
 _MARKS = {
     Verdict.ADEQUATE: Mark.MET,
     Verdict.MISSING: Mark.OPEN,
     Verdict.UNEXPLAINED: Mark.NOT_MET,
 }
-_EXTRAPOLATED = Words(en="{p} (extrapolated)", de="{p} (extrapoliert)")
-_VISIBLE = Words(
-    en="{share} % of it is visible beside this model",
-    de="neben diesem Modell sind {share} % davon sichtbar",
-)
-_FOUND_FROM = Words(
-    en="{share} % of it is visible beside this model; found from {size} rms on",
-    de="neben diesem Modell sind {share} % davon sichtbar; gefunden ab {size} quadratischem Mittel",
-)
+_EXTRAPOLATED = Words("{p} (extrapolated)")
+_VISIBLE = Words("{share} % of it is visible beside this model")
+_FOUND_FROM = Words("{share} % of it is visible beside this model; found from {size} rms on")
 
 
 @dataclass(frozen=True, slots=True)
@@ -287,13 +269,13 @@ def _candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language
         return (*known, ", ".join(row.equals) or NOTHING, row.tell_apart_by or NOTHING, fitted, row.explains)
 
     columns = (
-        column("effect", Words(en="Effect", de="Einfluss")),
-        column("probability", Words(en="Probability", de="Wahrscheinlichkeit"), "%"),
-        column("rms", Words(en="RMS after", de="Quadr. Mittel danach"), unit),
-        column("left_out", Words(en="Runs left out", de="Durchläufe ausgelassen"), unit),
+        column("effect", Words("Effect")),
+        column("probability", Words("Probability"), "%"),
+        column("rms", Words("RMS after"), unit),
+        column("left_out", Words("Runs left out"), unit),
         column("p", same("")),
-        column("equals", Words(en="Not to be told from", de="Nicht zu unterscheiden von"), kind=_SENTENCES),
-        column("tell", Words(en="Told apart by", de="Zu unterscheiden durch"), kind=_SENTENCES),
+        column("equals", Words("Not to be told from"), kind=_SENTENCES),
+        column("tell", Words("Told apart by"), kind=_SENTENCES),
         column("parameters", same(""), kind=_SENTENCES),
         column("explains", same(""), kind=_SENTENCES),
     )
@@ -305,11 +287,11 @@ def _visibility(diagnosis: Diagnosis, language: Language, titles: Mapping[str, W
     """Return how much of each effect the plan of the test can see, the best hidden first."""
     axis = diagnosis.fit.design.axis
     columns = (
-        Column(Words(en="Effect", de="Einfluss").in_language(language)),
-        Column(Words(en="Title", de="Bezeichnung").in_language(language)),
-        Column(Words(en="Visible", de="Sichtbar").in_language(language), "%", Align.RIGHT),
+        Column(Words("Effect").in_language(language)),
+        Column(Words("Title").in_language(language)),
+        Column(Words("Visible").in_language(language), "%", Align.RIGHT),
         Column(
-            Words(en="Found from", de="Gefunden ab").in_language(language),
+            Words("Found from").in_language(language),
             axis.deviation_unit.symbol,
             Align.RIGHT,
         ),

@@ -9,7 +9,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import MeasurementSet
 
-_OF_A_RUN = Words("{statement}; {remedy}", "{statement}; {remedy}")
+_OF_A_RUN = Words("{statement}; {remedy}")
 
 
 def doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:

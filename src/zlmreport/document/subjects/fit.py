@@ -33,71 +33,49 @@ from zlmreport.model.fitting.estimate import Estimate, Plausibility
 from zlmreport.model.fitting.fit import Fit
 
 #: Titles of what is said of a model.
-ERROR = Words(en="Error of the model", de="Abweichung des Modells")
-EFFECTS = Words(en="The model's effects", de="Die Einflüsse des Modells")
-_EACH_DIRECTION = Words(en="Each direction by itself", de="Jede Richtung für sich")
-RMS = Words(en="Root mean square error", de="Quadratischer Mittelwert der Abweichungen")
-FLOOR = Words(en="Noise floor", de="Grundrauschen")
-LEFT_OUT = Words(en="Runs predicted from the others", de="Durchläufe, aus den übrigen vorhergesagt")
-_READINGS = Words(en="readings", de="Messwerte")
-_AMPLITUDE = Words(
-    en="Amplitude of harmonic {order}, from the above", de="Amplitude der {order}. Harmonischen, aus Obigem"
-)
-_PHASE = Words(
-    en="Phase of harmonic {order}, from the above", de="Phase der {order}. Harmonischen, aus Obigem"
-)
-_SUM = Words(
-    en="The model: the deviation x is the sum of these effects",
-    de="Das Modell: Die Abweichung x ist die Summe dieser Einflüsse",
-)
+ERROR = Words("Error of the model")
+EFFECTS = Words("The model's effects")
+_EACH_DIRECTION = Words("Each direction by itself")
+RMS = Words("Root mean square error")
+FLOOR = Words("Noise floor")
+LEFT_OUT = Words("Runs predicted from the others")
+_READINGS = Words("readings")
+_AMPLITUDE = Words("Amplitude of harmonic {order}, from the above")
+_PHASE = Words("Phase of harmonic {order}, from the above")
+_SUM = Words("The model: the deviation x is the sum of these effects")
 _PARAMETERS = Words(
-    en="Parameters of the model with expanded uncertainty U (coverage probability about 95 %). "
+    "Parameters of the model with expanded uncertainty U (coverage probability about 95 %). "
     "Grid: one of the values that were tried, with the half-width of the interval that holds it. "
-    "Plausible: within what is usual for the effect",
-    de="Parameter des Modells mit erweiterter Messunsicherheit U (Überdeckungswahrscheinlichkeit "
-    "etwa 95 %). Raster: einer der geprüften Werte, mit der halben Weite des Intervalls, in dem er "
-    "liegt. Plausibel: im Bereich des für den Einfluss Üblichen",
+    "Plausible: within what is usual for the effect"
 )
-_GIVEN = Words(en="given", de="vorgegeben")
-_HELD = Words(en="held at {bound}", de="gehalten bei {bound}")
-_GRID = Words(en="grid", de="Raster")
-_OF_GRID = Words(en="{half_width} (grid)", de="{half_width} (Raster)")
-_EXPECTED = Words(en="expected {value}", de="erwartet {value}")
+_GIVEN = Words("given")
+_HELD = Words("held at {bound}")
+_GRID = Words("grid")
+_OF_GRID = Words("{half_width} (grid)")
+_EXPECTED = Words("expected {value}")
 _PLAUSIBLE = {
-    Plausibility.PLAUSIBLE: Words(en="yes", de="ja"),
-    Plausibility.DOUBTFUL: Words(en="doubtful", de="zweifelhaft"),
-    Plausibility.IMPLAUSIBLE: Words(en="no", de="nein"),
+    Plausibility.PLAUSIBLE: Words("yes"),
+    Plausibility.DOUBTFUL: Words("doubtful"),
+    Plausibility.IMPLAUSIBLE: Words("no"),
     Plausibility.UNKNOWN: same(NOTHING),
 }
 _DOUBTS = {
-    Plausibility.DOUBTFUL: Words(
-        en="within its uncertainty of the plausible range", de="nur mit seiner Unsicherheit plausibel"
-    ),
-    Plausibility.IMPLAUSIBLE: Words(en="outside the plausible range", de="außerhalb des plausiblen Bereichs"),
+    Plausibility.DOUBTFUL: Words("within its uncertainty of the plausible range"),
+    Plausibility.IMPLAUSIBLE: Words("outside the plausible range"),
 }
-_WEIGHTED = Words(
-    en="Readings are weighted, for they scatter unequally: a single one by {least} to {largest}",
-    de="Die Messwerte sind gewichtet, denn sie streuen ungleich: ein einzelner um {least} bis {largest}",
-)
-_SCOPE = Words(
-    en="Δ and {axis} in {unit}, {axis} from {first} to {last}; each direction by itself",
-    de="Δ und {axis} in {unit}, {axis} von {first} bis {last}; jede Richtung für sich",
-)
+_WEIGHTED = Words("Readings are weighted, for they scatter unequally: a single one by {least} to {largest}")
+_SCOPE = Words("Δ and {axis} in {unit}, {axis} from {first} to {last}; each direction by itself")
 #: SI, or times the value: an uncertainty as large is none.
 _UNDETERMINED = 1e5
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _MOVES = Words(
-    en="{effects}: not fixed in position. A table of positions leaves it; it goes away only if the control "
-    "compensates it while the axis moves, or if its cause is removed.",
-    de="{effects}: nicht an die Position gebunden. Eine Positionstabelle lässt das stehen; es verschwindet "
-    "nur, wenn die Steuerung es während der Bewegung kompensiert oder die Ursache beseitigt wird.",
+    "{effects}: not fixed in position. A table of positions leaves it; it goes away only if the control "
+    "compensates it while the axis moves, or if its cause is removed."
 )
 
 _TOO_FINE = Words(
-    en="{effects}: a wave too short for a table with rows at the targets, which leaves it; rows four to a "
-    "period carry it (zlmreport compensate --from model --step).",
-    de="{effects}: eine Welle, zu kurz für eine Tabelle mit Zeilen an den Zielpositionen, die sie stehen "
-    "lässt; vier Zeilen je Periode tragen sie (zlmreport compensate --from model --step).",
+    "{effects}: a wave too short for a table with rows at the targets, which leaves it; rows four to a "
+    "period carry it (zlmreport compensate --from model --step)."
 )
 
 

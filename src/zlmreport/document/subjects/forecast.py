@@ -25,20 +25,15 @@ if TYPE_CHECKING:
     from zlmreport.measurement.units import Unit
 
 #: Title of the fall of the error.
-FALL = Words(en="How the error falls", de="Wie die Abweichung sinkt")
-_EFFECT = Words(en="Effect", de="Einfluss")
+FALL = Words("How the error falls")
+_EFFECT = Words("Effect")
 _FALL = Words(
-    en="How the error falls, effect by effect; the parameters of {designation} are predicted for an "
-    "axis whose control corrects all effects down to the row",
-    de="Wie die Abweichung sinkt, Einfluss für Einfluss; die Kenngrößen nach {designation} sind für "
-    "eine Achse vorhergesagt, deren Steuerung alle Einflüsse bis zu dieser Zeile korrigiert",
+    "How the error falls, effect by effect; the parameters of {designation} are predicted for an "
+    "axis whose control corrects all effects down to the row"
 )
-_WITHOUT = Words(en="without model", de="ohne Modell")
-_FLOOR = Words(en="noise floor", de="Grundrauschen")
-_LEFT = Words(
-    en="Predicted errors after compensation, from the readings of this document",
-    de="Was eine Kompensation übrig ließe, vorhergesagt aus den Messwerten dieses Dokuments",
-)
+_WITHOUT = Words("without model")
+_FLOOR = Words("noise floor")
+_LEFT = Words("Predicted errors after compensation, from the readings of this document")
 _ORDER = (Group.COMPOSITE, Group.SYSTEMATIC, Group.RANDOM)
 
 
@@ -114,9 +109,9 @@ def fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) 
     columns = (
         Column(say(_EFFECT), key="effect"),
         Column("", "%", Align.LEFT, "share", ColumnKind.BARS),
-        Column(say(Words(en="RMS error", de="Quadr. Mittel")), unit, Align.RIGHT, "rms"),
+        Column(say(Words("RMS error")), unit, Align.RIGHT, "rms"),
         Column("χ²/ν", "", Align.RIGHT, "chi2"),
-        Column(say(Words(en="Cross-validated", de="Kreuzvalidiert")), unit, Align.RIGHT, "cross_validated"),
+        Column(say(Words("Cross-validated")), unit, Align.RIGHT, "cross_validated"),
         *(Column(Symbol(each.notation), unit, Align.RIGHT, each.symbol) for each in forecast.quantities),
     )
     names = [say(_WITHOUT), *(f"+ {name}" for name in whole.fit.model.identifiers)]
@@ -145,11 +140,11 @@ def left_after_compensation(forecasts: Sequence[StandardForecast], writer: Write
     """Return what a compensation would leave of the leading parameters of each standard."""
     say, unit = writer.say, writer.deviation_unit.symbol
     columns = (
-        Column(say(Words(en="Symbol", de="Formelzeichen"))),
-        Column(say(Words(en="Parameter", de="Kenngröße"))),
-        Column(say(Words(en="Measured", de="Gemessen")), unit, Align.RIGHT),
-        Column(say(Words(en="Table of positions", de="Positionstabelle")), unit, Align.RIGHT),
-        Column(say(Words(en="Whole model", de="Ganzes Modell")), unit, Align.RIGHT),
+        Column(say(Words("Symbol"))),
+        Column(say(Words("Parameter"))),
+        Column(say(Words("Measured")), unit, Align.RIGHT),
+        Column(say(Words("Table of positions")), unit, Align.RIGHT),
+        Column(say(Words("Whole model")), unit, Align.RIGHT),
     )
     groups = tuple(
         RowGroup(

@@ -28,63 +28,51 @@ _LONG = 600.0
 #: Decimals of values that are drawn: finer than any screen.
 _DECIMALS = 6
 
-_POSITION = Words(en="Position", de="Position")
-_TIME = Words(en="Time", de="Zeit")
-_COUNTED = Words(en="Number of the reading", de="Nummer des Messwerts")
-_RUN = Words(en="Run", de="Durchlauf")
-_DIRECTION = Words(en="Direction", de="Richtung")
-_DEVIATION = Words(en="Deviation", de="Abweichung")
-_RESIDUAL = Words(en="Residual", de="Residuum")
+_POSITION = Words("Position")
+_TIME = Words("Time")
+_COUNTED = Words("Number of the reading")
+_RUN = Words("Run")
+_DIRECTION = Words("Direction")
+_DEVIATION = Words("Deviation")
+_RESIDUAL = Words("Residual")
 #: What the graphs say, on the workbench's page and in a certificate.
 GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
     {
-        "measured": Words(en="Measured against the model", de="Messung gegen Modell"),
-        "residuals": Words(en="Residuals", de="Residuen"),
-        "over": Words(en="over", de="über"),
+        "measured": Words("Measured against the model"),
+        "residuals": Words("Residuals"),
+        "over": Words("over"),
         "failures": FAILURES,
-        "noFailures": Words(
-            en="No test of the residuals fails.", de="Keine Prüfung der Residuen schlägt an."
-        ),
-        "show": Words(en="Show the readings", de="Messwerte zeigen"),
-        "reset": Words(en="Whole axis", de="Ganze Achse"),
-        "point": Words(
-            en="Point at a reading, or go from one to the next with the arrow keys.",
-            de="Zeigen Sie auf einen Messwert, oder gehen Sie mit den Pfeiltasten von einem zum nächsten.",
-        ),
-        "target": Words(en="Target", de="Sollposition"),
+        "noFailures": Words("No test of the residuals fails."),
+        "show": Words("Show the readings"),
+        "reset": Words("Whole axis"),
+        "point": Words("Point at a reading, or go from one to the next with the arrow keys."),
+        "target": Words("Target"),
         "run": _RUN,
         "deviation": _DEVIATION,
-        "modelValue": Words(en="Model", de="Modell"),
+        "modelValue": Words("Model"),
         "residual": _RESIDUAL,
-        "flagged": Words(en="stands off; not fitted", de="steht ab; nicht angepasst"),
-        "upwards": Words(en="upwards ↑", de="aufwärts ↑"),
-        "downwards": Words(en="downwards ↓", de="abwärts ↓"),
-        "modelUp": Words(en="model ↑ with U", de="Modell ↑ mit U"),
-        "modelDown": Words(en="model ↓ with U", de="Modell ↓ mit U"),
+        "flagged": Words("stands off; not fitted"),
+        "upwards": Words("upwards ↑"),
+        "downwards": Words("downwards ↓"),
+        "modelUp": Words("model ↑ with U"),
+        "modelDown": Words("model ↓ with U"),
         "reach": Words(
-            en="The waves are too short to be parted on this length: the line shows how far they reach.",
-            de="Die Wellen sind zu kurz, um auf dieser Länge einzeln sichtbar zu sein: Die Linie zeigt, "
-            "wie weit sie reichen.",
+            "The waves are too short to be parted on this length: the line shows how far they reach."
         ),
-        "noise": Words(en="± 2σ of single readings", de="± 2σ einzelner Messwerte"),
-        "zoom": Words(
-            en="Drag to look closer, with Shift to move; double-click for the whole axis.",
-            de="Ziehen vergrößert, mit Umschalt verschiebt es; Doppelklick zeigt wieder die ganze Achse.",
-        ),
+        "noise": Words("± 2σ of single readings"),
+        "zoom": Words("Drag to look closer, with Shift to move; double-click for the whole axis."),
         "direction": _DIRECTION,
-        "colour": Words(en="coloured by", de="Farbe nach"),
-        "mode": Words(en="What dragging does", de="Was Ziehen bewirkt"),
-        "modeZoom": Words(en="Look closer", de="Vergrößern"),
-        "modeMove": Words(en="Move", de="Verschieben"),
-        "modeSelect": Words(en="Choose readings", de="Messwerte wählen"),
-        "save": Words(en="Save …", de="Sichern …"),
-        "inSight": Words(en="Readings in sight", de="Sichtbare Messwerte"),
-        "asTable": Words(en="The readings in sight as a table", de="Die sichtbaren Messwerte als Tabelle"),
-        "more": Words(
-            en="{count} more: look closer to see them.", de="{count} weitere: zum Ansehen vergrößern."
-        ),
-        "chosen": Words(en="{count} readings chosen", de="{count} Messwerte gewählt"),
-        "slope": Words(en="Slope of its pass", de="Steigung des Durchgangs"),
+        "colour": Words("coloured by"),
+        "mode": Words("What dragging does"),
+        "modeZoom": Words("Look closer"),
+        "modeMove": Words("Move"),
+        "modeSelect": Words("Choose readings"),
+        "save": Words("Save …"),
+        "inSight": Words("Readings in sight"),
+        "asTable": Words("The readings in sight as a table"),
+        "more": Words("{count} more: look closer to see them."),
+        "chosen": Words("{count} readings chosen"),
+        "slope": Words("Slope of its pass"),
     }
 )
 _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}

@@ -33,95 +33,52 @@ from zlmreport.model.planning.visibility import Remedy, SeenEffect, Sight
 
 _MINUTE = 60.0
 _MOST_STRETCHES = 6
-_COUNT = Words(
-    en="{targets} targets, {readings} readings", de="{targets} Sollpositionen, {readings} Messwerte"
-)
-_TARGETS = Words(en="Targets", de="Sollpositionen")
-_FRACTIONS = Words(
-    en="In {unit}, at random fractions, seed {seed}",
-    de="In {unit}, an zufälligen Bruchteilen, Startwert {seed}",
-)
-_NO_FRACTIONS = Words(en="In {unit}, at no random fractions", de="In {unit}, ohne zufällige Bruchteile")
+_COUNT = Words("{targets} targets, {readings} readings")
+_TARGETS = Words("Targets")
+_FRACTIONS = Words("In {unit}, at random fractions, seed {seed}")
+_NO_FRACTIONS = Words("In {unit}, at no random fractions")
 _HALF_SEEN = Words(
-    en="check: all targets lie at two phases of {period}: of what repeats with it, a part stays hidden that "
-    "no share below counts; choose targets with a random fraction",
-    de="prüfen: alle Sollpositionen liegen an zwei Phasen von {period}: von dem, was sich damit wiederholt, "
-    "bleibt ein Teil verborgen, den kein Anteil unten zählt; wählen Sie zufällige Bruchteile",
+    "check: all targets lie at two phases of {period}: of what repeats with it, a part stays hidden that "
+    "no share below counts; choose targets with a random fraction"
 )
-_VISITS = Words(en="Visits", de="Anfahrten")
-_METHOD = Words(en="{method} method{assumed}", de="Verfahren {method}{assumed}")
-_ASSUMED = Words(en=" (assumed)", de=" (angenommen)")
+_VISITS = Words("Visits")
+_METHOD = Words("{method} method{assumed}")
+_ASSUMED = Words(" (assumed)")
 _SEQUENCES = {
-    Method.LINEAR: Words(
-        en="over all targets upwards, then over all of them downwards: {runs}",
-        de="über alle Sollpositionen aufwärts, dann über alle abwärts: {runs}",
-    ),
-    Method.UNIDIRECTIONAL: Words(
-        en="over all targets upwards, and back without a reading: {runs}",
-        de="über alle Sollpositionen aufwärts und ohne Messwert zurück: {runs}",
-    ),
-    Method.PENDULUM: Words(
-        en="each target from below and from above in turn, {runs}, before the next",
-        de="jede Sollposition abwechselnd von unten und von oben, {runs}, vor der nächsten",
-    ),
+    Method.LINEAR: Words("over all targets upwards, then over all of them downwards: {runs}"),
+    Method.UNIDIRECTIONAL: Words("over all targets upwards, and back without a reading: {runs}"),
+    Method.PENDULUM: Words("each target from below and from above in turn, {runs}, before the next"),
     Method.QUASI_PILGRIM: Words(
-        en="to and fro between neighbours, the next upwards and this one downwards: {runs}",
-        de="zwischen Nachbarn hin und her, die nächste aufwärts und diese abwärts: {runs}",
+        "to and fro between neighbours, the next upwards and this one downwards: {runs}"
     ),
 }
-_ONCE, _TIMES = Words(en="once", de="einmal"), Words(en="{runs} times", de="{runs}-mal")
+_ONCE, _TIMES = Words("once"), Words("{runs} times")
 _MOTION = Words(
-    en="the axis turns round {overrun} beyond; {feed} {unit}/min{is_feed}, {dwell} s at rest{is_dwell}",
-    de="die Achse kehrt {overrun} dahinter um; {feed} {unit}/min{is_feed}, {dwell} s Ruhe{is_dwell}",
+    "the axis turns round {overrun} beyond; {feed} {unit}/min{is_feed}, {dwell} s at rest{is_dwell}"
 )
-_TRAVELLED = Words(en="{way} of travel, about {minutes} min", de="{way} Weg, etwa {minutes} min")
-_BEYOND = Words(
-    en="check: it turns round at {low} and {high}; the travel is {first} to {last}",
-    de="prüfen: sie kehrt bei {low} und {high} um; der Verfahrweg ist {first} bis {last}",
-)
-_ASKED = Words(en="What the standards ask", de="Was die Normen verlangen")
-_MET = Words(en="met: {standard}", de="erfüllt: {standard}")
-_NOT_MET = Words(
-    en="not met: {standard}: {requirement}: {found}", de="nicht erfüllt: {standard}: {requirement}: {found}"
-)
-_SEEN = Words(
-    en="What this plan can see beside {model}{assumed}",
-    de="Was dieser Plan neben {model}{assumed} sehen kann",
-)
-_NO_EFFECT = Words(en="nothing", de="nichts")
-_LOG_NEEDED = Words(en="needs a log", de="braucht eine Aufzeichnung")
-_IF = Words(
-    en="if single readings scatter by {scatter} (standard deviation{assumed}), and {rise}",
-    de="wenn einzelne Messwerte um {scatter} streuen (Standardabweichung{assumed}), und {rise}",
-)
-_SCATTER_ASSUMED = Words(en=", assumed", de=", angenommen")
-_HIDDEN = Words(en="What it cannot see", de="Was er nicht sehen kann")
-_SHARE = Words(en="{share} % visible", de="{share} % sichtbar")
-_THEN = Words(en="{shares}, then {share} %", de="{shares}, dann {share} %")
-_HARDLY = Words(
-    en="{shares}; found only from {size}, hardly plausible",
-    de="{shares}; erst ab {size} gefunden, kaum plausibel",
-)
-_NO_REMEDY = Words(
-    en="no other targets or sequence that were tried would show",
-    de="keine anderen Sollpositionen oder Reihenfolge, die geprüft wurden, würden zeigen",
-)
-_REMEDY = Words(en="{reason}; {advice}", de="{reason}; {advice}")
-_NEEDS_LOG = Words(
-    en="cannot be tried without the logged column {columns}",
-    de="ohne die aufgezeichnete Spalte {columns} nicht prüfbar",
-)
-_UNTRIED = Words(en="cannot be tried", de="nicht prüfbar")
-_LOGS = Words(en="What to log beside the readings", de="Was neben den Messwerten aufzuzeichnen ist")
-_TIME = Words(
-    en="time: else the number of the reading stands for it ({effects})",
-    de="time: sonst steht die Nummer des Messwerts dafür ({effects})",
-)
-_TO_TELL = Words(
-    en="{columns}: to be able to tell {effects}", de="{columns}: um {effects} unterscheiden zu können"
-)
-_PARAMETER = Words(en="{name} {size}{unit}", de="{name} {size}{unit}")
-_RMS = Words(en="{size} rms", de="{size} quadratisches Mittel")
+_TRAVELLED = Words("{way} of travel, about {minutes} min")
+_BEYOND = Words("check: it turns round at {low} and {high}; the travel is {first} to {last}")
+_ASKED = Words("What the standards ask")
+_MET = Words("met: {standard}")
+_NOT_MET = Words("not met: {standard}: {requirement}: {found}")
+_SEEN = Words("What this plan can see beside {model}{assumed}")
+_NO_EFFECT = Words("nothing")
+_LOG_NEEDED = Words("needs a log")
+_IF = Words("if single readings scatter by {scatter} (standard deviation{assumed}), and {rise}")
+_SCATTER_ASSUMED = Words(", assumed")
+_HIDDEN = Words("What it cannot see")
+_SHARE = Words("{share} % visible")
+_THEN = Words("{shares}, then {share} %")
+_HARDLY = Words("{shares}; found only from {size}, hardly plausible")
+_NO_REMEDY = Words("no other targets or sequence that were tried would show")
+_REMEDY = Words("{reason}; {advice}")
+_NEEDS_LOG = Words("cannot be tried without the logged column {columns}")
+_UNTRIED = Words("cannot be tried")
+_LOGS = Words("What to log beside the readings")
+_TIME = Words("time: else the number of the reading stands for it ({effects})")
+_TO_TELL = Words("{columns}: to be able to tell {effects}")
+_PARAMETER = Words("{name} {size}{unit}")
+_RMS = Words("{size} rms")
 
 
 def size_of_plan(planned: PlannedTest) -> Words:
@@ -230,8 +187,8 @@ class _Plan:
         )
         columns = (
             Column(""),
-            Column(self.say(Words(en="visible", de="sichtbar")), "%", Align.RIGHT),
-            Column(self.say(Words(en="found half of the time from", de="in der Hälfte gefunden ab"))),
+            Column(self.say(Words("visible")), "%", Align.RIGHT),
+            Column(self.say(Words("found half of the time from"))),
             Column(""),
         )
         yield Table("", columns, (RowGroup(rows),))

@@ -62,27 +62,15 @@ def dead_path_error(index: FloatArray, index_at_datum: float, dead_path: float) 
     return dead_path * (index - index_at_datum) / index
 
 
-_AIR = Words(en="Refractive index of air", de="Brechzahl der Luft")
-_AIR_METHOD = Words(
-    en="updated Edlén equation (Birch and Downs 1993, 1994); D·nₐ/n",
-    de="aktualisierte Edlén-Gleichung (Birch und Downs 1993, 1994); D·nₐ/n",
-)
-_AIR_INPUTS = Words(
-    en="n from {low} to {high}; the instrument assumed {assumed}",
-    de="n von {low} bis {high}; das Gerät nahm {assumed} an",
-)
-_DEAD_PATH = Words(en="Dead path", de="Totstrecke")
-_DEAD_PATH_METHOD = Words(
-    en="change of the index since the first reading; Dp·(n − n₀)/n",
-    de="Änderung der Brechzahl seit dem ersten Messwert; Dp·(n − n₀)/n",
-)
-_DEAD_PATH_INPUTS = Words(en="Dp = {length} mm", de="Dp = {length} mm")
-_MATERIAL = Words(en="Thermal expansion, to 20 °C", de="Wärmeausdehnung, auf 20 °C")
-_MATERIAL_METHOD = Words(en="D·(1 − α·(T − 20 °C))", de="D·(1 − α·(T − 20 °C))")
-_MATERIAL_INPUTS = Words(
-    en="α = {alpha} µm/(m·K), T − 20 °C from {low} to {high} K",
-    de="α = {alpha} µm/(m·K), T − 20 °C von {low} bis {high} K",
-)
+_AIR = Words("Refractive index of air")
+_AIR_METHOD = Words("updated Edlén equation (Birch and Downs 1993, 1994); D·nₐ/n")
+_AIR_INPUTS = Words("n from {low} to {high}; the instrument assumed {assumed}")
+_DEAD_PATH = Words("Dead path")
+_DEAD_PATH_METHOD = Words("change of the index since the first reading; Dp·(n − n₀)/n")
+_DEAD_PATH_INPUTS = Words("Dp = {length} mm")
+_MATERIAL = Words("Thermal expansion, to 20 °C")
+_MATERIAL_METHOD = Words("D·(1 − α·(T − 20 °C))")
+_MATERIAL_INPUTS = Words("α = {alpha} µm/(m·K), T − 20 °C from {low} to {high} K")
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,28 +35,19 @@ from zlmreport.measurement.units import MICROMETRE, REFERENCE_TEMPERATURE
 _STEP = 1e-4
 #: Range of the equation's own error: over the air of a workshop it agrees with Ciddor's to 2 parts in 10⁸.
 _EQUATION_RANGE = 4e-8
-_EQUATION = Words(en="Equation of the refractive index", de="Gleichung der Brechzahl")
-_EQUATION_STATED = Words(en="R = {range} µm/m", de="R = {range} µm/m")
-_EQUATION_SOURCE = Words(
-    en="updated Edlén equation against Ciddor's", de="aktualisierte Edlén-Gleichung gegen die von Ciddor"
-)
-_SOURCE = Words(
-    en="sensitivity of the updated Edlén equation, {sensitivity} µm/m per {unit}, at L = {length}",
-    de="Empfindlichkeit der aktualisierten Edlén-Gleichung, {sensitivity} µm/m je {unit}, bei L = {length}",
-)
+_EQUATION = Words("Equation of the refractive index")
+_EQUATION_STATED = Words("R = {range} µm/m")
+_EQUATION_SOURCE = Words("updated Edlén equation against Ciddor's")
+_SOURCE = Words("sensitivity of the updated Edlén equation, {sensitivity} µm/m per {unit}, at L = {length}")
 
 
 #: The state of the air in which an instrument that does not look at it is right.
 _STANDARD_AIR = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
-_UNCOMPENSATED = Words(
-    en="Refractive index of the air, not compensated", de="Brechzahl der Luft, nicht kompensiert"
-)
-_UNCOMPENSATED_STATED = Words(en="Δn·L = {size} µm", de="Δn·L = {size} µm")
+_UNCOMPENSATED = Words("Refractive index of the air, not compensated")
+_UNCOMPENSATED_STATED = Words("Δn·L = {size} µm")
 _UNCOMPENSATED_SOURCE = Words(
-    en="of known size: n = {index} by the updated Edlén equation, where the instrument is taken to "
-    "have assumed {assumed} (20 °C, 1013.25 hPa, 50 %); L = {length}",
-    de="der Größe nach bekannt: n = {index} nach der aktualisierten Edlén-Gleichung; angenommen "
-    "ist, dass das Messgerät mit {assumed} rechnete (20 °C, 1013,25 hPa, 50 %); L = {length}",
+    "of known size: n = {index} by the updated Edlén equation, where the instrument is taken to "
+    "have assumed {assumed} (20 °C, 1013.25 hPa, 50 %); L = {length}"
 )
 
 

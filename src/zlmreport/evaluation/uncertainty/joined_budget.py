@@ -8,7 +8,7 @@ from dataclasses import replace
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, NoBudget
 from zlmreport.language import Words
 
-_OF_A_LINE = Words("{name}: {reason}", "{name}: {reason}")
+_OF_A_LINE = Words("{name}: {reason}")
 
 
 def joined_budget(

@@ -11,54 +11,28 @@ from zlmreport.language import Words
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.measurement.units import METRE, Unit, with_unit
 
-NO_INSTRUMENT = Words(
-    en="the uncertainty of the measuring instrument is not stated",
-    de="die Messunsicherheit des Messgeräts ist nicht angegeben",
-)
+NO_INSTRUMENT = Words("the uncertainty of the measuring instrument is not stated")
 INSTRUMENT_IN_WORDS = Words(
-    en="the uncertainty of the measuring instrument is stated in words and not as a number",
-    de="die Messunsicherheit des Messgeräts ist in Worten und nicht als Zahl angegeben",
+    "the uncertainty of the measuring instrument is stated in words and not as a number"
 )
 
-DEVICE = Words(en="Measuring instrument", de="Messgerät")
-_ENVIRONMENTAL_VARIATION = Words(
-    en="Variation of the environment during the test", de="Schwankung der Umgebung während der Messung"
-)
-_RESOLUTION = Words(en="Resolution of the readings", de="Auflösung der Messwerte")
-DEVICE_ALONG = Words(
-    en="Measuring instrument, part that grows with the length",
-    de="Messgerät, mit der Länge wachsender Teil",
-)
-UNCORRECTED = Words(en="Thermal expansion, not corrected", de="Wärmeausdehnung, nicht korrigiert")
-UNCORRECTED_SOURCE = Words(
-    en="of known size: α = {expansion} µm/(m·K), ΔT = {difference} K, L = {length}",
-    de="der Größe nach bekannt: α = {expansion} µm/(m·K), ΔT = {difference} K, L = {length}",
-)
+DEVICE = Words("Measuring instrument")
+_ENVIRONMENTAL_VARIATION = Words("Variation of the environment during the test")
+_RESOLUTION = Words("Resolution of the readings")
+DEVICE_ALONG = Words("Measuring instrument, part that grows with the length")
+UNCORRECTED = Words("Thermal expansion, not corrected")
+UNCORRECTED_SOURCE = Words("of known size: α = {expansion} µm/(m·K), ΔT = {difference} K, L = {length}")
 #: The usual contributors, by the keys of a job.
 USUAL: Mapping[str, Words] = MappingProxyType(
     {
         "instrument": DEVICE,
-        "misalignment": Words(
-            en="Misalignment of the measuring line", de="Fluchtungsabweichung der Messlinie"
-        ),
-        "machine_temperature": Words(
-            en="Temperature measurement, machine", de="Temperaturmessung an der Maschine"
-        ),
-        "device_temperature": Words(
-            en="Temperature measurement, measuring device", de="Temperaturmessung am Messmittel"
-        ),
-        "expansion_coefficient": Words(
-            en="Expansion coefficient, machine", de="Ausdehnungskoeffizient der Maschine"
-        ),
-        "device_expansion_coefficient": Words(
-            en="Expansion coefficient, measuring device", de="Ausdehnungskoeffizient des Messmittels"
-        ),
-        "calibrated_length": Words(
-            en="Calibrated length of the instrument", de="Kalibrierte Länge des Messgeräts"
-        ),
-        "centring": Words(
-            en="Centring of the instrument on the circle", de="Zentrierung des Messgeräts auf den Kreis"
-        ),
+        "misalignment": Words("Misalignment of the measuring line"),
+        "machine_temperature": Words("Temperature measurement, machine"),
+        "device_temperature": Words("Temperature measurement, measuring device"),
+        "expansion_coefficient": Words("Expansion coefficient, machine"),
+        "device_expansion_coefficient": Words("Expansion coefficient, measuring device"),
+        "calibrated_length": Words("Calibrated length of the instrument"),
+        "centring": Words("Centring of the instrument on the circle"),
         "environmental_variation": _ENVIRONMENTAL_VARIATION,
         "resolution": _RESOLUTION,
     }
@@ -73,87 +47,51 @@ def contributor(name: str) -> Words:
 #: What an uncertainty was raised to.
 RAISED_TO: Mapping[Least, Words] = MappingProxyType(
     {
-        Least.INSTRUMENT: Words(
-            en="raised to the U of the measuring instrument",
-            de="auf U des Messgeräts angehoben",
-        ),
-        Least.LABORATORY: Words(
-            en="raised to the laboratory's measurement capability (CMC)",
-            de="auf die Messmöglichkeit des Laboratoriums (CMC) angehoben",
-        ),
+        Least.INSTRUMENT: Words("raised to the U of the measuring instrument"),
+        Least.LABORATORY: Words("raised to the laboratory's measurement capability (CMC)"),
     }
 )
 
-STATED = Words(en="stated by the laboratory", de="Angabe des Laboratoriums")
-_CALIBRATION = Words(en="calibration certificate {certificate}", de="Kalibrierschein {certificate}")
-MISALIGNED = Words(
-    en="cosine error up to R²/(2L), L = {length}", de="Kosinusfehler bis R²/(2L), L = {length}"
-)
-TEMPERATURE = Words(
-    en="α·L·R(θ), α = {expansion} µm/(m·K), L = {length}",
-    de="α·L·R(θ), α = {expansion} µm/(m·K), L = {length}",
-)
-EXPANSION = Words(
-    en="L·ΔT·R(α), ΔT = {difference} K, L = {length}", de="L·ΔT·R(α), ΔT = {difference} K, L = {length}"
-)
-EXPANSION_THAT_MOVES = Words(
-    en="L·ΔT·R(α), ΔT from {low} to {high} K reading by reading, L = {length}",
-    de="L·ΔT·R(α), ΔT von {low} bis {high} K, Messwert für Messwert, L = {length}",
-)
-DRIFT_AT_REST = Words(
-    en="readings of the axis at rest over the time of the test",
-    de="Messwerte der ruhenden Achse über die Zeit der Messung",
-)
-SECOND_ORDER = Words(
-    en="e²/(2R), the centre found lies {offset} µm off",
-    de="e²/(2R), der gefundene Mittelpunkt liegt {offset} µm ab",
-)
-LAST_DIGIT = Words(en="last digit of the readings", de="letzte Stelle der Messwerte")
+STATED = Words("stated by the laboratory")
+_CALIBRATION = Words("calibration certificate {certificate}")
+MISALIGNED = Words("cosine error up to R²/(2L), L = {length}")
+TEMPERATURE = Words("α·L·R(θ), α = {expansion} µm/(m·K), L = {length}")
+EXPANSION = Words("L·ΔT·R(α), ΔT = {difference} K, L = {length}")
+EXPANSION_THAT_MOVES = Words("L·ΔT·R(α), ΔT from {low} to {high} K reading by reading, L = {length}")
+DRIFT_AT_REST = Words("readings of the axis at rest over the time of the test")
+SECOND_ORDER = Words("e²/(2R), the centre found lies {offset} µm off")
+LAST_DIGIT = Words("last digit of the readings")
 
 ACTS: Mapping[Acts, Words] = MappingProxyType(
     {
-        Acts.ALONG_THE_LENGTH: Words(
-            en="all readings, in proportion to the distance from the first target",
-            de="alle Messwerte, im Verhältnis zum Abstand von der ersten Sollposition",
-        ),
+        Acts.ALONG_THE_LENGTH: Words("all readings, in proportion to the distance from the first target"),
         Acts.BETWEEN_DIRECTIONS: Words(
-            en="all readings of the negative direction, against those of the positive one",
-            de="alle Messwerte der negativen Richtung, gegenüber denen der positiven",
+            "all readings of the negative direction, against those of the positive one"
         ),
-        Acts.AT_THE_DATUM: Words(en="all readings alike", de="alle Messwerte gleich"),
-        Acts.AT_EACH_POSITION: Words(
-            en="all readings of a target alike", de="alle Messwerte einer Sollposition gleich"
-        ),
+        Acts.AT_THE_DATUM: Words("all readings alike"),
+        Acts.AT_EACH_POSITION: Words("all readings of a target alike"),
         Acts.ROUND_THE_CIRCLE: Words(
-            en="all readings of an angle alike, and smooth round the circle (second to fourth harmonic)",
-            de="alle Messwerte eines Winkels gleich, und glatt um den Kreis (zweite bis vierte Harmonische)",
+            "all readings of an angle alike, and smooth round the circle (second to fourth harmonic)"
         ),
-        Acts.OFF_CENTRE: Words(
-            en="all readings as by a centre that lies off",
-            de="alle Messwerte wie durch einen versetzten Mittelpunkt",
-        ),
-        Acts.AT_EACH_APPROACH: Words(
-            en="all readings of a target in one direction alike",
-            de="alle Messwerte einer Sollposition in einer Richtung gleich",
-        ),
+        Acts.OFF_CENTRE: Words("all readings as by a centre that lies off"),
+        Acts.AT_EACH_APPROACH: Words("all readings of a target in one direction alike"),
         Acts.IN_TIME: Words(
-            en="readings that are near in time; of the kind of drift that disturbs a parameter most",
-            de="zeitlich benachbarte Messwerte; nach der Art der Drift, die eine Kenngröße am meisten stört",
+            "readings that are near in time; of the kind of drift that disturbs a parameter most"
         ),
-        Acts.AT_EACH_READING: Words(en="each reading by itself", de="jeder Messwert für sich"),
+        Acts.AT_EACH_READING: Words("each reading by itself"),
     }
 )
 DISTRIBUTIONS: Mapping[Distribution, Words] = MappingProxyType(
     {
-        Distribution.NORMAL: Words(en="normal", de="normal"),
-        Distribution.RECTANGULAR: Words(en="rectangular", de="Rechteck"),
-        Distribution.TRIANGULAR: Words(en="triangular", de="Dreieck"),
-        Distribution.ONE_SIDED: Words(en="rectangular, from zero", de="Rechteck, ab null"),
+        Distribution.NORMAL: Words("normal"),
+        Distribution.RECTANGULAR: Words("rectangular"),
+        Distribution.TRIANGULAR: Words("triangular"),
+        Distribution.ONE_SIDED: Words("rectangular, from zero"),
     }
 )
 
-_VALUE = Words(en="{symbol} = {value}", de="{symbol} = {value}")
-_EXPANDED = Words(en="U = {value} (k = {factor})", de="U = {value} (k = {factor})")
+_VALUE = Words("{symbol} = {value}")
+_EXPANDED = Words("U = {value} (k = {factor})")
 
 
 def calibration(certificate: str | None) -> Words:
@@ -163,7 +101,7 @@ def calibration(certificate: str | None) -> Words:
 
 def length(value: float) -> Words:
     """Return a length, m, with its unit."""
-    return Words("{value} m", "{value} m").given(value=METRE.from_si(value))
+    return Words("{value} m").given(value=METRE.from_si(value))
 
 
 def full_range(symbol: str, value: float, unit: str) -> Words:
@@ -183,4 +121,4 @@ def expanded(value: float, unit: str, factor: float) -> Words:
 
 def _quantity(value: float, unit: str) -> Words:
     phrase = with_unit("{value}", unit)
-    return Words(phrase, phrase).given(value=value)
+    return Words(phrase).given(value=value)

@@ -123,53 +123,34 @@ def _slices(found: VolumeMap) -> Figure:
     )  # fmt: skip
 
 
-_ERRORS = Words(en="The 21 errors of the axes", de="Die 21 Abweichungen der Achsen")
-_KNOWN = Words(en="{known} of {all} errors are known", de="{known} von {all} Abweichungen sind bekannt")
-_OF = Words(en="{known} of {all}", de="{known} von {all}")
+_ERRORS = Words("The 21 errors of the axes")
+_KNOWN = Words("{known} of {all} errors are known")
+_OF = Words("{known} of {all}")
 _NOTE = Words(
-    en="Size is the span of the curve, of a squareness error its value; ± is U, k = 2. An error that nobody "
-    "measured is bounded and never taken as zero.",
-    de="Größe ist die Spanne der Kurve, bei Rechtwinkligkeit der Wert; ± ist U, k = 2. Eine Abweichung, die "
-    "niemand gemessen hat, ist begrenzt und nie null.",
+    "Size is the span of the curve, of a squareness error its value; ± is U, k = 2. An error that nobody "
+    "measured is bounded and never taken as zero."
 )
-_NOT_MEASURED = Words(
-    en="not measured, taken as bounded: {errors}", de="nicht gemessen, als begrenzt angenommen: {errors}"
-)
-_ASSUMED = Words(
-    en="{count} of these bounds are assumptions of this program; state your own as bounds:",
-    de="{count} dieser Grenzen sind Annahmen dieses Programms; eigene stehen unter bounds:",
-)
-_ERROR, _SIZE = Words(en="Error", de="Abweichung"), Words(en="Size", de="Größe")
-_UNIT, _RANGE = Words(en="Unit", de="Einheit"), Words(en="Range", de="Bereich")
-_LINE, _FROM = Words(en="Line at", de="Linie bei"), Words(en="From", de="Aus")
-_BOUND = Words(en="not measured, stated bound", de="nicht gemessen, angegebene Grenze")
-_BOUND_ASSUMED = Words(en="not measured, assumed bound", de="nicht gemessen, angenommene Grenze")
-_SPACE = Words(en="Work space", de="Arbeitsraum")
-_NO_SPACE = Words(
-    en="No work space: the errors of no axis were measured over a range.",
-    de="Kein Arbeitsraum: Von keiner Achse wurden Abweichungen über einen Bereich gemessen.",
-)
+_NOT_MEASURED = Words("not measured, taken as bounded: {errors}")
+_ASSUMED = Words("{count} of these bounds are assumptions of this program; state your own as bounds:")
+_ERROR, _SIZE = Words("Error"), Words("Size")
+_UNIT, _RANGE = Words("Unit"), Words("Range")
+_LINE, _FROM = Words("Line at"), Words("From")
+_BOUND = Words("not measured, stated bound")
+_BOUND_ASSUMED = Words("not measured, assumed bound")
+_SPACE = Words("Work space")
+_NO_SPACE = Words("No work space: the errors of no axis were measured over a range.")
 _LARGEST = Words(
-    en="In {box} mm the largest error, relative to the middle, is ({size}) µm at {at} mm; errors that "
-    "nobody measured may add ± {more} µm.",
-    de="In {box} mm ist die größte Abweichung, bezogen auf die Mitte, ({size}) µm bei {at} mm; nicht "
-    "gemessene Abweichungen können ± {more} µm hinzufügen.",
+    "In {box} mm the largest error, relative to the middle, is ({size}) µm at {at} mm; errors that "
+    "nobody measured may add ± {more} µm."
 )
-_DIAGONALS = Words(en="Body diagonals, predicted", de="Raumdiagonalen, vorhergesagt")
-_DIAGONAL = Words(en="Diagonal", de="Diagonale")
+_DIAGONALS = Words("Body diagonals, predicted")
+_DIAGONAL = Words("Diagonal")
 _DIAGONALS_NOTE = Words(
-    en="E is the span of what the errors predict along a body diagonal, U its largest uncertainty there. A "
-    "small diagonal error does not mean a small volumetric error: opposite scales cancel.",
-    de="E ist die Spanne dessen, was die Abweichungen entlang einer Raumdiagonale vorhersagen, U die größte "
-    "Unsicherheit dort. Eine kleine Diagonalabweichung heißt nicht eine kleine Abweichung im Raum: "
-    "Entgegengesetzte Maßstäbe heben sich auf.",
+    "E is the span of what the errors predict along a body diagonal, U its largest uncertainty there. A "
+    "small diagonal error does not mean a small volumetric error: opposite scales cancel."
 )
-_SLICES = Words(
-    en="Length of the error in slices of the work space",
-    de="Betrag der Abweichung in Schnitten des Arbeitsraums",
-)
+_SLICES = Words("Length of the error in slices of the work space")
 _SEEN = Words(
-    en="Curves over X for three places in Y in each of three slices in Z; the largest value is {largest} µm.",
-    de="Kurven über X für drei Orte in Y in je drei Schnitten in Z; der größte Wert ist {largest} µm.",
+    "Curves over X for three places in Y in each of three slices in Z; the largest value is {largest} µm."
 )
-_LENGTH_OF = Words(en="Length of the error", de="Betrag der Abweichung")
+_LENGTH_OF = Words("Length of the error")

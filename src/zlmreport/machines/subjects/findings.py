@@ -203,63 +203,36 @@ def said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
             yield section
 
 
-_VERDICT = Words(en="Verdict", de="Befund")
-_ADEQUATE = Words(
-    en="Axes and effects describe the circles: nothing is left that the scatter does not explain.",
-    de="Achsen und Einflüsse beschreiben die Kreise: Es bleibt nichts übrig, was die Streuung nicht erklärt.",
-)
-_MISSING = Words(en="Missing: {effects}.", de="Es fehlt: {effects}.")
-_TIED = Words(
-    en="Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.",
-    de="Es fehlt: {effects}. Dieser Plan kann sie nicht unterscheiden, deshalb wird keiner benannt: {how}.",
-)
-_UNEXPLAINED = Words(
-    en="Something is left that no effect explains: {shape}, root mean square {size} µm.",
-    de="Es bleibt etwas übrig, das kein Einfluss erklärt: {shape}, quadratischer Mittelwert {size} µm.",
-)
-_BESIDE = Words(
-    en="Beside it something without a name is left: {shape}, root mean square {size} µm.",
-    de="Daneben bleibt etwas ohne Namen: {shape}, quadratischer Mittelwert {size} µm.",
-)
-_TWO = Words(en="{one} {other}", de="{one} {other}")
-_OR = Words(en="{one} or {other}", de="{one} oder {other}")
-_AND = Words(en="{one} and {other}", de="{one} und {other}")
-_SENSE = Words(en="run the circle in the other sense, too", de="den Kreis auch im anderen Drehsinn fahren")
-_FEED = Words(
-    en="run the circle at a quarter or at four times the feed, too",
-    de="den Kreis auch mit einem Viertel oder dem Vierfachen des Vorschubs fahren",
-)
-_RADIUS = Words(
-    en="run the circle with a bar of another length, too",
-    de="den Kreis auch mit einem Stab anderer Länge fahren",
-)
-_REPEAT = Words(
-    en="repeat the run, at another feed and another radius", de="wiederholen, mit anderem Vorschub und Radius"
-)
-_NOT_FOUND = Words(
-    en="Looked for and, beside all that, not found", de="Gesucht und neben alledem nicht gefunden"
-)
-_CANDIDATES = Words(en="What may be missing", de="Was fehlen kann")
-_EFFECT, _PARAMETER = Words(en="Effect", de="Einfluss"), Words(en="Parameter", de="Parameter")
-_EVIDENCE, _RMS_AFTER = Words(en="evidence", de="Evidenz"), Words(en="RMS after", de="RMS danach")
-_IMPOSSIBLE = Words(en="impossible values", de="unmögliche Werte")
-_EQUALS = Words(en="not to be told from {effects}", de="nicht zu unterscheiden von {effects}")
-_TELL_APART = Words(en="To tell them apart: {how}.", de="Um sie zu unterscheiden: {how}.")
-_MODEL = Words(en="Effects of drives and structure", de="Einflüsse von Antrieben und Struktur")
-_PARAMETERS = Words(en="Parameters of the effects", de="Parameter der Einflüsse")
-_VALUE, _UNIT = Words(en="Value", de="Wert"), Words(en="Unit", de="Einheit")
-_COVERAGE = Words(
-    en="± is the expanded uncertainty, k = 2. Each value is that of all tests fitted together.",
-    de="± ist die erweiterte Unsicherheit, k = 2. Jeder Wert ist aus allen Prüfungen gemeinsam geschätzt.",
-)
-_STEPS = Words(en="How the error fell, root mean square", de="Wie der Fehler fiel, quadratischer Mittelwert")
-_BEFORE, _AFTER = Words(en="before", de="vorher"), Words(en="after", de="nachher")
-_NOISE = Words(en="noise", de="Streuung")
-_CHANGED = Words(en="The error before and after", de="Der Fehler vorher und nachher")
+_VERDICT = Words("Verdict")
+_ADEQUATE = Words("Axes and effects describe the circles: nothing is left that the scatter does not explain.")
+_MISSING = Words("Missing: {effects}.")
+_TIED = Words("Missing: {effects}. This plan cannot tell them apart, so none of them is named: {how}.")
+_UNEXPLAINED = Words("Something is left that no effect explains: {shape}, root mean square {size} µm.")
+_BESIDE = Words("Beside it something without a name is left: {shape}, root mean square {size} µm.")
+_TWO = Words("{one} {other}")
+_OR = Words("{one} or {other}")
+_AND = Words("{one} and {other}")
+_SENSE = Words("run the circle in the other sense, too")
+_FEED = Words("run the circle at a quarter or at four times the feed, too")
+_RADIUS = Words("run the circle with a bar of another length, too")
+_REPEAT = Words("repeat the run, at another feed and another radius")
+_NOT_FOUND = Words("Looked for and, beside all that, not found")
+_CANDIDATES = Words("What may be missing")
+_EFFECT, _PARAMETER = Words("Effect"), Words("Parameter", context="model")
+_EVIDENCE, _RMS_AFTER = Words("evidence"), Words("RMS after", context="machine")
+_IMPOSSIBLE = Words("impossible values")
+_EQUALS = Words("not to be told from {effects}")
+_TELL_APART = Words("To tell them apart: {how}.")
+_MODEL = Words("Effects of drives and structure")
+_PARAMETERS = Words("Parameters of the effects")
+_VALUE, _UNIT = Words("Value"), Words("Unit")
+_COVERAGE = Words("± is the expanded uncertainty, k = 2. Each value is that of all tests fitted together.")
+_STEPS = Words("How the error fell, root mean square")
+_BEFORE, _AFTER = Words("before"), Words("after")
+_NOISE = Words("noise")
+_CHANGED = Words("The error before and after")
 _CHANGE = Words(
-    en="With the effects {effects} the root mean square of all circles goes from {before} µm to {after} µm; "
-    "the noise is {noise} µm.",
-    de="Mit den Einflüssen {effects} geht der quadratische Mittelwert aller Kreise von {before} µm "
-    "auf {after} µm; die Streuung ist {noise} µm.",
+    "With the effects {effects} the root mean square of all circles goes from {before} µm to {after} µm; "
+    "the noise is {noise} µm."
 )
-_NONE = Words(en="none", de="keine")
+_NONE = Words("none")

@@ -38,18 +38,12 @@ def plan_section(found: NextRun, say: Sayer) -> Section:
     return Section("plan", say(_NEXT), tuple(blocks))
 
 
-_NEXT = Words(en="The next run", de="Der nächste Lauf")
-_NOTHING = Words(
-    en="Nothing is to be decided; runs that would add to this:",
-    de="Es ist nichts zu entscheiden; Läufe, die etwas hinzufügen würden:",
-)
-_DECIDE = Words(en="To tell {effects} apart:", de="Um {effects} zu unterscheiden:")
-_AND = Words(en="{one} and {other}", de="{one} und {other}")
-_RUN, _MINUTES = Words(en="run", de="Lauf"), Words(en="minutes", de="Minuten")
-_DECIDES = Words(en="decides", de="entscheidet")
-_VISIBLE = Words(
-    en="Smallest size that these circles show half of the time:",
-    de="Kleinste Größe, die diese Kreise in der Hälfte der Fälle zeigen:",
-)
-_EFFECT, _PARAMETER = Words(en="Effect", de="Einfluss"), Words(en="Parameter", de="Parameter")
-_SIZE, _UNIT = Words(en="Size", de="Größe"), Words(en="Unit", de="Einheit")
+_NEXT = Words("The next run")
+_NOTHING = Words("Nothing is to be decided; runs that would add to this:")
+_DECIDE = Words("To tell {effects} apart:")
+_AND = Words("{one} and {other}")
+_RUN, _MINUTES = Words("run"), Words("minutes")
+_DECIDES = Words("decides")
+_VISIBLE = Words("Smallest size that these circles show half of the time:")
+_EFFECT, _PARAMETER = Words("Effect"), Words("Parameter", context="model")
+_SIZE, _UNIT = Words("Size"), Words("Unit")

@@ -242,56 +242,34 @@ def line_figure(found: ComparedTest) -> Figure:
     )  # fmt: skip
 
 
-_SIZES = Words(
-    en="Root mean square of the tests: measured, predicted by the axes, and what is left",
-    de="Quadratischer Mittelwert der Prüfungen: gemessen, von den Achsen vorhergesagt, und was übrig ist",
-)
-_TEST = Words(en="Test", de="Prüfung")
-_MEASURED, _PREDICTED = Words(en="measured", de="gemessen"), Words(en="predicted", de="vorhergesagt")
-_LEFT, _NOISE = Words(en="left", de="übrig"), Words(en="noise", de="Streuung")
-_NUMBERS = Words(en="{test}, measured and predicted", de="{test}, gemessen und vorhergesagt")
-_LINE = Words(en="line of {count} points", de="Linie mit {count} Punkten")
-_CIRCLE = Words(
-    en="circle {plane}, R {radius} mm, {feed} mm/min", de="Kreis {plane}, R {radius} mm, {feed} mm/min"
-)
-_OF_AXES = Words(
-    en="Of the prediction, root mean square: {shares} µm.",
-    de="Anteile der Vorhersage, quadratischer Mittelwert: {shares} µm.",
-)
-_OF_EFFECTS = Words(
-    en="Of the effects, root mean square: {shares} µm.",
-    de="Anteile der Einflüsse, quadratischer Mittelwert: {shares} µm.",
-)
-_OUTSIDE_TITLE = Words(en="Outside of what was measured", de="Außerhalb des Gemessenen")
+_SIZES = Words("Root mean square of the tests: measured, predicted by the axes, and what is left")
+_TEST = Words("Test")
+_MEASURED, _PREDICTED = Words("measured"), Words("predicted")
+_LEFT, _NOISE = Words("left"), Words("noise")
+_NUMBERS = Words("{test}, measured and predicted")
+_LINE = Words("line of {count} points")
+_CIRCLE = Words("circle {plane}, R {radius} mm, {feed} mm/min")
+_OF_AXES = Words("Of the prediction, root mean square: {shares} µm.")
+_OF_EFFECTS = Words("Of the effects, root mean square: {shares} µm.")
+_OUTSIDE_TITLE = Words("Outside of what was measured")
 _OUTSIDE = Words(
-    en="{share} % of it lies beyond what was measured of the axes; the end values stand there, and nothing "
-    "is extrapolated",
-    de="{share} % davon liegen jenseits dessen, was von den Achsen gemessen wurde; dort stehen die Endwerte, "
-    "und nichts wird extrapoliert",
+    "{share} % of it lies beyond what was measured of the axes; the end values stand there, and nothing "
+    "is extrapolated"
 )
-_FAILS = Words(en="Where it differs from the prediction", de="Wo es von der Vorhersage abweicht")
-_NAMED = Words(en="{test}: {said}", de="{test}: {said}")
+_FAILS = Words("Where it differs from the prediction")
+_NAMED = Words("{test}: {said}")
 _SENSES = {
-    1: Words(en="counter-clockwise", de="gegen den Uhrzeigersinn"),
-    -1: Words(en="clockwise", de="im Uhrzeigersinn"),
+    1: Words("counter-clockwise", context="adverb"),
+    -1: Words("clockwise", context="adverb"),
 }
-_OFF_CIRCLE = Words(
-    en="{sense} from {begin}° to {end}° ({places} mm): {size} µm",
-    de="{sense} von {begin}° bis {end}° ({places} mm): {size} µm",
-)
-_OFF_LINE = Words(en="{way} {places} mm: {size} µm", de="{way} {places} mm: {size} µm")
-_CIRCLE_TITLE = Words(
-    en="{test}: {what}; dashed, with ∑: what the axes predict",
-    de="{test}: {what}; gestrichelt, mit ∑: was die Achsen vorhersagen",
-)
-_CIRCLE_SEEN = Words(
-    en="Range measured {measured} µm, predicted {predicted} µm, left {left} µm.",
-    de="Spanne gemessen {measured} µm, vorhergesagt {predicted} µm, übrig {left} µm.",
-)
-_ANGLE, _RADIAL = Words(en="Angle", de="Winkel"), Words(en="Radial deviation", de="Radialabweichung")
+_OFF_CIRCLE = Words("{sense} from {begin}° to {end}° ({places} mm): {size} µm")
+_OFF_LINE = Words("{way} {places} mm: {size} µm")
+_CIRCLE_TITLE = Words("{test}: {what}; dashed, with ∑: what the axes predict")
+_CIRCLE_SEEN = Words("Range measured {measured} µm, predicted {predicted} µm, left {left} µm.")
+_ANGLE, _RADIAL = Words("Angle"), Words("Radial deviation")
 _PLACE, _DEVIATION = (
-    Words(en="Place on the line", de="Ort auf der Linie"),
-    Words(en="Deviation", de="Abweichung"),
+    Words("Place on the line"),
+    Words("Deviation"),
 )
-_BOTH = Words(en="measured and predicted", de="gemessen und vorhergesagt")
-_WHAT_IS_LEFT = Words(en="left", de="übrig")
+_BOTH = Words("measured and predicted")
+_WHAT_IS_LEFT = Words("left")

@@ -15,12 +15,12 @@ from zlmreport.model.effects.effect import Effect
 #: whether an effect needs nothing else.
 _LENGTHS = MappingProxyType(
     {
-        "screw_pitch": (Words(en="Screw pitch", de="Spindelsteigung"), 1 / 20),
-        "signal_period": (Words(en="Signal period of the scale", de="Signalperiode des Maßstabs"), 1 / 2000),
-        "scale_element": (Words(en="Length of a scale's element", de="Länge eines Maßstabelements"), 1 / 5),
+        "screw_pitch": (Words("Screw pitch"), 1 / 20),
+        "signal_period": (Words("Signal period of the scale"), 1 / 2000),
+        "scale_element": (Words("Length of a scale's element"), 1 / 5),
     }
 )
-_OF_ROTARY = MappingProxyType({"screw_pitch": Words(en="Pitch of the gear", de="Teilung des Getriebes")})
+_OF_ROTARY = MappingProxyType({"screw_pitch": Words("Pitch of the gear")})
 
 
 @dataclass(frozen=True, slots=True)

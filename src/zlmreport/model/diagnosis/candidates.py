@@ -10,14 +10,9 @@ from zlmreport.model.effects.axis_model import AxisModel, ModelError, refuse_col
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 
-_IMITATED = Words(
-    en="at these targets {effect} imitates it entirely",
-    de="an diesen Zielpositionen ahmt {effect} ihn vollständig nach",
-)
-_THE_MODEL = Words(en="the model", de="das Modell")
-_SHOWN_BY = Words(
-    en="{imitated}; what would show it: {measurement}", de="{imitated}; was ihn zeigen würde: {measurement}"
-)
+_IMITATED = Words("at these targets {effect} imitates it entirely")
+_THE_MODEL = Words("the model")
+_SHOWN_BY = Words("{imitated}; what would show it: {measurement}")
 
 
 @dataclass(frozen=True, slots=True)

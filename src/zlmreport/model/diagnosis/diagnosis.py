@@ -51,27 +51,13 @@ _IMPROBABLE = 1e-3
 #: Share by which a value must differ from what the job says to contradict it.
 _CONTRADICTS = 0.01
 
-_EXPLAINS = Words(
-    en="explains {share} % of what the noise leaves open",
-    de="erklärt {share} % dessen, was das Rauschen offen lässt",
-)
-_CONTRIBUTES = Words(
-    en="contributes {share} % of what the noise leaves open; {left} remain",
-    de="trägt {share} % zu dem bei, was das Rauschen offen lässt; es bleiben {left}",
-)
-_LOOKS_WRONG = Words(
-    en="The data look wrong: {statement}. Remedy: {remedy}.",
-    de="Die Daten sehen falsch aus: {statement}. Abhilfe: {remedy}.",
-)
-_NO_FLOOR = Words(
-    en="takes the error from {before} to {after}", de="senkt die Abweichung von {before} auf {after}"
-)
-_IN_UNIT = Words(en="{value}{unit}", de="{value}{unit}")
-_JOB_SAYS = Words(
-    en="{name}: {fitted} fits, the job says {stated}.",
-    de="{name}: {fitted} passt, der Auftrag sagt {stated}.",
-)
-_AND = Words(en="{first}; {second}", de="{first}; {second}")
+_EXPLAINS = Words("explains {share} % of what the noise leaves open")
+_CONTRIBUTES = Words("contributes {share} % of what the noise leaves open; {left} remain")
+_LOOKS_WRONG = Words("The data look wrong: {statement}. Remedy: {remedy}.")
+_NO_FLOOR = Words("takes the error from {before} to {after}")
+_IN_UNIT = Words("{value}{unit}")
+_JOB_SAYS = Words("{name}: {fitted} fits, the job says {stated}.")
+_AND = Words("{first}; {second}")
 
 
 class Verdict(StrEnum):

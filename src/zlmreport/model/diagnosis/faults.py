@@ -410,107 +410,46 @@ _POSSIBLE = {
     "air_pressure": (50_000.0, 110_000.0),
     "relative_humidity": (0.0, 1.0),
 }
-_ORDER_SAYS_SO = Words(
-    en="{statement}; the order of its rows says so too",
-    de="{statement}; die Folge seiner Zeilen sagt es auch",
-)
-_EXCLUDE_RUN = Words(
-    en="measure run {run} again, or leave it out of the file",
-    de="Durchlauf {run} noch einmal messen oder aus der Datei nehmen",
-)
+_ORDER_SAYS_SO = Words("{statement}; the order of its rows says so too")
+_EXCLUDE_RUN = Words("measure run {run} again, or leave it out of the file")
 _GAP = Words(
-    en="Between run {before} and run {after} lie {hours} h: these are two sessions. Put the later runs into "
+    "Between run {before} and run {after} lie {hours} h: these are two sessions. Put the later runs into "
     "a file and a job of their own, and name that under model.sessions; then each has its zero and its "
-    "clock.",
-    de="Zwischen Durchlauf {before} und Durchlauf {after} liegen {hours} h: Das sind zwei Messungen. Die "
-    "späteren Durchläufe in eine eigene Datei mit eigenem Auftrag geben und diesen unter model.sessions "
-    "nennen; dann hat jede ihren Nullpunkt und ihre Uhr.",
+    "clock."
 )
-_DUPLICATED = Words(
-    en="run {run} has the same readings as run {first}, digit for digit",
-    de="Durchlauf {run} hat Ziffer für Ziffer dieselben Messwerte wie Durchlauf {first}",
-)
-_WRONG_TARGET = Words(
-    en="the reading at {reading} looks as if it had been taken at {target}",
-    de="der Messwert bei {reading} sieht aus wie einer bei {target}",
-)
-_CORRECT_TARGET = Words(
-    en="correct the target in the file, or leave the reading empty",
-    de="die Zielposition in der Datei berichtigen oder den Messwert leer lassen",
-)
-_CLOCK_FALLS = Words(en="the time falls at {reading}", de="die Zeit läuft bei {reading} zurück")
-_CORRECT_CLOCK = Words(
-    en="correct the times in the file, or leave their column out",
-    de="die Zeiten in der Datei berichtigen oder ihre Spalte weglassen",
-)
-_SWAPPED_COLUMNS = Words(
-    en="columns look exchanged: {columns} hold what they cannot",
-    de="Spalten sehen vertauscht aus: {columns} enthalten, was sie nicht können",
-)
-_CORRECT_COLUMNS = Words(
-    en="name the columns rightly, in the file or in source.columns",
-    de="die Spalten richtig benennen, in der Datei oder in source.columns",
-)
-_STUCK = Words(
-    en="{column} stands still during the last {count} readings",
-    de="{column} steht während der letzten {count} Messwerte still",
-)
+_DUPLICATED = Words("run {run} has the same readings as run {first}, digit for digit")
+_WRONG_TARGET = Words("the reading at {reading} looks as if it had been taken at {target}")
+_CORRECT_TARGET = Words("correct the target in the file, or leave the reading empty")
+_CLOCK_FALLS = Words("the time falls at {reading}")
+_CORRECT_CLOCK = Words("correct the times in the file, or leave their column out")
+_SWAPPED_COLUMNS = Words("columns look exchanged: {columns} hold what they cannot")
+_CORRECT_COLUMNS = Words("name the columns rightly, in the file or in source.columns")
+_STUCK = Words("{column} stands still during the last {count} readings")
 _EXCLUDE_LOG = Words(
-    en="leave these values empty in the file; effects that follow them cannot be told otherwise",
-    de="diese Werte in der Datei leer lassen; Einflüsse, die ihnen folgen, sind sonst nicht zu erkennen",
+    "leave these values empty in the file; effects that follow them cannot be told otherwise"
 )
-_TINY_TEST = Words(
-    en="the deviations are no larger than {size}, as if they stood in another unit",
-    de="die Abweichungen sind nicht größer als {size}, als stünden sie in einer anderen Einheit",
-)
-_STILL_TEST = Words(
-    en="the readings repeat to {size}, which no machine does, as if they stood in millimetres",
-    de="die Messwerte wiederholen sich auf {size}, was keine Maschine tut, als stünden sie in Millimetern",
-)
-_WILD_TEST = Words(
-    en="the readings scatter by {size}, which no machine does, as if they stood in another unit",
-    de="die Messwerte streuen um {size}, was keine Maschine tut, als stünden sie in einer anderen Einheit",
-)
-_STATE_UNITS = Words(en="state source.units", de="source.units angeben")
-_LAGS_BEHIND = Words(
-    en="{column} looks as if its sensor lagged about {minutes} min behind",
-    de="{column} sieht aus, als hinkte ihr Fühler etwa {minutes} min nach",
-)
-_OTHER_SENSOR = Words(
-    en="repeat with a sensor in better contact, or wait until temperatures stand",
-    de="mit einem Fühler in besserem Kontakt wiederholen oder stehende Temperaturen abwarten",
-)
-_CORRECT_RUN = Words(
-    en="correct the run in the file, or leave it out",
-    de="den Durchlauf in der Datei berichtigen oder weglassen",
-)
+_TINY_TEST = Words("the deviations are no larger than {size}, as if they stood in another unit")
+_STILL_TEST = Words("the readings repeat to {size}, which no machine does, as if they stood in millimetres")
+_WILD_TEST = Words("the readings scatter by {size}, which no machine does, as if they stood in another unit")
+_STATE_UNITS = Words("state source.units")
+_LAGS_BEHIND = Words("{column} looks as if its sensor lagged about {minutes} min behind")
+_OTHER_SENSOR = Words("repeat with a sensor in better contact, or wait until temperatures stand")
+_CORRECT_RUN = Words("correct the run in the file, or leave it out")
 _OF_RUNS = {
     FaultKind.SWAPPED_DIRECTION: (
-        Words(
-            en="run {run} looks as if its directions were swapped",
-            de="Durchlauf {run} sieht aus, als wären seine Richtungen vertauscht",
-        ),
+        Words("run {run} looks as if its directions were swapped"),
         _CORRECT_RUN,
     ),
     FaultKind.WRONG_SIGN: (
-        Words(
-            en="run {run} looks as if its sign were turned",
-            de="Durchlauf {run} sieht aus, als wäre sein Vorzeichen umgekehrt",
-        ),
+        Words("run {run} looks as if its sign were turned"),
         _CORRECT_RUN,
     ),
     FaultKind.SHIFTED_RUN: (
-        Words(
-            en="run {run} looks as if every reading stood at the target beside its own",
-            de="Durchlauf {run} sieht aus, als stünde jeder Messwert bei der Zielposition neben seiner",
-        ),
+        Words("run {run} looks as if every reading stood at the target beside its own"),
         _CORRECT_RUN,
     ),
     FaultKind.WRONG_UNIT: (
-        Words(
-            en="run {run} looks as if it were in another unit than the others",
-            de="Durchlauf {run} sieht aus, als stünde er in einer anderen Einheit als die anderen",
-        ),
+        Words("run {run} looks as if it were in another unit than the others"),
         _CORRECT_RUN,
     ),
 }

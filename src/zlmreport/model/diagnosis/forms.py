@@ -48,40 +48,40 @@ BUMP = Form(
     "bump",
     "{a}*exp(-4*log(2)*(({x} - c)/w)^2)",
     ("c", "w"),
-    Words(en="a bump, {width} wide", de="ein Buckel, {width} breit"),
+    Words("a bump, {width} wide"),
 )
 SAW = Form(
     "saw",
     "{a}*atan(tan(pi*({x} - c)/L))/pi",
     ("c", "L"),
-    Words(en="a saw with a period of {period}", de="ein Sägezahn mit {period} Periode"),
+    Words("a saw with a period of {period}"),
 )
 WAVE = Form(
     "wave",
     "{a}*sin(2*pi*{x}/L) + {b}*cos(2*pi*{x}/L)",
     ("L",),
-    Words(en="a wave with a period of {period}", de="eine Welle mit {period} Periode"),
+    Words("a wave with a period of {period}"),
 )
 KINK = Form(
     "kink",
     "{a}*max(0, {x} - c)",
     ("c",),
-    Words(en="a change of slope at one place", de="ein Knick an einer Stelle"),
+    Words("a change of slope at one place"),
     is_slope=True,
 )
-STEP = Form("step", "{a}*step({x} - c)", ("c",), Words(en="a step", de="ein Sprung"))
-BOW = Form("bow", "{a}*(1 - (({x} - c)/w)^2)", (), Words(en="a bow", de="ein Bogen"))
+STEP = Form("step", "{a}*step({x} - c)", ("c",), Words("a step"))
+BOW = Form("bow", "{a}*(1 - (({x} - c)/w)^2)", (), Words("a bow"))
 FADING = Form(
     "fading",
     "{a}*exp(-abs({x} - c)/w)",
     ("w",),
-    Words(en="fading from one end within {width}", de="von einem Ende her auf {width} abklingend"),
+    Words("fading from one end within {width}"),
 )
 LATE = Form(
     "late",
     "{a}*(1 - exp(-max(0, {x} - c)/w))",
     ("c", "w"),
-    Words(en="a beginning that takes {width}", de="ein Beginn, der {width} dauert"),
+    Words("a beginning that takes {width}"),
 )
 _ALONG_AXIS = (BUMP, SAW, WAVE, KINK, STEP, BOW, FADING)
 _IN_TIME = (BUMP, WAVE, STEP, LATE)
@@ -89,15 +89,12 @@ _IN_TIME = (BUMP, WAVE, STEP, LATE)
 _DIRECTIONS = {"D": "D*", "up": "step(D)*", "down": "step(-D)*"}
 #: What a carrier makes of the words of a form.
 CARRIERS = {
-    "": Words(en="{shape}, alike in both directions", de="{shape}, in beiden Richtungen gleich"),
-    "D": Words(en="{shape} in the reversal", de="{shape} in der Umkehrspanne"),
-    "up": Words(en="{shape}, upwards only", de="{shape}, nur aufwärts"),
-    "down": Words(en="{shape}, downwards only", de="{shape}, nur abwärts"),
-    "time": Words(en="{shape} in time, at all positions alike", de="{shape} in der Zeit, überall gleich"),
-    "lever": Words(
-        en="{shape} in time, in proportion to the position",
-        de="{shape} in der Zeit, im Verhältnis zur Position",
-    ),
+    "": Words("{shape}, alike in both directions"),
+    "D": Words("{shape} in the reversal"),
+    "up": Words("{shape}, upwards only"),
+    "down": Words("{shape}, downwards only"),
+    "time": Words("{shape} in time, at all positions alike"),
+    "lever": Words("{shape} in time, in proportion to the position"),
 }
 IN_TIME = frozenset({"time", "lever"})
 #: Forms that begin or bend at one place.

@@ -160,39 +160,16 @@ _ALONG: Mapping[NoiseSource, Along] = {
     NoiseSource.RUN: Along.RUN,
     NoiseSource.TIME: Along.TIME,
 }
-_SMOOTH_PLACE = Words(en="smooth along the axis", de="glatt über der Achse")
-_DIRECTION_PLACE = Words(
-    en="a reversal value that changes smoothly along the axis",
-    de="eine Umkehrspanne, die sich glatt über der Achse ändert",
-)
-_SMOOTH_TIME = Words(
-    en="smooth in time, alike at all positions", de="glatt in der Zeit, an allen Positionen gleich"
-)
-_SLOPE_TIME = Words(
-    en="a slope along the axis that changes smoothly in time",
-    de="eine Steigung über der Achse, die sich glatt mit der Zeit ändert",
-)
-_DIRECTION_TIME = Words(
-    en="a reversal value that changes smoothly in time",
-    de="eine Umkehrspanne, die sich glatt mit der Zeit ändert",
-)
-_SLOPE_RUNS = Words(
-    en="a slope along the axis that differs from run to run",
-    de="eine Steigung über der Achse, die von Durchlauf zu Durchlauf wechselt",
-)
-_DIRECTION_RUNS = Words(
-    en="a reversal value that differs from run to run",
-    de="eine Umkehrspanne, die von Durchlauf zu Durchlauf wechselt",
-)
+_SMOOTH_PLACE = Words("smooth along the axis")
+_DIRECTION_PLACE = Words("a reversal value that changes smoothly along the axis")
+_SMOOTH_TIME = Words("smooth in time, alike at all positions")
+_SLOPE_TIME = Words("a slope along the axis that changes smoothly in time")
+_DIRECTION_TIME = Words("a reversal value that changes smoothly in time")
+_SLOPE_RUNS = Words("a slope along the axis that differs from run to run")
+_DIRECTION_RUNS = Words("a reversal value that differs from run to run")
 _WORDS: Mapping[NoiseSource, Words] = {
-    NoiseSource.POSITION: Words(
-        en="irregular from position to position, alike in all runs",
-        de="unregelmäßig von Position zu Position, in allen Durchläufen gleich",
-    ),
-    NoiseSource.DIRECTION: Words(
-        en="irregular from position to position, opposite up and down",
-        de="unregelmäßig von Position zu Position, aufwärts und abwärts entgegengesetzt",
-    ),
-    NoiseSource.RUN: Words(en="every run displaced as a whole", de="jeder Durchlauf als Ganzes verschoben"),
-    NoiseSource.TIME: Words(en="slow irregular drift", de="langsame unregelmäßige Drift"),
+    NoiseSource.POSITION: Words("irregular from position to position, alike in all runs"),
+    NoiseSource.DIRECTION: Words("irregular from position to position, opposite up and down"),
+    NoiseSource.RUN: Words("every run displaced as a whole"),
+    NoiseSource.TIME: Words("slow irregular drift"),
 }

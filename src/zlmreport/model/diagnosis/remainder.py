@@ -32,14 +32,11 @@ _DEPENDENT = 1e-9
 #: Of the largest, what still belongs to the place.
 _HALF = 0.5
 _SECOND = Unit("s", "s", 1.0)
-_ABOUT = Words(en="about {place}", de="um {place}")
-_BETWEEN = Words(en="{first} to {last}", de="{first} bis {last}")
-_MOST_AT = Words(en="most at {place}", de="am meisten bei {place}")
-_IRREGULAR = Words(
-    en="more than the repeats scatter, but neither smooth nor of a form",
-    de="mehr als die Streuung der Wiederholungen, aber weder glatt noch von einer Form",
-)
-_RUN = Words(en="most in run {run}", de="am meisten in Durchlauf {run}")
+_ABOUT = Words("about {place}")
+_BETWEEN = Words("{first} to {last}")
+_MOST_AT = Words("most at {place}")
+_IRREGULAR = Words("more than the repeats scatter, but neither smooth nor of a form")
+_RUN = Words("most in run {run}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,54 +30,31 @@ SCHEMA = "zlmreport/diagnosis/1"
 #: Probability from which on a candidate is worth a word.
 _SERIOUS = 0.01
 
-_ADEQUATE = Words(
-    en="The model describes the readings: nothing is left that their scatter does not explain.",
-    de="Das Modell beschreibt die Messwerte: Es bleibt nichts übrig, was ihre Streuung nicht erklärt.",
-)
-_MISSING = Words(en="Missing effect: {effects}", de="Fehlender Einfluss: {effects}")
-_MISSING_TOGETHER = Words(en="Missing effects: {effects}", de="Fehlende Einflüsse: {effects}")
+_ADEQUATE = Words("The model describes the readings: nothing is left that their scatter does not explain.")
+_MISSING = Words("Missing effect: {effects}")
+_MISSING_TOGETHER = Words("Missing effects: {effects}")
 _RESTS = {
-    False: Words(en="{missing}, which explains the rest.", de="{missing}; er erklärt den Rest."),
-    True: Words(
-        en="{missing}, which together explain the rest.", de="{missing}; zusammen erklären sie den Rest."
-    ),
+    False: Words("{missing}, which explains the rest."),
+    True: Words("{missing}, which together explain the rest."),
 }
-_IN_PART = Words(
-    en="{missing}. With {many} the error falls from {before} to {after}, over a noise of {noise}.",
-    de="{missing}. Damit sinkt die Abweichung von {before} auf {after}, bei einem Rauschen von {noise}.",
-)
-_WITHOUT_FLOOR = Words(
-    en="{missing}. With {many} the error falls from {before} to {after}.",
-    de="{missing}. Damit sinkt die Abweichung von {before} auf {after}.",
-)
-_MANY = {False: Words(en="it", de=""), True: Words(en="them", de="")}
+_IN_PART = Words("{missing}. With {many} the error falls from {before} to {after}, over a noise of {noise}.")
+_WITHOUT_FLOOR = Words("{missing}. With {many} the error falls from {before} to {after}.")
+_MANY = {False: Words("it"), True: Words("them")}
 _BESIDE = Words(
-    en="{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}.",
-    de="{statement} Daneben bleibt etwas ohne Namen: {shape}, {where}; quadratischer Mittelwert {size}.",
+    "{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}."
 )
-_GOES = Words(
-    en="{statement} Then no longer needed: {effects}.", de="{statement} Dann nicht mehr nötig: {effects}."
-)
+_GOES = Words("{statement} Then no longer needed: {effects}.")
 _FAULTY = Words(
-    en="The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}.",
-    de="Die Daten sehen falsch aus, und vorher wird keine Ursache gesucht: {statement}. Abhilfe: {remedy}.",
+    "The data look wrong, and no cause is sought before they are right: {statement}. Remedy: {remedy}."
 )
-_UNEXPLAINED = Words(
-    en="Something is left that no installed effect explains.",
-    de="Es bleibt etwas übrig, das kein installierter Einfluss erklärt.",
-)
+_UNEXPLAINED = Words("Something is left that no installed effect explains.")
 _SHAPE = Words(
-    en="Something is left that no installed effect explains: {shape}, {where}; root mean square {size}.",
-    de="Es bleibt etwas übrig, das kein installierter Einfluss erklärt: {shape}, {where}; quadratischer "
-    "Mittelwert {size}.",
+    "Something is left that no installed effect explains: {shape}, {where}; root mean square {size}."
 )
-_IN_DOUBT = Words(
-    en="The data look wrong: {statement}. Remedy: {remedy}. {verdict}",
-    de="Die Daten sehen falsch aus: {statement}. Abhilfe: {remedy}. {verdict}",
-)
-_QUESTION = Words(en="{statement} {question}", de="{statement} {question}")
-_OR = Words(en="{one} or {other}", de="{one} oder {other}")
-_AND = Words(en="{one} and {other}", de="{one} und {other}")
+_IN_DOUBT = Words("The data look wrong: {statement}. Remedy: {remedy}. {verdict}")
+_QUESTION = Words("{statement} {question}")
+_OR = Words("{one} or {other}")
+_AND = Words("{one} and {other}")
 
 
 def report(
@@ -380,8 +357,8 @@ def listed(names: Sequence[str | Words], last: Words = _AND) -> Words:
     """Return names in a row: commas between them, and a word before the last."""
     *others, final = names
     if not others:
-        return Words("{one}", "{one}").given(one=final)
+        return Words("{one}").given(one=final)
     row = others[0]
     for name in others[1:]:
-        row = Words("{one}, {other}", "{one}, {other}").given(one=row, other=name)
+        row = Words("{one}, {other}").given(one=row, other=name)
     return last.given(one=row, other=final)

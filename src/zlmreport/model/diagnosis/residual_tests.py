@@ -18,57 +18,33 @@ from zlmreport.model.fitting.distributions import f_tail
 from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, repeats, spread_tests
 
 _LACK_OF_FIT = Words(
-    en="the means of the positions deviate from the model by up to {size}, more than their repeats allow",
-    de="die Mittelwerte der Positionen weichen um bis zu {size} vom Modell ab, mehr als ihre Wiederholungen "
-    "erlauben",
+    "the means of the positions deviate from the model by up to {size}, more than their repeats allow"
 )
-_LARGEST_AT = Words(en="largest at {place}", de="am größten bei {place}")
+_LARGEST_AT = Words("largest at {place}")
 _SIGNS = Words(
-    en="the residuals keep their sign longer than by chance; changes of sign: {changes} instead of "
-    "{expected}",
-    de="die Residuen behalten ihr Vorzeichen länger als durch Zufall; Vorzeichenwechsel: {changes} statt "
-    "{expected}",
+    "the residuals keep their sign longer than by chance; changes of sign: {changes} instead of {expected}"
 )
-_HIGHER_UPWARDS = Words(
-    en="upwards the residuals lie {size} higher than downwards",
-    de="aufwärts liegen die Residuen um {size} höher als abwärts",
-)
-_HIGHER_DOWNWARDS = Words(
-    en="downwards the residuals lie {size} higher than upwards",
-    de="abwärts liegen die Residuen um {size} höher als aufwärts",
-)
-_DIRECTION_ALONG = Words(
-    en="the difference between up and down changes with the position",
-    de="der Unterschied zwischen aufwärts und abwärts ändert sich mit der Position",
-)
-_RUNS = Words(
-    en="runs are displaced as a whole, by up to {size}",
-    de="Durchläufe sind als Ganzes verschoben, um bis zu {size}",
-)
-_WHOLE_AXIS = Words(en="along the whole axis", de="längs der ganzen Achse")
-_RUN = Words(en="run {run}", de="Durchlauf {run}")
+_HIGHER_UPWARDS = Words("upwards the residuals lie {size} higher than downwards")
+_HIGHER_DOWNWARDS = Words("downwards the residuals lie {size} higher than upwards")
+_DIRECTION_ALONG = Words("the difference between up and down changes with the position")
+_RUNS = Words("runs are displaced as a whole, by up to {size}")
+_WHOLE_AXIS = Words("along the whole axis")
+_RUN = Words("run {run}")
 
 _PERMUTATIONS = 400
 _SEED = 20_261_118
 _ORDERS = 4
-_FOLLOW = Words(
-    en="the residuals follow a logged condition, in their zero or in their slope",
-    de="die Residuen folgen einer aufgezeichneten Bedingung, mit Nullpunkt oder Steigung",
-)
-_UNEQUAL = Words(
-    en="the readings scatter unequally {factor}", de="die Messwerte streuen {factor} verschieden"
-)
-_UPWARDS = Words(en="more upwards", de="mehr aufwärts")
-_DOWNWARDS = Words(en="more downwards", de="mehr abwärts")
-_MOST_AT = Words(en="most at {place}", de="am meisten bei {place}")
+_FOLLOW = Words("the residuals follow a logged condition, in their zero or in their slope")
+_UNEQUAL = Words("the readings scatter unequally {factor}")
+_UPWARDS = Words("more upwards")
+_DOWNWARDS = Words("more downwards")
+_MOST_AT = Words("most at {place}")
 _FLAGGED = Words(
-    en="readings that stand off from their repeats and from their neighbours in time: {count}; they are set "
-    "aside, not altered",
-    de="Messwerte, die von ihren Wiederholungen und ihren zeitlichen Nachbarn abstehen: {count}; sie sind "
-    "beiseite gelegt, nicht verändert",
+    "readings that stand off from their repeats and from their neighbours in time: {count}; they are set "
+    "aside, not altered"
 )
-_AT = Words(en="at {place}", de="bei {place}")
-_AND_MORE = Words(en="{first}; others: {more}", de="{first}; weitere: {more}")
+_AT = Words("at {place}")
+_AND_MORE = Words("{first}; others: {more}")
 
 
 def lack_of_fit(residuals: Residuals) -> Failure | None:
@@ -206,19 +182,13 @@ def _widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
 
 
 _TIME_ORDER = Words(
-    en="repeats that follow one another deviate alike: something moves with time, by {size} from the first "
-    "third of the test to the last",
-    de="aufeinander folgende Wiederholungen weichen gleich ab: Etwas bewegt sich mit der Zeit, um {size} vom "
-    "ersten Drittel der Prüfung zum letzten",
+    "repeats that follow one another deviate alike: something moves with time, by {size} from the first "
+    "third of the test to the last"
 )
-_REPEATS = Words(en="the residual repeats every {period}", de="das Residuum wiederholt sich alle {period}")
-_ALONG_THE_AXIS = Words(
-    en="along the whole axis, amplitude {size}", de="längs der ganzen Achse, Amplitude {size}"
-)
-_DURING_THE_TEST = Words(
-    en="during the whole test, amplitude {size}", de="während der ganzen Prüfung, Amplitude {size}"
-)
-_WHOLE_TEST = Words(en="during the whole test", de="während der ganzen Prüfung")
+_REPEATS = Words("the residual repeats every {period}")
+_ALONG_THE_AXIS = Words("along the whole axis, amplitude {size}")
+_DURING_THE_TEST = Words("during the whole test, amplitude {size}")
+_WHOLE_TEST = Words("during the whole test")
 
 _FEWEST_PERIODS = 1.3
 _STEPS_PER_PERIOD = 4

@@ -58,21 +58,16 @@ class Failure:
 
 
 _TITLES = {
-    ResidualTest.LACK_OF_FIT: Words(
-        en="Means of the positions against the repeats",
-        de="Mittelwerte der Positionen gegen die Wiederholungen",
-    ),
-    ResidualTest.TIME_ORDER: Words(
-        en="Order of time within the repeats", de="Zeitfolge innerhalb der Wiederholungen"
-    ),
-    ResidualTest.SIGNS: Words(en="Signs along the axis", de="Vorzeichen längs der Achse"),
-    ResidualTest.PERIOD_IN_POSITION: Words(en="Period along the axis", de="Periode längs der Achse"),
-    ResidualTest.PERIOD_IN_TIME: Words(en="Period in time", de="Periode in der Zeit"),
-    ResidualTest.DIRECTION: Words(en="Up against down", de="Aufwärts gegen abwärts"),
-    ResidualTest.RUNS: Words(en="Run against run", de="Durchlauf gegen Durchlauf"),
-    ResidualTest.CONDITION: Words(en="Logged conditions", de="Aufgezeichnete Bedingungen"),
-    ResidualTest.SPREAD: Words(en="Equal scatter", de="Gleiche Streuung"),
-    ResidualTest.OUTLIERS: Words(en="Single readings", de="Einzelne Messwerte"),
+    ResidualTest.LACK_OF_FIT: Words("Means of the positions against the repeats"),
+    ResidualTest.TIME_ORDER: Words("Order of time within the repeats"),
+    ResidualTest.SIGNS: Words("Signs along the axis"),
+    ResidualTest.PERIOD_IN_POSITION: Words("Period along the axis"),
+    ResidualTest.PERIOD_IN_TIME: Words("Period in time"),
+    ResidualTest.DIRECTION: Words("Up against down"),
+    ResidualTest.RUNS: Words("Run against run"),
+    ResidualTest.CONDITION: Words("Logged conditions"),
+    ResidualTest.SPREAD: Words("Equal scatter"),
+    ResidualTest.OUTLIERS: Words("Single readings"),
 }
 
 

@@ -26,15 +26,9 @@ LEVEL = 5e-3
 class RunDifference(Enum):
     """In what a run differs from the others."""
 
-    MEAN = Words(en="run {run} displaced as a whole", de="Durchlauf {run} als Ganzes verschoben")
-    SLOPE = Words(
-        en="a slope along the axis in run {run} alone",
-        de="eine Steigung über der Achse nur in Durchlauf {run}",
-    )
-    REVERSAL = Words(
-        en="another reversal value in run {run} than in the others",
-        de="in Durchlauf {run} eine andere Umkehrspanne als in den übrigen",
-    )
+    MEAN = Words("run {run} displaced as a whole")
+    SLOPE = Words("a slope along the axis in run {run} alone")
+    REVERSAL = Words("another reversal value in run {run} than in the others")
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +49,7 @@ class SingleRun:
         return _BY.given(run=self.run, size=wording.deviation(design.axis, float(np.abs(self.values).max())))
 
 
-_BY = Words(en="run {run}, by up to {size}", de="Durchlauf {run}, um bis zu {size}")
+_BY = Words("run {run}, by up to {size}")
 
 
 def single_run(design: Design, residual: FloatArray, sigma: float) -> SingleRun | None:

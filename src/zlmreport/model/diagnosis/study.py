@@ -45,10 +45,7 @@ _KEY = "model.effects"
 _SESSIONS = "model.sessions"
 #: What a table of positions, one for each direction, can take away; the rest changes with time or run.
 BY_TABLE = frozenset({Shape.POSITION, Shape.DIRECTION})
-_CORRECTED = Words(
-    en="Predicted: less what the error model explains by {effects}",
-    de="Vorhergesagt: abzüglich dessen, was das Fehlermodell durch {effects} erklärt",
-)
+_CORRECTED = Words("Predicted: less what the error model explains by {effects}")
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,55 +23,25 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.units import ARCSECOND, DEGREE, MICROMETRE, MILLIMETRE, Unit
 from zlmreport.model.effects.design import Design
 
-_NO_COLUMN = Words(
-    en="no column {column} was logged beside the readings",
-    de="die Spalte {column} wurde nicht neben den Messwerten aufgezeichnet",
-)
-_NO_COLUMNS = Words(
-    en="no columns {columns} were logged beside the readings",
-    de="die Spalten {columns} wurden nicht neben den Messwerten aufgezeichnet",
-)
-_NO_KEY = Words(en="the job does not state {key}", de="der Auftrag nennt {key} nicht")
-_ONE_DIRECTION = Words(
-    en="the targets were approached from one direction only",
-    de="die Zielpositionen wurden nur aus einer Richtung angefahren",
-)
-_NOT_LINEAR = Words(en="it belongs to linear axes", de="er gehört zu Linearachsen")
-_NOT_ROTARY = Words(en="it belongs to rotary axes", de="er gehört zu Drehachsen")
-_FEW_TARGETS = Words(
-    en="it needs at least {least} target positions; there are {found}",
-    de="er braucht mindestens {least} Zielpositionen; es sind {found}",
-)
-_FEW_RUNS = Words(
-    en="it needs at least {least} runs; there are {found}",
-    de="er braucht mindestens {least} Durchläufe; es sind {found}",
-)
-_NO_TIME = Words(
-    en="no time passes between the first reading and the last",
-    de="zwischen dem ersten und dem letzten Messwert vergeht keine Zeit",
-)
-_FEW_MOMENTS = Words(
-    en="the readings were taken at too few different times",
-    de="die Messwerte wurden zu zu wenigen verschiedenen Zeiten aufgenommen",
-)
+_NO_COLUMN = Words("no column {column} was logged beside the readings")
+_NO_COLUMNS = Words("no columns {columns} were logged beside the readings")
+_NO_KEY = Words("the job does not state {key}")
+_ONE_DIRECTION = Words("the targets were approached from one direction only")
+_NOT_LINEAR = Words("it belongs to linear axes")
+_NOT_ROTARY = Words("it belongs to rotary axes")
+_FEW_TARGETS = Words("it needs at least {least} target positions; there are {found}")
+_FEW_RUNS = Words("it needs at least {least} runs; there are {found}")
+_NO_TIME = Words("no time passes between the first reading and the last")
+_FEW_MOMENTS = Words("the readings were taken at too few different times")
 _LEAST_MOMENTS = 4
-_NO_PAUSE = Words(
-    en="there is no long pause between the readings",
-    de="zwischen den Messwerten liegt keine lange Pause",
-)
+_NO_PAUSE = Words("there is no long pause between the readings")
 #: A pause is so many times as long as the usual time between readings, and such a share of the test at least.
 _PAUSE_OF_GAPS, _PAUSE_OF_TEST, _MOST_PAUSES = 10.0, 0.05, 3
-_SHORT_TRAVEL = Words(
-    en="the measured travel is shorter than one period ({key})",
-    de="der gemessene Verfahrweg ist kürzer als eine Periode ({key})",
-)
+_SHORT_TRAVEL = Words("the measured travel is shorter than one period ({key})")
 
 
 #: What an effect says of its plausible ranges that names no source.
-CHOSEN_RANGES = Words(
-    en="chosen wide by its author, to catch what no machine does; no standard states them",
-    de="vom Verfasser weit gewählt, um zu fangen, was keine Maschine tut; keine Norm nennt sie",
-)
+CHOSEN_RANGES = Words("chosen wide by its author, to catch what no machine does; no standard states them")
 
 
 class Dimension(Enum):

@@ -49,21 +49,16 @@ _HALVINGS = 40
 _WAVES = frozenset({"sin", "cos", "tan"})
 _FADING = frozenset({"exp", "tanh", "atan"})
 _JOINTS = frozenset({"step", "sign", "abs", "min", "max", "floor"})
-_STATED = Words(
-    en="stated where the formula is written; no standard states them",
-    de="dort angegeben, wo die Formel steht; keine Norm nennt sie",
-)
-_LOOK = Words(en="The residuals follow {formula}.", de="Die Residuen folgen {formula}.")
-_MEANING = Words(en="parameter of {formula}", de="Parameter von {formula}")
-_AGAIN = Words(en="{title}, number {number}", de="{title}, Nummer {number}")
+_STATED = Words("stated where the formula is written; no standard states them")
+_LOOK = Words("The residuals follow {formula}.")
+_MEANING = Words("parameter of {formula}")
+_AGAIN = Words("{title}, number {number}")
 _KNOWN = {
-    "published": Words(en="published", de="veröffentlicht"),
-    "derived": Words(en="derived by algebra", de="rechnerisch hergeleitet"),
-    "experience": Words(
-        en="engineering experience; no standard states it", de="Ingenieurerfahrung; keine Norm nennt es"
-    ),
+    "published": Words("published"),
+    "derived": Words("derived by algebra"),
+    "experience": Words("engineering experience; no standard states it"),
 }
-_FROM = Words(en="{known}: {source}", de="{known}: {source}")
+_FROM = Words("{known}: {source}")
 #: Of a value that the job states, the harmonics by which another is no other.
 _HARMONICS, _SAME = np.arange(1, 5), 1e-3
 

@@ -18,8 +18,8 @@ from zlmreport.model.effects.effect import Dimension, Parameter
 
 _SINE, _COSINE = "sine", "cosine"
 _DESCRIPTIONS = {
-    _SINE: Words(en="sine part of harmonic {order}", de="Sinusanteil der {order}. Harmonischen"),
-    _COSINE: Words(en="cosine part of harmonic {order}", de="Kosinusanteil der {order}. Harmonischen"),
+    _SINE: Words("sine part of harmonic {order}"),
+    _COSINE: Words("cosine part of harmonic {order}"),
 }
 
 

@@ -10,15 +10,9 @@ from zlmreport.model.effects.effect import Parameter, unit_of
 
 #: So many times beyond what is usual a value is asked for.
 _FAR = 2.0
-_VALUE = Words(en="{value}{unit}", de="{value}{unit}")
-_IS_IT = Words(
-    en="{value}: {times} times what is usual; measured so, and in the right unit?",
-    de="{value}: das {times}-fache des Üblichen; so gemessen, und in der richtigen Einheit?",
-)
-_IS_IT_AT_ALL = Words(
-    en="{value}: beyond what is usual; measured so, and with the right sign?",
-    de="{value}: jenseits des Üblichen; so gemessen, und mit dem richtigen Vorzeichen?",
-)
+_VALUE = Words("{value}{unit}")
+_IS_IT = Words("{value}: {times} times what is usual; measured so, and in the right unit?")
+_IS_IT_AT_ALL = Words("{value}: beyond what is usual; measured so, and with the right sign?")
 
 
 def usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> tuple[float, float]:

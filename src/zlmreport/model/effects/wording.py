@@ -8,10 +8,10 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import behind
 from zlmreport.model.effects.design import Design
 
-_QUANTITY = Words(en="{value}{unit}", de="{value}{unit}")
-_READING = Words(en="{position}, {arrow}, run {run}", de="{position}, {arrow}, Durchlauf {run}")
-_CELL = Words(en="{position}, {arrow}", de="{position}, {arrow}")
-_COUNTED = Words(en="{value} readings", de="{value} Messwerte")
+_QUANTITY = Words("{value}{unit}")
+_READING = Words("{position}, {arrow}, run {run}")
+_CELL = Words("{position}, {arrow}")
+_COUNTED = Words("{value} readings")
 _MINUTE = 60.0
 _LONG = 600.0
 #: m or rad: a deviation below it is the rounding of doubles.

@@ -47,15 +47,10 @@ class NoiseSource(Enum):
 
 
 _WORDS = {
-    NoiseSource.POSITION: Words(
-        en="irregular, fixed in position", de="unregelmäßig, an die Position gebunden"
-    ),
-    NoiseSource.DIRECTION: Words(
-        en="irregular, fixed in position and different up and down",
-        de="unregelmäßig, an die Position gebunden und aufwärts anders als abwärts",
-    ),
-    NoiseSource.RUN: Words(en="every run displaced as a whole", de="jeder Durchlauf als Ganzes verschoben"),
-    NoiseSource.TIME: Words(en="slow irregular drift", de="langsame unregelmäßige Drift"),
+    NoiseSource.POSITION: Words("irregular, fixed in position"),
+    NoiseSource.DIRECTION: Words("irregular, fixed in position and different up and down"),
+    NoiseSource.RUN: Words("every run displaced as a whole"),
+    NoiseSource.TIME: Words("slow irregular drift"),
 }
 
 #: Ratios φ that are tried. What is larger than half the repeatability of a single reading (φ = ¼), and of a

@@ -27,46 +27,27 @@ _COARSE = 0.1
 _MOST_GAPS, _NAMED_GAPS = 0.1, 5
 
 _COUNTED = Words(
-    en="Not every reading has a time: the readings are taken to follow one another in equal steps, and time "
-    "constants are counted in readings.",
-    de="Nicht jeder Messwert hat eine Zeit: Die Messwerte gelten als in gleichen Abständen aufeinander "
-    "folgend, und Zeitkonstanten zählen in Messwerten.",
+    "Not every reading has a time: the readings are taken to follow one another in equal steps, and time "
+    "constants are counted in readings."
 )
-_OVERRUN = Words(
-    en="The axis is taken to run over a target by {overrun}{unit} before it returns to it.",
-    de="Es ist angenommen, dass die Achse {overrun}{unit} über eine Zielposition hinausfährt, bevor sie zu "
-    "ihr zurückkehrt.",
-)
-_GAPS = Words(
-    en="The log of {condition} has gaps (readings without it: {count}) and is left out.",
-    de="Die Aufzeichnung von {condition} hat Lücken (Messwerte ohne sie: {count}) und bleibt außer Betracht.",
-)
+_OVERRUN = Words("The axis is taken to run over a target by {overrun}{unit} before it returns to it.")
+_GAPS = Words("The log of {condition} has gaps (readings without it: {count}) and is left out.")
 _FILLED = Words(
-    en="The log of {condition} has gaps (readings without it: {count}); for the model they are interpolated "
-    "in time. Readings in the order of the file: {rows}.",
-    de="Die Aufzeichnung von {condition} hat Lücken (Messwerte ohne sie: {count}); für das Modell sind sie "
-    "über der Zeit interpoliert. Messwerte in der Folge der Datei: {rows}.",
+    "The log of {condition} has gaps (readings without it: {count}); for the model they are interpolated "
+    "in time. Readings in the order of the file: {rows}."
 )
 _NOISE = Words(
-    en="The log of {condition} is noisy: its noise is {share} of its variation. Effects that follow it may "
-    "be taken for others.",
-    de="Die Aufzeichnung von {condition} rauscht: Ihr Rauschen beträgt das {share}-fache ihrer Änderung. "
-    "Einflüsse, die ihr folgen, können mit anderen verwechselt werden.",
+    "The log of {condition} is noisy: its noise is {share} of its variation. Effects that follow it may "
+    "be taken for others."
 )
-_RESOLUTION = Words(
-    en="The log of {condition} is coarse: its resolution is {share} of its range.",
-    de="Die Aufzeichnung von {condition} ist grob: Ihre Auflösung beträgt das {share}-fache ihres Bereichs.",
-)
+_RESOLUTION = Words("The log of {condition} is coarse: its resolution is {share} of its range.")
 _DEGREE = 3
 _MOST_INTERVALS = 40
 _READINGS_PER_INTERVAL = 4
 _STIFFNESSES = np.logspace(-6, 8, 71)
 
 
-_THINNED = Words(
-    en="The model is held against {kept} of the {all} target positions, spread over the travel.",
-    de="Das Modell wird mit {kept} der {all} Zielpositionen verglichen, über den Verfahrweg verteilt.",
-)
+_THINNED = Words("The model is held against {kept} of the {all} target positions, spread over the travel.")
 #: Target positions with which a model is compared at most.
 MOST_TARGETS = 210
 _GOLDEN = (5.0**0.5 - 1.0) / 2.0

@@ -164,10 +164,10 @@ class SpreadFactor(Enum):
 
 
 _WORDS = {
-    SpreadFactor.GROWTH: Words(en="along the axis", de="entlang der Achse"),
-    SpreadFactor.POSITION: Words(en="from position to position", de="von Position zu Position"),
-    SpreadFactor.DIRECTION: Words(en="up and down", de="aufwärts und abwärts"),
-    SpreadFactor.RUN: Words(en="from run to run", de="von Durchlauf zu Durchlauf"),
+    SpreadFactor.GROWTH: Words("along the axis"),
+    SpreadFactor.POSITION: Words("from position to position"),
+    SpreadFactor.DIRECTION: Words("up and down"),
+    SpreadFactor.RUN: Words("from run to run"),
 }
 
 

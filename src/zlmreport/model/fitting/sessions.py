@@ -21,28 +21,21 @@ from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
 from zlmreport.model.fitting.observations import Observations
 
 _HELD_TOGETHER = Words(
-    en="Session {number}, {name}: runs {first} to {last}; its zero is its own, all else is common.",
-    de="Messung {number}, {name}: Durchläufe {first} bis {last}; ihr Nullpunkt ist ihr eigener, alles andere "
-    "gemeinsam.",
+    "Session {number}, {name}: runs {first} to {last}; its zero is its own, all else is common."
 )
-_OF_SESSION = Words(en="Session {number}: {remark}", de="Messung {number}: {remark}")
-_NOT_IN_ALL = Words(
-    en="Not every session logged {conditions}: the model does without.",
-    de="Nicht jede Messung hat {conditions} aufgezeichnet: Das Modell kommt ohne aus.",
-)
-_MEANING = Words(
-    en="zero of session {number} against the first", de="Nullpunkt von Messung {number} gegen die erste"
-)
+_OF_SESSION = Words("Session {number}: {remark}")
+_NOT_IN_ALL = Words("Not every session logged {conditions}: the model does without.")
+_MEANING = Words("zero of session {number} against the first")
 
 
 class SessionZeros(Effect):
     """The zero of each session after the first, against that of the first."""
 
     identifier = "session-zero"
-    title = Words(en="Zero of each session", de="Nullpunkt jeder Messung")
+    title = Words("Zero of each session")
     equation = "O_{s}"
     shape = Shape.POSITION  # alike in all readings of the test that a table is made from
-    look = Words(en="Each session is displaced as a whole.", de="Jede Messung ist als Ganzes verschoben.")
+    look = Words("Each session is displaced as a whole.")
 
     def __init__(self, sessions: int) -> None:
         self.linear = tuple(

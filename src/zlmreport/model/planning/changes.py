@@ -32,56 +32,31 @@ _LONGER, _FARTHER = 6.0, 4.0
 _WARMING = (("axis_temperature", 60.0), ("screw_temperature", 30.0), ("air_temperature", 20.0))
 _KELVIN, _SECONDS_PER_MINUTE = 3.0, 60.0
 
-_BOUND_TO_POSITION = Words(
-    en="in this sequence time runs along with the position",
-    de="bei dieser Abfolge läuft die Zeit mit der Position mit",
-)
-_SAME_PHASE = Words(
-    en="all targets lie at the same phase of {periods}",
-    de="alle Zielpositionen liegen bei derselben Phase {periods}",
-)
+_BOUND_TO_POSITION = Words("in this sequence time runs along with the position")
+_SAME_PHASE = Words("all targets lie at the same phase of {periods}")
 _MEASURE_BY = {
-    Method.LINEAR: Words(en="measure by the linear method", de="nach dem Linearverfahren messen"),
-    Method.PENDULUM: Words(en="measure by the pendulum method", de="nach dem Pendelverfahren messen"),
+    Method.LINEAR: Words("measure by the linear method"),
+    Method.PENDULUM: Words("measure by the pendulum method"),
 }
-_RANDOM_FRACTIONS = Words(
-    en="choose targets with a random fraction", de="Zielpositionen mit zufälligem Anteil wählen"
-)
-_MORE_TARGETS = Words(
-    en="take {count} targets with random fractions", de="{count} Zielpositionen mit zufälligem Anteil nehmen"
-)
-_MORE_RUNS = Words(en="measure {runs} runs", de="{runs} Durchläufe messen")
-_REST = Words(
-    en="rest {seconds} s at each target, so that more time passes",
-    de="an jeder Zielposition {seconds} s ruhen, damit mehr Zeit vergeht",
-)
-_OVERRUN = Words(
-    en="turn round {times} times as far beyond the targets",
-    de="{times}-mal so weit hinter den Zielpositionen umkehren",
-)
-_SECOND_SESSION = Words(
-    en="measure again, and hold both sessions together",
-    de="noch einmal messen, und beide Messungen zusammen betrachten",
-)
+_RANDOM_FRACTIONS = Words("choose targets with a random fraction")
+_MORE_TARGETS = Words("take {count} targets with random fractions")
+_MORE_RUNS = Words("measure {runs} runs")
+_REST = Words("rest {seconds} s at each target, so that more time passes")
+_OVERRUN = Words("turn round {times} times as far beyond the targets")
+_SECOND_SESSION = Words("measure again, and hold both sessions together")
 _WARMER_SESSION = Words(
-    en="measure again with the axis {change} K warmer or colder, which takes about {minutes} min, and hold "
-    "both sessions together",
-    de="noch einmal messen, wenn die Achse {change} K wärmer oder kälter ist, was etwa {minutes} min dauert, "
-    "und beide Messungen zusammen betrachten",
+    "measure again with the axis {change} K warmer or colder, which takes about {minutes} min, and hold "
+    "both sessions together"
 )
 _PAUSE = {
     "axis_temperature": Words(
-        en="pause half-way, about {minutes} min, until the axis is {change} K warmer or colder",
-        de="auf halbem Weg pausieren, etwa {minutes} min, bis die Achse {change} K wärmer oder kälter ist",
+        "pause half-way, about {minutes} min, until the axis is {change} K warmer or colder"
     ),
     "screw_temperature": Words(
-        en="let the axis run to and fro half-way, about {minutes} min, until its screw is {change} K warmer",
-        de="die Achse auf halbem Weg hin- und herfahren lassen, etwa {minutes} min, bis die Spindel "
-        "{change} K wärmer ist",
+        "let the axis run to and fro half-way, about {minutes} min, until its screw is {change} K warmer"
     ),
     "air_temperature": Words(
-        en="pause half-way, about {minutes} min, until the air is {change} K warmer or colder",
-        de="auf halbem Weg pausieren, etwa {minutes} min, bis die Luft {change} K wärmer oder kälter ist",
+        "pause half-way, about {minutes} min, until the air is {change} K warmer or colder"
     ),
 }
 

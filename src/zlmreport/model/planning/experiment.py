@@ -47,28 +47,20 @@ _MOST_READINGS = 1000
 _MOST_TARGETS, _MOST_RUNS = 41, 10
 _SECONDS_PER_MINUTE = 60.0
 
-_AS_IT_IS = Words(en="measure by the plan as it is", de="nach dem Plan messen, wie er ist")
+_AS_IT_IS = Words("measure by the plan as it is")
 _ADVICE = Words(
-    en="{aim}: {advice}. It takes about {minutes} min and decides with a probability of {decides} %.",
-    de="{aim}: {advice}. Es dauert etwa {minutes} min und entscheidet mit einer Wahrscheinlichkeit von "
-    "{decides} %.",
+    "{aim}: {advice}. It takes about {minutes} min and decides with a probability of {decides} %."
 )
-_TO_TELL = Words(en="To tell {effects} apart", de="Um {effects} zu unterscheiden")
-_TO_SHOW = Words(en="To show {effects}", de="Um {effects} zu zeigen")
-_LOG = Words(en="{advice}; log {logs}", de="{advice}; {logs} aufzeichnen")
+_TO_TELL = Words("To tell {effects} apart")
+_TO_SHOW = Words("To show {effects}")
+_LOG = Words("{advice}; log {logs}")
 _NONE = Words(
-    en="{aim}: none of the {count} plans that were simulated does; the best decides with a probability of "
-    "{decides} %.",
-    de="{aim}: Keiner der {count} simulierten Pläne genügt; der beste entscheidet mit einer "
-    "Wahrscheinlichkeit von {decides} %.",
+    "{aim}: none of the {count} plans that were simulated does; the best decides with a probability of "
+    "{decides} %."
 )
-_TAKEN = Words(
-    en="{statement} The size of {effects} is not known: taken is {size} rms.",
-    de="{statement} Die Größe von {effects} ist nicht bekannt: angenommen ist ein quadratisches Mittel von "
-    "{size}.",
-)
-_LACKS = Words(en="{statement} {effect}: {reason}.", de="{statement} {effect}: {reason}.")
-_INSTEAD = Words(en="{statement} Instead: {advice}.", de="{statement} Stattdessen: {advice}.")
+_TAKEN = Words("{statement} The size of {effects} is not known: taken is {size} rms.")
+_LACKS = Words("{statement} {effect}: {reason}.")
+_INSTEAD = Words("{statement} Instead: {advice}.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -41,10 +41,8 @@ _TIME_CONSTANTS = 3.0
 _OF_MACHINE = ("axis_temperature", "screw_temperature", "material_temperature")
 
 ASSUMPTION = Words(
-    en="temperatures rise by {rise} K during the test from 20 °C, the machine's ever more slowly, the air's "
-    "steadily; air pressure falls by 1 hPa, humidity rises by 3 %",
-    de="während der Prüfung steigen die Temperaturen um {rise} K von 20 °C an, die der Maschine immer "
-    "langsamer, die der Luft stetig; der Luftdruck fällt um 1 hPa, die Feuchte steigt um 3 %",
+    "temperatures rise by {rise} K during the test from 20 °C, the machine's ever more slowly, the air's "
+    "steadily; air pressure falls by 1 hPa, humidity rises by 3 %"
 )
 #: Where a job names no number: targets in all, and the interval that is not exceeded where these are not
 #: too many, m or rad.

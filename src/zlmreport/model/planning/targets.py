@@ -27,8 +27,8 @@ _ROUNDING = 1e-9
 _ONE_PHASE = 0.01
 
 _PERIODS = {
-    "axis.screw_pitch": Words(en="the pitch of {period}", de="der Steigung von {period}"),
-    "axis.signal_period": Words(en="the signal period of {period}", de="der Signalperiode von {period}"),
+    "axis.screw_pitch": Words("the pitch of {period}"),
+    "axis.signal_period": Words("the signal period of {period}"),
 }
 
 

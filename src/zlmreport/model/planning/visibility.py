@@ -23,11 +23,8 @@ from zlmreport.model.planning.changes import changes
 from zlmreport.model.planning.methods import Visit, half_way, path, planned_design, visits
 from zlmreport.model.planning.plan import ExpectedTest, Plan, Proposal, expected_conditions
 
-_LIVELIER = Words(
-    en="measure while there are larger changes of {logs}",
-    de="messen, während sich {logs} stärker ändern",
-)
-_IMITATED = Words(en="{effect} imitates it", de="{effect} ahmt ihn nach")
+_LIVELIER = Words("measure while there are larger changes of {logs}")
+_IMITATED = Words("{effect} imitates it")
 
 
 class Sight(Enum):

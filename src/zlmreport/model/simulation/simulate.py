@@ -29,10 +29,7 @@ from zlmreport.model.simulation.description import (
     true_course,
 )
 
-_REMARK = Words(
-    en="Simulated readings, not measurements (seed {seed}).",
-    de="Simulierte Messwerte, keine Messung (Startwert {seed}).",
-)
+_REMARK = Words("Simulated readings, not measurements (seed {seed}).")
 
 
 @dataclass(frozen=True, slots=True)

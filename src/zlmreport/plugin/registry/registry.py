@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     )
 
 
-_WHY = Words(en="two plugins provide it", de="zwei Plug-ins stellen ihn bereit")
+_WHY = Words("two plugins provide it")
 
 
 class _Doubtful(Guarded):
