@@ -1,5 +1,6 @@
 // The page of the workbench: shows the job as it stands in its file, and sends clicks to it.
 
+import { showCapture } from "./capture.js";
 import { Comparison } from "./comparison.js";
 import { fill, h, said } from "./dom.js";
 import { showEffect } from "./effect.js";
@@ -345,4 +346,11 @@ const texts = await get("/api/texts");
 const effect = location.pathname.slice(ROOT.length).match(/^\/effects\/(.+)$/)?.[1];
 if (texts.folder) await showFolder(texts);
 else if (effect) await showEffect(texts, effect);
-else await new Page(texts).begin();
+else await begin();
+
+/** Show the capture of a job whose readings are still to come, or else its workbench. */
+async function begin() {
+  const capture = await get("/api/capture").catch(() => ({ isCaptured: false })); // what is wrong with the job is said there
+  if (capture.isCaptured && !capture.isOver) await showCapture(texts, capture);
+  else await new Page(texts).begin();
+}

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from zlmreport import pipeline
 from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
+from zlmreport.cli.capture_steered import SteeredLines
 from zlmreport.cli.jobs import requirements
 from zlmreport.cli.terminal import Colour, shown_path, visible
 from zlmreport.document.certificate.clauses import demand_mandatory_items
@@ -77,14 +78,22 @@ def run(options: Namespace) -> int:
     if options.end:
         _close(job, asked, options.job)
         return 0
-    shown = JsonLines if options.json else LiveDisplay if is_watched() else PlainLines
-    display = shown(job, asked)
+    display = _display(options)(job, asked)
     resume = options.resume or bool(options.retake)
     words = TypedAnswers(options.answer, options.retake)
     capture(job, asked, registry, display, options.job, resume=resume, words=words)
-    if not options.json:
+    if not (options.json or options.steered):
         print(f"next: zlmreport {shown_path(options.job)}")
     return 0
+
+
+def _display(options: Namespace) -> Callable[[Job, Assignment], Display]:
+    """Return where the capture is shown."""
+    if options.steered:
+        return SteeredLines
+    if options.json:
+        return JsonLines
+    return LiveDisplay if is_watched() else PlainLines
 
 
 def _run_live(live: LiveRun, options: Namespace) -> int:

@@ -23,6 +23,8 @@ from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.language import Language, Words, accepted_language
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench
+from zlmreport.web.capture_page import CapturePage
+from zlmreport.web.capturing import CaptureRequest
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request, change
 from zlmreport.web.commands import Commands, Wanted
 from zlmreport.web.comparison import ComparedTests
@@ -49,6 +51,7 @@ class Workbench:
     #: diagnoses and commands: Made beside, each in a process of its own.
     diagnoses: Diagnoses
     commands: Commands
+    capture: CapturePage  #: Of its readings, where a live instrument takes them.
 
     @classmethod
     def of(cls, jobs: Sequence[Path], registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
@@ -59,17 +62,20 @@ class Workbench:
         """
         job, *others = jobs
         bench = Bench(job, registry)
+        if not others and CapturePage.of(bench, plugins).is_awaited():
+            return cls.on(job, registry, plugins)
         bench.loaded()
         comparison = ComparedTests.of(bench, [Bench(each, registry) for each in others])
         diagnoses = Diagnoses(job, DiagnosesByContent.of_user(registry.effects), plugins)
-        return cls(bench, comparison, diagnoses, Commands.of(bench, plugins))
+        return cls(bench, comparison, diagnoses, Commands.of(bench, plugins), CapturePage.of(bench, plugins))
 
     @classmethod
     def on(cls, job: Path, registry: Registry, plugins: Sequence[Path] = ()) -> Workbench:
         """Return the answers for a job alone, whether or not it can be read: the page says what is wrong."""
         bench = Bench(job, registry)
         diagnoses = Diagnoses(job, DiagnosesByContent.of_user(registry.effects), plugins)
-        return cls(bench, ComparedTests.of(bench, []), diagnoses, Commands.of(bench, plugins))
+        compared = ComparedTests.of(bench, [])
+        return cls(bench, compared, diagnoses, Commands.of(bench, plugins), CapturePage.of(bench, plugins))
 
     def warm_up(self) -> None:
         """Start what the first diagnosis need not wait for."""
@@ -79,6 +85,7 @@ class Workbench:
         """End what is under way beside, and take its files away."""
         self.diagnoses.end()
         self.commands.end()
+        self.capture.process.end()
 
     def app(self, door: Door) -> DoorKeeper:
         """Return the application behind its guard."""
@@ -107,6 +114,8 @@ class Workbench:
             Route("/api/made/{name}", self.made),
             Route("/api/made/{name}/stop", self.stop_making, methods=["POST"]),
             Route("/api/made/{name}", self.make, methods=["POST"]),
+            Route("/api/capture", self.capturing),
+            Route("/api/capture", self.captured, methods=["POST"]),
         ]
         return Starlette(routes=routes)
 
@@ -252,6 +261,23 @@ class Workbench:
             return self._view(request)
 
         return await self._answered(request, changed)
+
+    async def capturing(self, request: HttpRequest) -> Response:
+        """Answer with how far the capture of the readings is."""
+        return await self._answered(request, lambda: self.capture.values(self._language(request)))
+
+    async def captured(self, request: HttpRequest) -> Response:
+        """Do what a click on the page of a capture asks for, and answer with how far it is then."""
+        try:
+            wanted = CaptureRequest.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [_OTHER_PAGE]}, 400)
+
+        def done() -> dict[str, Any]:
+            self.capture.do(wanted)
+            return self.capture.values(self._language(request))
+
+        return await self._answered(request, done)
 
     async def _answered(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
         try:

@@ -12,6 +12,7 @@ from zlmreport.document.subjects.forecast import FALL
 from zlmreport.document.subjects.linked import GRAPH_TEXTS
 from zlmreport.language import Language, Words
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict
+from zlmreport.web.capture_texts import CAPTURE_TEXTS
 
 _CONFIRMED = {
     ConfirmationVerdict.HELD: "held",
@@ -188,4 +189,4 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
 
 def texts(language: Language) -> dict[str, str]:
     """Return all of them in one language."""
-    return {name: words.in_language(language) for name, words in TEXTS.items()}
+    return {name: words.in_language(language) for name, words in {**TEXTS, **CAPTURE_TEXTS}.items()}

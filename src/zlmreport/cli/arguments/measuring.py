@@ -240,4 +240,9 @@ def capture(command: str) -> CommandParser:
     parser.flag("--end", "close a capture that was interrupted: what was not taken is missing")
     parser.add_argument("--journal", metavar="FILE", type=Path, help="journal, instead of the job's")
     parser.flag("--json", "print what happens as JSON, a line each, as it stands in the journal")
+    parser.flag(
+        "--steered",
+        "for a program that shows the capture: the present moment and questions as JSON, too,\nand orders "
+        "from standard input, a line each, as they are typed at a terminal",
+    )
     return parser

@@ -1,0 +1,225 @@
+"""What the page of a capture shows: the visits and their readings, the present moment, what is to be done."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from zlmreport import pipeline
+from zlmreport.errors import InputError, ZlmreportError
+from zlmreport.job.job import Job
+from zlmreport.job.loading import load
+from zlmreport.language import Language, Words
+from zlmreport.language.formatting import MINUS, fixed_number, percentage
+from zlmreport.live.capture.events import Recorded
+from zlmreport.live.capture.journal import History, read_history
+from zlmreport.live.capture.of_job import Assignment, assignment_of, options_of
+from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.visits import ListedVisit
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.units import with_unit
+from zlmreport.model.planning.plan import propose
+from zlmreport.plugin.registry import Registry
+from zlmreport.web.bench import PLACE, Bench
+from zlmreport.web.capturing import CaptureProcess, CaptureRequest
+
+_SIDES = {
+    Approach.POSITIVE: Words("from below"),
+    Approach.NEGATIVE: Words("from above"),
+}
+_DATUM = Words("Let the axis stand still at {position}, for the datum.")
+_CHECK = Words("Let the axis come once more to {position} {side}, to check the datum.")
+_START = Words("Start the program at visit {number}: {position} {side}, run {run}.")
+_GO_ON = Words("Go on with the program at visit {number}: {position} {side}, run {run}.")
+_CANDIDATE = Words("visit {number} (run {run}): {share} %")
+_NO_VISIT = Words("no visit: {share} %")
+#: The least probability of a visit that is offered as the answer to a question.
+_WORTH_NAMING = 0.005
+_SECONDS_A_MINUTE = 60
+
+
+@dataclass(slots=True)
+class CapturePage:
+    """The capture of a job, as its page sees it."""
+
+    path: Path  #: The job file.
+    registry: Registry
+    process: CaptureProcess
+    _known: tuple[str, Job, Assignment] | None = field(default=None)
+
+    @classmethod
+    def of(cls, bench: Bench, plugins: Sequence[Path] = ()) -> CapturePage:
+        """Return the capture of the job on a bench, at rest."""
+        return cls(bench.path, bench.registry, CaptureProcess(bench.path, plugins))
+
+    def is_awaited(self) -> bool:
+        """Tell whether the readings of the job come from a live instrument, and are not all there."""
+        try:
+            found = self._assigned()
+        except ZlmreportError:
+            return False  # what is wrong with the job is said where it is read
+        return found is not None and not _progress(found[1], _history(found[1])).is_over
+
+    def do(self, request: CaptureRequest) -> None:
+        """Do what a click asks for.
+
+        Raises `InputError` if the job is not captured live, or there is nothing of that kind to do.
+        """
+        found = self._assigned()
+        if found is None:
+            raise InputError.at(PLACE, "the readings of this job are not captured from a live instrument")
+        history = _history(found[1])
+        self.process.do(request, has_begun=history is not None and history.has_readings)
+
+    def values(self, language: Language) -> dict[str, Any]:
+        """Return what the page shows; only that nothing is captured, where the job names no instrument."""
+        found = self._assigned()
+        if found is None:
+            return {"isCaptured": False}
+        job, assignment = found
+        history, state = _history(assignment), self.process.state()
+        progress, writer = _progress(assignment, history), _CaptureWriter(job.axis, language)
+        rest = assignment.remaining_time(progress.taken)
+        return {
+            "isCaptured": True,
+            "isOver": progress.is_over and not state["runs"],
+            "hasBegun": history is not None and history.has_readings,
+            "runs": state["runs"],
+            "number": job.keys.certificate.number,
+            "subject": job.axis.subject.in_language(language),
+            "file": self.path.name,
+            "journal": assignment.options.journal.name,
+            "visits": list(_rows(progress, history, writer)),
+            "next": None if progress.is_over else progress.next.number,
+            "taken": progress.taken,
+            "minutes": round(rest / _SECONDS_A_MINUTE),
+            "steps": [] if progress.is_over else list(writer.steps(progress)),
+            "moment": _moment(state["now"], progress, assignment, writer),
+            "asked": _asked(state["asked"], progress, language),
+            "lines": state["lines"],
+            "problems": state["problems"],
+        }
+
+    def _assigned(self) -> tuple[Job, Assignment] | None:
+        """Return the job and what it asks to be captured; None if it names no live instrument."""
+        stamp = Bench(self.path, self.registry).stamp()
+        if self._known is None or self._known[0] != stamp:
+            job = load(self.path, self.registry)
+            if options_of(job) is None or job.source.instrument is None:
+                return None
+            plan = propose(job, pipeline.standards(job, self.registry)).plan
+            self._known = stamp, job, assignment_of(job, plan)
+        return self._known[1:]
+
+
+@dataclass(frozen=True, slots=True)
+class _CaptureWriter:
+    """Writes positions and deviations of an axis in the language of the page."""
+
+    axis: Axis
+    language: Language
+
+    def position(self, value: float, decimals: int = 3) -> str:
+        return self._length(self.axis.position_unit.from_si(value), self.axis.position_unit.symbol, decimals)
+
+    def deviation(self, value: float) -> str:
+        text = self.fine(value)
+        return text if text.startswith(MINUS) else f"+{text}"
+
+    def fine(self, value: float) -> str:
+        return self._length(self.axis.deviation_unit.from_si(value), self.axis.deviation_unit.symbol, 2)
+
+    def _length(self, value: float, symbol: str, decimals: int) -> str:
+        return with_unit(fixed_number(value, decimals, self.language.decimal_sign), symbol)
+
+    def steps(self, progress: Progress) -> Iterator[str]:
+        """Yield what an operator does before readings are taken, one after the other."""
+        if progress.zero is None and progress.datum is not None:
+            yield _DATUM.given(position=self.position(progress.datum)).in_language(self.language)
+        elif progress.must_check:
+            last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
+            yield self._said(_CHECK, last)
+        yield self._said(_GO_ON if progress.taken else _START, progress.next)
+
+    def _said(self, phrase: Words, visit: ListedVisit) -> str:
+        position, side = self.position(visit.position), _SIDES[visit.approach]
+        return phrase.given(number=visit.number, position=position, side=side, run=visit.run).in_language(
+            self.language
+        )
+
+
+def _history(assignment: Assignment) -> History | None:
+    path = assignment.options.journal
+    return read_history(path) if path.exists() else None
+
+
+def _progress(assignment: Assignment, history: History | None) -> Progress:
+    return history.progress if history else Progress.begin(assignment.visits, assignment.datum)
+
+
+def _rows(progress: Progress, history: History | None, writer: _CaptureWriter) -> Iterator[dict[str, Any]]:
+    """Yield the visits in their order, each with the reading that counts."""
+    events = [each.event for each in history.entries] if history else []
+    read = {each.visit.number: each for each in events if isinstance(each, Recorded)}
+    for visit in progress.visits:
+        number = visit.number
+        reading = read.get(number) if number in progress.filed else None
+        yield {
+            "number": number,
+            "run": visit.run,
+            "arrow": visit.approach.arrow,
+            "target": writer.position(visit.position),
+            "deviation": writer.deviation(reading.deviation) if reading else "",
+            "range": writer.fine(reading.mean.range) if reading else "",
+            "state": _state(number, progress, is_read=reading is not None),
+        }
+
+
+def _state(number: int, progress: Progress, *, is_read: bool) -> str:
+    if not progress.is_over and number == progress.next.number:
+        return "next"
+    if is_read:
+        return "taken"
+    if number in progress.skipped:
+        return "skipped"
+    return "open" if number > progress.taken else "missed"
+
+
+def _moment(
+    now: dict[str, Any] | None, progress: Progress, assignment: Assignment, writer: _CaptureWriter
+) -> dict[str, Any] | None:
+    """Return what the instrument shows now; nothing as long as it does not run."""
+    if now is None:
+        return None
+    position = now["position"]
+    away = None if position is None else position - progress.next.position
+    is_near = away is not None and abs(away) <= assignment.settings.tolerance
+    return {
+        "position": None if position is None else writer.position(position, 4),
+        "deviation": writer.deviation(away) if away is not None and is_near else None,
+        "toGo": writer.position(-away) if away is not None and not is_near else None,
+        "range": None if now["range"] is None else writer.fine(now["range"]),
+        "still": min(1.0, now["still"] / assignment.settings.still),
+        "message": now["message"],
+    }
+
+
+def _asked(asked: dict[str, Any] | None, progress: Progress, language: Language) -> dict[str, Any] | None:
+    """Return what the capture waits for, with the answers that may be given."""
+    if asked is None:
+        return None
+    choices = []
+    for number, share in asked.get("candidates", ()):
+        if share < _WORTH_NAMING:
+            continue
+        shown = percentage(share, language.decimal_sign)
+        phrase = (
+            _CANDIDATE.given(number=number, run=progress.visits[number - 1].run, share=shown)
+            if number
+            else _NO_VISIT.given(share=shown)
+        )
+        choices.append({"label": phrase.in_language(language), "answer": str(number or "none")})
+    return {"message": asked["message"], "steps": asked.get("steps", []), "choices": choices}

@@ -1,0 +1,176 @@
+"""The capture of a job from its page: the command of the terminal, steered, in a process of its own.
+
+What the process prints is the present moment; what was taken is read from the journal, as after any other
+capture. So the page may be closed and opened, and a busy server delays what is seen and nothing that is read.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from collections import deque
+from collections.abc import Sequence
+from contextlib import suppress
+from dataclasses import dataclass, field
+from enum import StrEnum
+from pathlib import Path
+from threading import Lock, Thread
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from zlmreport.errors import InputError
+from zlmreport.web.bench import PLACE
+
+#: Lines on what happened that the page shows.
+_KEPT_LINES = 30
+_ENDED = "zlmreport ended unexpectedly"
+#: How long a process may take to write its last line, s; then it is killed, which loses nothing.
+_PATIENCE = 10.0
+#: Exit code of a command that was interrupted.
+_INTERRUPTED = 130
+
+
+class Step(StrEnum):
+    """What a click on the page asks for."""
+
+    BEGIN = "begin"  #: Take readings, from the beginning or where they ended.
+    RETAKE = "retake"  #: The same, but first take visits again.
+    ORDER = "order"  #: What would be typed at the terminal; empty for "done".
+    STOP = "stop"  #: End for now.
+    CLOSE = "close"  #: End for good: what was not taken is missing.
+
+
+class CaptureRequest(BaseModel):
+    """A click on the page of a capture."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    step: Literal["begin", "retake", "order", "stop", "close"]
+    text: str = Field("", max_length=300, pattern=r"^[^\r\n]*$")
+
+
+@dataclass(slots=True)
+class CaptureProcess:
+    """The process that captures, and what it said last."""
+
+    path: Path  #: The job.
+    plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
+    _process: subprocess.Popen[str] | None = None
+    _lock: Lock = field(default_factory=Lock)
+    _now: dict[str, Any] | None = None
+    _steps: list[str] = field(default_factory=list)
+    _asked: dict[str, Any] | None = None
+    _lines: deque[str] = field(default_factory=lambda: deque(maxlen=_KEPT_LINES))
+    _problems: list[str] = field(default_factory=list)
+
+    def do(self, request: CaptureRequest, *, has_begun: bool) -> None:
+        """Do what a click asks for.
+
+        `has_begun`: Whether the journal holds readings: then it is gone on with.
+
+        Raises `InputError` where there is no capture to order something, or one is under way already.
+        """
+        match Step(request.step):
+            case Step.BEGIN:
+                self._begin("--steered", *(["--resume"] if has_begun else []))
+            case Step.RETAKE:
+                self._begin("--steered", "--resume", "--retake", request.text)
+            case Step.CLOSE:
+                self._begin("--end")
+            case Step.ORDER:
+                self._order(request.text)
+            case Step.STOP:
+                self.end()
+
+    def state(self) -> dict[str, Any]:
+        """Return whether it runs, the present moment, what it awaits, and what has happened."""
+        with self._lock:
+            return {
+                "runs": self._process is not None,
+                "now": self._now,
+                "steps": self._steps,
+                "asked": self._asked,
+                "lines": list(self._lines),
+                "problems": list(self._problems),
+            }
+
+    def end(self) -> None:
+        """Let the process end as by Ctrl-C at a terminal: the journal says that it was interrupted."""
+        with self._lock:
+            process = self._process
+            if process is None or process.stdin is None:
+                return
+            with suppress(OSError):  # it has just ended
+                process.stdin.close()
+        try:
+            process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def _begin(self, *arguments: str) -> None:
+        with self._lock:
+            if self._process is not None:
+                raise InputError.at(PLACE, "a capture of this job is under way already")
+            self._now, self._asked, self._steps = None, None, []
+            self._lines.clear()
+            self._problems.clear()
+            plugins = (part for each in self.plugins for part in ("--plugin", str(each.resolve())))
+            self._process = subprocess.Popen(  # noqa: S603 - this program itself
+                [sys.executable, "-m", "zlmreport", "capture", str(self.path), *arguments, *plugins],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+                encoding="utf-8",
+                start_new_session=True,  # Ctrl-C on the terminal is for the server, which ends this one
+                env={**os.environ, "PYTHONIOENCODING": "utf-8"},
+            )
+            Thread(target=self._listen, args=(self._process,), daemon=True).start()
+
+    def _order(self, text: str) -> None:
+        with self._lock:
+            if self._process is None or self._process.stdin is None:
+                raise InputError.at(PLACE, "no capture is under way")
+            self._asked = None
+            try:
+                self._process.stdin.write(f"{text}\n")
+                self._process.stdin.flush()
+            except OSError as error:  # it has just ended
+                raise InputError.at(PLACE, "no capture is under way") from error
+
+    def _listen(self, process: subprocess.Popen[str]) -> None:
+        """Take in what a process says until it has ended."""
+        complaints: list[str] = []
+        with process:
+            listener = Thread(target=lambda: complaints.extend(process.stderr or ()), daemon=True)
+            listener.start()
+            for line in process.stdout or ():
+                self._hear(line)
+            code = process.wait()
+            listener.join()
+        with self._lock:
+            said = [each.strip() for each in complaints if each.strip()]
+            self._problems = [] if code == _INTERRUPTED else said or ([_ENDED] if code else [])
+            self._process, self._now, self._asked = None, None, None
+
+    def _hear(self, line: str) -> None:
+        """Take in a line: a record, or a sentence of a command that prints none."""
+        try:
+            record = json.loads(line)
+        except ValueError:
+            record = {"record": "", "line": line.strip()}
+        with self._lock:
+            match record["record"]:
+                case "now":
+                    self._now = record
+                case "to-do":
+                    self._steps = record["steps"]
+                case "awaits" | "asks":
+                    self._asked = record
+                case "refused":
+                    self._lines.append(record["message"])
+                case _ if record.get("line"):
+                    self._lines.append(record["line"])
