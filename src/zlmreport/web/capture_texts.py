@@ -37,7 +37,7 @@ CAPTURE_TEXTS: Mapping[str, Words] = MappingProxyType(
         "captureRun": Words("Run"),
         "captureTarget": Words("Target"),
         "captureDeviation": Words("Deviation"),
-        "captureSpread": Words("Range"),
+        "captureSpread": Words("Range", context="of readings"),
         "captureState": Words("State", context="standing"),
         "captureIs.taken": Words("taken"),
         "captureIs.next": Words("next"),
