@@ -48,7 +48,7 @@ def test_the_files_that_were_written_are_told(fleet: Path, capsys: pytest.Captur
 def test_a_language_that_there_is_not_is_refused_with_its_place(
     fleet: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    fleet.write_text(FLEET.replace("language: de", "language: fr"), encoding="utf-8")
+    fleet.write_text(FLEET.replace("language: de", "language: pl"), encoding="utf-8")
     assert main(["fleet", "report", str(fleet)]) == 2
     assert f"{fleet}:3:11: " in capsys.readouterr().err
 

@@ -33,7 +33,7 @@ def german() -> Naming:
 def test_identifiers_are_replaced_by_titles_and_other_words_stay(
     german: Naming, text: str, named: str
 ) -> None:
-    titles = {each.identifier: each.title.de for each in registry().effects}
+    titles = {each.identifier: each.title.in_language(Language.GERMAN) for each in registry().effects}
     assert german.text(text) == named.replace("Stoß zweier Teilmaßstäbe", titles["scale-joint"])
 
 

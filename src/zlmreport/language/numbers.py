@@ -6,38 +6,25 @@ from dataclasses import dataclass
 from math import isfinite
 
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import fixed_number, rounded_pair
+from zlmreport.language.formatting import DecimalSign, fixed_number, rounded_pair
 
 _SIGNIFICANT_DIGITS = 3
 _NUMBER = Words("{number}")
 
 
 @dataclass(frozen=True, slots=True)
-class _Fixed:
-    """A number with fixed decimals."""
+class _Rounded:
+    """A number with the digits that it has for good: two that print alike are alike."""
 
-    value: float
-    decimals: int
-
-    def in_language(self, language: Language) -> str:
-        return fixed_number(self.value, self.decimals, language.decimal_sign)
-
-
-@dataclass(frozen=True, slots=True)
-class _OfPair:
-    """A value, or its expanded uncertainty, rounded together with the other."""
-
-    value: float
-    expanded_uncertainty: float
-    which: int
+    english: str
 
     def in_language(self, language: Language) -> str:
-        return rounded_pair(self.value, self.expanded_uncertainty, language.decimal_sign)[self.which]
+        return self.english.replace(DecimalSign.POINT, language.decimal_sign)
 
 
 def number_words(value: float, decimals: int) -> Words:
     """Return a number with fixed decimals."""
-    return _NUMBER.given(number=_Fixed(value, decimals))
+    return _NUMBER.given(number=_Rounded(fixed_number(value, decimals)))
 
 
 def significant_words(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
@@ -51,5 +38,5 @@ def significant_words(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
 
 def pair_words(value: float, expanded_uncertainty: float) -> tuple[Words, Words]:
     """Return a value and its uncertainty, rounded together as `rounded_pair` does."""
-    number, u = (_NUMBER.given(number=_OfPair(value, expanded_uncertainty, which)) for which in (0, 1))
+    number, u = (_NUMBER.given(number=_Rounded(each)) for each in rounded_pair(value, expanded_uncertainty))
     return number, u
