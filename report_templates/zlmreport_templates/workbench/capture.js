@@ -5,6 +5,7 @@ import { ROOT, Refusal, Silence, get, post } from "./server.js";
 
 const LOOK = 400;
 const REST = 2000;
+const STATES = { taken: "captureIsTaken", next: "captureIsNext", open: "captureIsOpen", skipped: "captureIsSkipped", missed: "captureIsMissed" };
 
 /** Show the capture of a job until its readings are all there; `found` is the first answer of the server. */
 export async function showCapture(texts, found) {
@@ -133,7 +134,7 @@ class CapturePage {
           h("td", { class: "number" }, each.target),
           h("td", { class: "number" }, each.deviation),
           h("td", { class: "number" }, each.range),
-          h("td", {}, texts[`captureIs.${each.state}`]),
+          h("td", {}, texts[STATES[each.state]]),
           h("td", {}, h("div", { class: "capture-again" }, (each.state === "taken" || each.state === "skipped" || each.state === "missed") && [
             this.#button(texts.captureRetake, found.runs ? "order" : "retake", found.runs ? `r ${each.number}` : `${each.number}`, "quiet", said(texts.captureRetakeOf, each)),
             is_first && this.#button(said(texts.captureRunAgain, each), found.runs ? "order" : "retake", found.runs ? `r run ${each.run}` : `run ${each.run}`, "quiet")])));

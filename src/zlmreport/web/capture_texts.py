@@ -39,11 +39,11 @@ CAPTURE_TEXTS: Mapping[str, Words] = MappingProxyType(
         "captureDeviation": Words("Deviation"),
         "captureSpread": Words("Range", context="of readings"),
         "captureState": Words("State", context="standing"),
-        "captureIs.taken": Words("taken"),
-        "captureIs.next": Words("next"),
-        "captureIs.open": Words("to come"),
-        "captureIs.skipped": Words("left out"),
-        "captureIs.missed": Words("missing"),
+        "captureIsTaken": Words("taken"),
+        "captureIsNext": Words("next"),
+        "captureIsOpen": Words("to come"),
+        "captureIsSkipped": Words("left out"),
+        "captureIsMissed": Words("missing"),
         "captureEvents": Words("What happened"),
     }
 )

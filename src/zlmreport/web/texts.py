@@ -24,6 +24,7 @@ _CONFIRMED = {
 TEXTS: Mapping[str, Words] = MappingProxyType(
     {
         **GRAPH_TEXTS,
+        **CAPTURE_TEXTS,
         "verdict": VERDICT,
         "candidates": CANDIDATES,
         "otherEffect": Words("Add another effect"),
@@ -189,4 +190,4 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
 
 def texts(language: Language) -> dict[str, str]:
     """Return all of them in one language."""
-    return {name: words.in_language(language) for name, words in {**TEXTS, **CAPTURE_TEXTS}.items()}
+    return {name: words.in_language(language) for name, words in TEXTS.items()}
