@@ -61,3 +61,27 @@ def test_a_job_that_is_wrong_is_said_before_any_page_opens(
 def test_a_browser_is_opened_unless_that_is_not_wanted() -> None:
     assert not parse(["workbench", "x.yaml"])[1].no_browser
     assert parse(["workbench", "x.yaml", "--no-browser", "--port", "8420"])[1].port == 8420
+
+
+def test_a_file_of_readings_opens_with_a_job_that_is_written_beside_it(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pytest.importorskip("uvicorn", reason="the workbench's extra is not installed")
+    readings = tmp_path / "x-axis.csv"
+    readings.write_bytes((EXAMPLE.parent / "x-axis.csv").read_bytes())
+    with socket.create_server(("127.0.0.1", 0)) as taken:  # so that it ends by itself
+        port = str(taken.getsockname()[1])
+        assert main(["workbench", str(readings), "--no-browser", "--port", port]) == 3
+        job = tmp_path / "x-axis.yaml"
+        assert f"{job}: written for {readings}" in capsys.readouterr().out
+        job.write_text(job.read_text(encoding="utf-8") + "# mine\n", encoding="utf-8")
+        main(["workbench", str(readings), "--no-browser", "--port", port])
+    assert job.read_text(encoding="utf-8").endswith("# mine\n")
+
+
+def test_a_file_that_holds_no_readings_is_refused_and_no_job_is_left(tmp_path: Path) -> None:
+    pytest.importorskip("uvicorn", reason="the workbench's extra is not installed")
+    letter = tmp_path / "letter.txt"
+    letter.write_text("Dear customer,\n", encoding="utf-8")
+    assert main(["workbench", str(letter), "--no-browser"]) == 2
+    assert [each.name for each in tmp_path.iterdir()] == ["letter.txt"]

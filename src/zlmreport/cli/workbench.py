@@ -7,15 +7,21 @@ import datetime as dt
 import signal
 from argparse import Namespace
 from types import FrameType
+from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
+from zlmreport.cli.terminal import shown_path
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.plugin.registry import find_plugins
+from zlmreport.files import Document, write_new
+from zlmreport.looking import job_of, looked_at
+from zlmreport.plugin.registry import Registry, find_plugins
 
 if TYPE_CHECKING:
     from zlmreport.web.app import Served
 
 _PLACE = Place("zlmreport workbench")
+#: Suffixes of jobs; any other file holds readings.
+_JOBS = (".yaml", ".yml")
 
 
 def run(options: Namespace) -> int:
@@ -46,14 +52,26 @@ def _workbench(options: Namespace) -> Served:
     from zlmreport.web.folder_app import FolderWorkbench  # noqa: PLC0415
 
     registry, plugins = find_plugins(files=options.plugin), tuple(options.plugin)
-    first, *others = options.jobs
-    folder = next((each for each in options.jobs if each.is_dir()), None)
+    first, *others = (_job_of(each, registry) for each in options.jobs)
+    folder = next((each for each in (first, *others) if each.is_dir()), None)
     if folder is None:
-        return Workbench.of(options.jobs, registry, plugins)
+        return Workbench.of((first, *others), registry, plugins)
     if others:
         raise InputError.at(_PLACE, f"{folder} is a folder: name it alone, or the jobs in it one by one")
     jobs_in(first)
     return FolderWorkbench(JobFolder(first, registry, dt.date.today), registry, plugins)
+
+
+def _job_of(path: Path, registry: Registry) -> Path:
+    """Return the job of what is opened: of a file of readings, the one beside it, written if there is none."""
+    if path.suffix.lower() in _JOBS or not path.is_file():
+        return path
+    job = path.with_suffix(_JOBS[0])
+    if not job.exists():
+        text = job_of(looked_at(path, registry, None), path, job.parent)
+        write_new([Document(job, text.encode())])
+        print(f"{shown_path(job)}: written for {shown_path(path)}")
+    return job
 
 
 def _end(_number: int, _frame: FrameType | None) -> NoReturn:

@@ -439,7 +439,7 @@ def workbench(command: str) -> CommandParser:
         "the axis: they are laid over the first, and nothing is written into them. A folder opens as a\n"
         "list of its jobs: what fails, what is due. The page opens by the printed address alone.",
         "examples:\n  zlmreport workbench x-axis.yaml\n  zlmreport workbench after.yaml before.yaml\n"
-        "  zlmreport workbench jobs/\n"
+        "  zlmreport workbench jobs/\n  zlmreport workbench readings.csv\n"
         "  zlmreport workbench x-axis.yaml --port 8420 --no-browser",
     )
     parser.add_argument(
@@ -447,7 +447,8 @@ def workbench(command: str) -> CommandParser:
         metavar="JOB.yaml",
         type=Path,
         nargs="+",
-        help="job file, then those of other tests of it; or a folder of jobs",
+        help="job file, then those of other tests of it; or a folder of jobs; or a file of readings, for which\n"
+        "a job is written beside it",
     )
     parser.add_argument(
         "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
