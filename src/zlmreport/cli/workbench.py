@@ -6,8 +6,8 @@ import contextlib
 import datetime as dt
 import signal
 from argparse import Namespace
-from types import FrameType
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
 from zlmreport.cli.terminal import shown_path
@@ -63,12 +63,12 @@ def _workbench(options: Namespace) -> Served:
 
 
 def _job_of(path: Path, registry: Registry) -> Path:
-    """Return the job of what is opened: of a file of readings, the one beside it, written if there is none."""
+    """Return the job of what is opened: for a file of readings that beside it, written if there is none."""
     if path.suffix.lower() in _JOBS or not path.is_file():
         return path
     job = path.with_suffix(_JOBS[0])
     if not job.exists():
-        text = job_of(looked_at(path, registry, None), path, job.parent)
+        text = job_of(looked_at(path, registry), path, job.parent)
         write_new([Document(job, text.encode())])
         print(f"{shown_path(job)}: written for {shown_path(path)}")
     return job

@@ -447,8 +447,8 @@ def workbench(command: str) -> CommandParser:
         metavar="JOB.yaml",
         type=Path,
         nargs="+",
-        help="job file, then those of other tests of it; or a folder of jobs; or a file of readings, for which\n"
-        "a job is written beside it",
+        help="job file, then those of other tests of it; or a folder of jobs; or a file of readings, for\n"
+        "which a job is written beside it",
     )
     parser.add_argument(
         "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
