@@ -256,6 +256,72 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
     }
 )
 
+#: What the page of a machine says otherwise, or besides.
+MACHINE_TEXTS: Mapping[str, Words] = MappingProxyType(
+    {
+        "measured": Words(en="Measured against axes and effects", de="Messung gegen Achsen und Einflüsse"),
+        "model": Words(en="Effects of drives and structure", de="Einflüsse von Antrieben und Struktur"),
+        "noEffects": Words(
+            en="The model has no effect yet. Begin with centre-offset and radius.",
+            de="Das Modell hat noch keinen Einfluss. Beginnen Sie mit Ort und Länge des Stabs.",
+        ),
+        "failures": Words(en="Where it differs", de="Wo es abweicht"),
+        "noFailures": Words(
+            en="Nowhere does a test leave its band.", de="Nirgends verlässt eine Prüfung ihr Band."
+        ),
+        "certificate": Words(en="Document", de="Dokument"),
+        "makeCertificate": Words(en="Make the document", de="Dokument erstellen"),
+        "making": Words(en="The document is being made …", de="Das Dokument entsteht …"),
+        "tests": Words(en="Tests of this machine", de="Prüfungen dieser Maschine"),
+        "upwardsCircle": Words(en="counter-clockwise ↺", de="gegen den Uhrzeigersinn ↺"),
+        "downwardsCircle": Words(en="clockwise ↻", de="im Uhrzeigersinn ↻"),
+        "modelUpCircle": Words(en="axes, effects ↺, U of the axes", de="Achsen, Einflüsse ↺, U der Achsen"),
+        "modelDownCircle": Words(en="axes, effects ↻, U of the axes", de="Achsen, Einflüsse ↻, U der Achsen"),
+        "modelUp": Words(en="axes ↑ with U", de="Achsen ↑ mit U"),
+        "modelDown": Words(en="axes ↓ with U", de="Achsen ↓ mit U"),
+        "resetCircle": Words(en="Whole circle", de="Ganzer Kreis"),
+        "reset": Words(en="Whole line", de="Ganze Linie"),
+        "targetCircle": Words(en="Angle", de="Winkel"),
+        "target": Words(en="Place", de="Ort"),
+        "run": Words(en="Turn", de="Umlauf"),
+        "directionCircle": Words(en="Sense", de="Drehsinn"),
+        "zoom": Words(
+            en="Drag to look closer, with Shift to move; double-click for the whole.",
+            de="Ziehen vergrößert, mit Umschalt verschiebt es; Doppelklick zeigt wieder alles.",
+        ),
+        "noiseFloorIs": Words(
+            en="Scatter, and irregular shape without a name: what is left once all that was found is in the "
+            "model. No effect takes it away.",
+            de="Streuung und unregelmäßige Form ohne Namen: was bleibt, wenn alles Gefundene im Modell "
+            "steht. Kein Einfluss nimmt es weg.",
+        ),
+        "errorIs": Words(
+            en="Root mean square of all circles together, without where the bar stands and how long it is.",
+            de="Quadratischer Mittelwert aller Kreise zusammen, ohne Ort und Länge des Stabs.",
+        ),
+        "build": Words(en="Step by step", de="Schritt für Schritt"),
+        "stairs": Words(en="The error falls, step by step", de="Der Fehler fällt, Schritt für Schritt"),
+        "jobs": Words(en="Jobs of this folder", de="Aufträge dieses Ordners"),
+        "outside": Words(
+            en="The machine file was changed outside of this page; it shows the machine as it is now.",
+            de="Die Maschinendatei wurde außerhalb dieser Seite geändert; sie zeigt die Maschine, wie sie "
+            "jetzt ist.",
+        ),
+        "broken": Words(
+            en="The machine file cannot be read as it is. Mend it in the editor; this page goes on by "
+            "itself.",
+            de="Die Maschinendatei ist so nicht lesbar. Berichtigen Sie sie im Editor; die Seite fährt von "
+            "selbst fort.",
+        ),
+    }
+)
+
+
+def machine_texts(language: Language) -> dict[str, str]:
+    """Return all words of the page of a machine in one language, and that it is one."""
+    own = {name: words.in_language(language) for name, words in MACHINE_TEXTS.items()}
+    return {**texts(language), **own, "machine": "machine"}
+
 
 def texts(language: Language) -> dict[str, str]:
     """Return all of them in one language."""

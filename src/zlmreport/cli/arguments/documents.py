@@ -436,9 +436,11 @@ def workbench(command: str) -> CommandParser:
         "Open the error model of a job as a web page of this computer: compare the model with the\n"
         "readings, see where it fails, add what is missing, watch the error fall. Every click is\n"
         "written into the job (comments stay) and recorded beside it. Further jobs are other tests of\n"
-        "the axis: they are laid over the first, and nothing is written into them. A folder opens as a\n"
-        "list of its jobs: what fails, what is due. The page opens by the printed address alone.",
+        "the axis: they are laid over the first, and nothing is written into them. A machine file opens\n"
+        "the same loop for a whole machine. A folder opens as a list of its jobs and machines: what\n"
+        "fails, what is due. The page opens by the printed address alone.",
         "examples:\n  zlmreport workbench x-axis.yaml\n  zlmreport workbench after.yaml before.yaml\n"
+        "  zlmreport workbench machine.yaml\n"
         "  zlmreport workbench jobs/\n"
         "  zlmreport workbench x-axis.yaml --port 8420 --no-browser",
     )
@@ -447,7 +449,7 @@ def workbench(command: str) -> CommandParser:
         metavar="JOB.yaml",
         type=Path,
         nargs="+",
-        help="job file, then those of other tests of it; or a folder of jobs",
+        help="job file, then those of other tests of it; or a machine file, or a folder of them",
     )
     parser.add_argument(
         "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
