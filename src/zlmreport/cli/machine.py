@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from zlmreport.cli.layout import section_lines
+from zlmreport.cli.machine_compensate import compensate
 from zlmreport.cli.terminal import Colour, print_json, shown_path
 from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import Place
@@ -132,6 +133,12 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
     return _laid_out(machine, sections), build_values(found)
 
 
+def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    sections, files, values = compensate(machine, registry, options)
+    further = [f"written: {', '.join(files)}"] if files else ["--output DIR writes it"]
+    return _laid_out(machine, sections, "", *further), values
+
+
 def _add(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Write an effect into the machine file, and say how the error changed."""
     effects = effects_with(machine, options.effect, registry, Place("zlmreport machine add"))
@@ -170,6 +177,7 @@ _ACTIONS = {
     "build": _build,
     "plan": _plan,
     "certificate": _certificate,
+    "compensate": _compensate,
     "add": _add,
     "remove": _remove,
 }
