@@ -150,7 +150,7 @@ def test_only_jobs_are_listed(job: Path) -> None:
 
 
 def test_a_folder_without_a_job_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="no job file lies here"):
+    with pytest.raises(InputError, match="no job or machine file lies here"):
         jobs_in(tmp_path)
 
 

@@ -9,7 +9,7 @@ Between two rows it interpolates, outside the end value holds.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import Literal
@@ -18,7 +18,7 @@ import numpy as np
 from pydantic import Field
 
 from zlmreport.plugin import InputError, Options, Words, hookimpl, read_only_floats
-from zlmreport.plugin.controller import CompensationTable, Controller
+from zlmreport.plugin.controller import CompensationTable, Controller, CrossTable
 
 _MOST_ROWS = 256
 _ROW = re.compile(r"\s*([-+.\deE]+)\s+([-+.\deE]+)\s+([-+.\deE]+)")
@@ -34,7 +34,53 @@ class LinuxCncOptions(Options):
     decimals: int = Field(6, ge=3, le=9, description="Digits after the decimal point.")
 
 
-class LinuxCnc:
+class _Matrix:
+    """Squareness by LinuxCNC's kinematics `matrixkins`: joint = C · (x, y, z).
+
+    LinuxCNC has no tables across axes: a `COMP_FILE` acts on its own joint. So straightness is left. That an
+    entry C_xy moves X by so much for each unit of Y says LinuxCNC's own test of the module.
+    """
+
+    cross_sign = "known"
+    cross_notes = (
+        Words(
+            "LinuxCNC has no tables across axes, so straightness is left: COMP_FILE acts on its own "
+            "joint. Squareness is taken away by its kinematics: [KINS] KINEMATICS = matrixkins, and these "
+            "lines in a HAL file. Releases before matrixkins have none. Never tried with a machine: measure "
+            "one circle."
+        ),
+    )
+
+    def cross_files(self, tables: Sequence[CrossTable], moves: int) -> Mapping[str, str]:  # noqa: ARG002 - it is known
+        """Return the one file: −slope for each pair of axes that is not square."""
+        lines = [
+            f"setp matrixkins.C_{each.output.lower()}{each.input.lower()} {-each.slope:.9f}\n"
+            for each in tables
+            if each.slope
+        ]
+        return {"-square.hal": "".join(lines)} if lines else {}
+
+    def read_cross(
+        self,
+        files: Mapping[str, str],
+        tables: Sequence[CrossTable],
+        moves: int,  # noqa: ARG002
+    ) -> tuple[CrossTable, ...]:
+        """Return what the kinematics take away: the slope alone."""
+        entries = {
+            name: float(value)
+            for text in files.values()
+            for name, value in re.findall(r"C_(\w\w) (\S+)", text)
+        }
+        slopes = [-entries.get(f"{each.output}{each.input}".lower(), 0.0) for each in tables]
+        return tuple(
+            replace(each, values=slope * (each.positions - each.positions[0]), slope=slope)
+            for each, slope in zip(tables, slopes, strict=True)
+            if slope
+        )
+
+
+class LinuxCnc(_Matrix):
     """LinuxCNC, `COMP_FILE` of a joint."""
 
     identifier = "linuxcnc"

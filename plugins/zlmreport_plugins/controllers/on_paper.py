@@ -16,7 +16,7 @@ import numpy as np
 from pydantic import Field
 
 from zlmreport.plugin import FloatArray, InputError, Options, Words, hookimpl, read_only_floats
-from zlmreport.plugin.controller import CompensationTable, Controller
+from zlmreport.plugin.controller import CompensationTable, Controller, CrossTable
 
 _NUMBER = r"([-+]?\d+(?:\.\d+)?)"
 _NO_TRIAL = Words(
@@ -80,6 +80,53 @@ def _summed(table: CompensationTable, steps: Iterable[int], quantum: float) -> C
     return _decoded(table, positions.tolist(), sums.tolist(), sums.tolist())
 
 
+class _Cross:
+    """CEC across axes: one axis moves, another is moved aside. The sign is whoever loads it to state."""
+
+    cross_sign = "stated"
+    cross_notes = (
+        _NO_TRIAL,
+        Words(
+            "MD18342 holds the number of points; MD32710 of the axis that is moved aside is 0 while the "
+            "tables are loaded, then 1. The tables are numbered from 0: nothing else may stand there."
+        ),
+    )
+
+    def cross_files(self, tables: Sequence[CrossTable], moves: int) -> Mapping[str, str]:
+        """Return the one file: the value that moves the axis by −e, in both directions of travel."""
+        lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
+        for number, table in enumerate(tables):
+            at = (table.positions * 1e3).tolist()
+            values = (-moves * table.values * 1e3).tolist()
+            lines += [f"$AN_CEC[{number},{row}]={each + 0.0:.5f}" for row, each in enumerate(values)]
+            lines += [
+                f"$AN_CEC_INPUT_AXIS[{number}]=({table.input}1)",
+                f"$AN_CEC_OUTPUT_AXIS[{number}]=({table.output}1)",
+                f"$AN_CEC_STEP[{number}]={(at[-1] - at[0]) / (len(at) - 1):.6f}",
+                f"$AN_CEC_MIN[{number}]={at[0]:.6f}",
+                f"$AN_CEC_MAX[{number}]={at[-1]:.6f}",
+                f"$AN_CEC_DIRECTION[{number}]=0",
+                f"$AN_CEC_MULT_BY_TABLE[{number}]=0",
+                f"$AN_CEC_IS_MODULO[{number}]=0",
+            ]
+        return {"-across_CEC.INI": "".join(f"{line}\n" for line in (*lines, "M17"))}
+
+    def read_cross(
+        self, files: Mapping[str, str], tables: Sequence[CrossTable], moves: int
+    ) -> tuple[CrossTable, ...]:
+        """Return the tables that the lines describe."""
+        (text,) = files.values()
+        return tuple(_read_cec(text, number, table, moves) for number, table in enumerate(tables))
+
+
+def _read_cec(text: str, number: int, table: CrossTable, moves: int) -> CrossTable:
+    values = [float(each) for each in re.findall(rf"CEC\[{number},\d+\]={_NUMBER}", text)]
+    (step,) = re.findall(rf"STEP\[{number}\]={_NUMBER}", text)
+    (first,) = re.findall(rf"MIN\[{number}\]={_NUMBER}", text)
+    positions = (float(first) + float(step) * np.arange(len(values))) * 1e-3
+    return replace(table, positions=read_only_floats(positions), values=-moves * np.array(values) * 1e-3)
+
+
 class SiemensOptions(Options):
     """The keys of ``siemens-840d``."""
 
@@ -132,7 +179,7 @@ class Siemens840d(_OnPaper):
         return _decoded(table, positions, values, values)
 
 
-class Siemens840dCec(_OnPaper):
+class Siemens840dCec(_Cross, _OnPaper):
     """SINUMERIK 840D, compensation of an axis by itself (CEC): a table for each direction, +e as in EEC.
 
     The maker documents the variables; of the sign nothing was found, and it is taken for that of EEC.

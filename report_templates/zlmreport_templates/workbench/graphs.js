@@ -4,7 +4,7 @@ import { fill, h, said } from "./dom.js";
 import { Plot, passes } from "./plot.js";
 import { saveCsv, savePng, saveSvg } from "./saving.js";
 
-const ARROWS = new Map([[-1, "↓"], [1, "↑"]]);
+const ARROWS = ["↓", "↑"];
 const GOLDEN = 0.618034;
 const SERIES = [["up", "upwards"], ["down", "downwards"], ["model-up", "modelUp"], ["model-down", "modelDown"]];
 const MODES = [["zoom", "modeZoom"], ["move", "modeMove"], ["select", "modeSelect"]];
@@ -48,7 +48,7 @@ export class Graphs {
         h("h2", {}, texts.residuals),
         h("label", { for: "over" }, texts.over), this.choice,
         h("label", { for: "colour" }, texts.colour), this.colour,
-        h("ul", { class: "legend" }, h("li", { class: "of-noise" }, texts.noise))),
+        this.noise = h("ul", { class: "legend" }, h("li", { class: "of-noise" }, texts.noise))),
       this.below.element,
       h("div", { class: "heading tools" }, this.#modes(), this.#save()),
       h("p", { id: "hint", class: "unseen" }, texts.point),
@@ -69,6 +69,8 @@ export class Graphs {
     delete this.reading.dataset.form;
     this.graphs = graphs;
     this.axes = new Map(graphs.axes.map((axis) => [axis.key, axis]));
+    const [back, forth] = graphs.arrows ?? ARROWS;
+    this.arrows = new Map([[-1, back], [1, forth]]);
     if (!this.axes.has(this.over)) this.over = "position";
     if (!this.axes.has(this.shade)) this.shade = "direction";
     fill(this.choice, graphs.axes.map((axis) => h("option", { value: axis.key, selected: axis.key === this.over }, axis.title)));
@@ -173,6 +175,7 @@ export class Graphs {
     const position = this.axes.get("position");
     const alike = { direction: readings.direction, fitted: readings.fitted, alternative: graphs.alternative, hidden: this.hidden, shades: this.#shades() };
     const curves = step ? step.after.model : this.near?.model ?? graphs.model;
+    this.noise.hidden = graphs.noise === null;
     this.reach.hidden = !(this.near?.model ?? graphs.model).some((each) => each.reach);
     this.above.show({
       ...alike, x: position.values, y: readings.deviation, curves, others: this.others, noise: null,
@@ -185,7 +188,7 @@ export class Graphs {
     const residual = step ? step.after.residual : readings.residual;
     this.passes = this.over === "time" ? passes(x, residual, readings.run, readings.direction) : [];
     this.below.show({
-      ...alike, x, y: residual, curves: [], noise: graphs.noise, labels: this.over === "direction" ? ARROWS : null,
+      ...alike, x, y: residual, curves: [], noise: graphs.noise, labels: this.over === "direction" ? this.arrows : null,
       ghost: step && { curves: [], y: step.before.residual }, lines: this.passes,
       range: this.ranges.get(this.over) ?? null, span: this.spans.get("below") ?? null,
       xTitle: titled(axis), yTitle: `${graphs.residual} (${graphs.unit})`,
@@ -298,7 +301,7 @@ export class Graphs {
     const [position, ...others] = graphs.axes.filter((axis) => axis.key !== "direction" && axis.values[index] !== null);
     const pass = this.passes.find(({ run, direction }) => run === readings.run[index] && direction === readings.direction[index]);
     return [
-      [texts.target, `${value(position)} ${ARROWS.get(readings.direction[index])}`],
+      [texts.target, `${value(position)} ${this.arrows.get(readings.direction[index])}`],
       [texts.run, number(readings.run[index])],
       [texts.deviation, deviation(readings.deviation[index])],
       [texts.modelValue, deviation(readings.deviation[index] - readings.residual[index])],

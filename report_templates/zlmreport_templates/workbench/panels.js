@@ -1,5 +1,6 @@
 // What stands beside and below the graphs. Each panel is a function from values to elements.
 
+import { blocks } from "./blocks.js";
 import { h, s, said, symbol } from "./dom.js";
 import { explained } from "./help.js";
 import { fixed } from "./number.js";
@@ -25,9 +26,11 @@ export function verdict(texts, job, diagnosis, number, actions) {
   const found = diagnosis.diagnosis;
   return [
     h("h2", {}, texts.verdict),
+    found.next && h("p", { class: "next" }, found.next),
     h("p", { class: `verdict ${found.verdict}` }, h("span", { class: "sign", "aria-hidden": "true" }, SIGNS[found.verdict]), h("span", {}, found.statement)),
+    found.findings && h("div", { class: "findings" }, blocks(found.findings)),
     numbers,
-    found.verdict === "missing" && h("p", { class: "build" }, button(texts.build, texts.build, "build", actions.build)),
+    found.verdict === "missing" && found.stairs?.length !== 0 && h("p", { class: "build" }, button(texts.build, texts.build, "build", actions.build)),
     unasked(job, found).map((each) => asked(texts, each, actions)),
   ];
 }
@@ -67,8 +70,8 @@ export function failures(texts, found, point) {
     h("h2", {}, texts.failures),
     found.failures.length === 0 && h("p", { class: "quiet" }, texts.noFailures),
     h("ul", { class: "failures" }, found.failures.map((each, index) => h("li", {},
-      h("button", { type: "button", class: "line", "data-key": `failure-${index}`, click: () => point(each.axis, each.readings) },
-        h("span", {}, sentence(each.statement), " "), h("span", { class: "where" }, `${each.where} · ${each.p}`),
+      h("button", { type: "button", class: "line", "data-key": `failure-${index}`, click: () => point(each.axis, each.readings, each) },
+        h("span", {}, sentence(each.statement), " "), h("span", { class: "where" }, [each.where, each.p].filter(Boolean).join(" · ")),
         h("span", { class: "unseen" }, ` – ${texts.show}`))))),
   ];
 }
@@ -85,7 +88,7 @@ export function candidates(texts, found, actions) {
       group[0].equals.length > 0 && h("p", { class: "equals" }, group.length > 1 ? texts.alike : `${texts.equals}: ${group[0].equalNames.join(", ")}.`),
       !found.experiment && group[0].tell && h("p", { class: "tell" }, h("strong", {}, `${texts.tell}: `), group[0].tell)))),
     rest.length > 0 && h("ul", { class: "others" }, rest.map((each) => h("li", {},
-      about(each.effect, each.name), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
+      about(texts, each.effect, each.name), h("span", { class: "quiet" }, ` ${each.probability} · ${each.rmsAfter}`), add(texts, each, actions)))),
     found.notExcluded.length > 0 && h("p", { class: "quiet" }, `${texts.notExcluded}: ${found.notExcludedNames.join(", ")}`),
   ];
 }
@@ -130,9 +133,9 @@ function look(group) {
 function candidate(texts, each, actions) {
   const preview = () => actions.preview(each.argument, each.name);
   return h("article", { class: "candidate", pointerenter: preview, focusin: preview, pointerleave: () => actions.preview(null), focusout: () => actions.preview(null) },
-    h("div", { class: "heading" }, h("h3", {}, about(each.effect, each.name)), title(each), add(texts, each, actions)),
+    h("div", { class: "heading" }, h("h3", {}, about(texts, each.effect, each.name)), title(each), add(texts, each, actions)),
     h("div", { class: "gauge" }, h("span", {}, texts.probability), bar(each.share, "probability"), h("strong", {}, each.probability)),
-    h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), " ", explained(h("span", { class: "quiet" }, each.p), texts.pIs)),
+    h("p", { class: "predicted" }, `${texts.errorAfter}: `, each.rmsBefore, " → ", h("strong", {}, each.rmsAfter), " ", each.p && explained(h("span", { class: "quiet" }, each.p), texts.pIs)),
     h("p", {}, sentence(each.explains), "."),
     each.remedy && h("p", { class: "tell" }, h("strong", {}, `${texts.remedy}: `), each.remedy),
     wave(texts, each.name, actions.number, actions.wave(each.argument)),
@@ -146,7 +149,7 @@ export function effects(texts, job, actions) {
     h("h2", {}, texts.model),
     job.effects.length === 0 && h("p", { class: "quiet" }, texts.noEffects),
     h("ul", { class: "effects" }, job.effects.map((each) => h("li", {},
-      h("div", { class: "heading" }, h("h3", {}, about(each.effect, each.name)), title(each),
+      h("div", { class: "heading" }, h("h3", {}, about(texts, each.effect, each.name)), title(each),
         button(texts.remove, said(texts.removeEffect, { effect: each.name }), `remove-${each.effect}`, () => actions.remove(each.effect))),
       h("table", { class: "parameters" }, h("tbody", {}, each.parameters.map((own) => h("tr", {},
         h("th", { scope: "row" }, symbol(own.symbol), " ", h("span", { class: "quiet" }, own.description)),
@@ -184,14 +187,15 @@ function fixing(texts, { effect, name }, own, actions) {
 /** The fall chart: the error after each effect, down to the noise floor; a row shows its step in the graphs. */
 export function fall(texts, results, actions) {
   const { rows, floor, unit } = results.fall;
+  const leftOutIsKnown = rows.some((each) => each.left_out);
   const seen = (step, name) => (step > 0 ? { pointerenter: () => actions.preview(String(step), name), pointerleave: () => actions.preview(null) } : {});
   const row = (name, share, rms, leftOut, look, step = 0) => h("tr", { class: look, ...seen(step, results.fall.rows[step].name) },
-    h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), h("td", { class: "number" }, leftOut));
+    h("th", { scope: "row" }, name), h("td", { class: "bar" }, bar(share, look ?? "fallen", floor?.share)), h("td", { class: "number" }, rms), leftOutIsKnown && h("td", { class: "number" }, leftOut));
   return [
     h("h2", {}, texts.fall),
     h("table", { class: "fall" },
-      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, explained(`${texts.error} (${unit})`, texts.errorIs)), h("th", { scope: "col", class: "number" }, explained(`${texts.leftOut} (${unit})`, texts.leftOutIs)))),
-      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
+      h("thead", {}, h("tr", {}, h("th", { scope: "col" }, texts.effect), h("td", {}), h("th", { scope: "col", class: "number" }, explained(`${texts.error} (${unit})`, texts.errorIs)), leftOutIsKnown && h("th", { scope: "col", class: "number" }, explained(`${texts.leftOut} (${unit})`, texts.leftOutIs)))),
+      h("tbody", {}, rows.map((each, step) => row(each.effect ? stepButton(each, step, actions) : each.name || texts.withoutModel, each.share, each.rms, each.left_out, undefined, step)),
         floor && row(explained(texts.noiseFloor, texts.noiseFloorIs), floor.share, floor.rms, "", "floor"))),
   ];
 }
@@ -229,7 +233,7 @@ function standard(texts, each, forecast) {
 export function hidden(texts, found) {
   if (found.hidden.length + found.remarks.length === 0) return [];
   return [h("details", {}, h("summary", {}, h("h2", {}, texts.hidden)),
-    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(effect, each.names[index])]), `: ${each.reason}`))),
+    h("ul", { class: "hidden" }, found.hidden.map((each) => h("li", {}, each.effects.map((effect, index) => [index > 0 && ", ", about(texts, effect, each.names[index])]), `: ${each.reason}`))),
     found.remarks.length > 0 && [h("h3", {}, texts.remarks), h("ul", { class: "hidden" }, found.remarks.map((each) => h("li", {}, each)))])];
 }
 
@@ -381,8 +385,8 @@ function grouped(all) {
   return groups;
 }
 
-function about(effect, name) {
-  return h("a", { href: `${ROOT}/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, name);
+function about(texts, effect, name) {
+  return texts.machine ? name : h("a", { href: `${ROOT}/effects/${effect}${location.search}`, "data-key": `about-${effect}` }, name);
 }
 
 /** Return what an effect is called beside its name, where that says more. */

@@ -7,16 +7,17 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from zlmreport.cli.layout import section_lines
+from zlmreport.cli.machine_compensate import compensate
 from zlmreport.cli.terminal import Colour, print_json, shown_path
 from zlmreport.document.blocks import Block, Section
-from zlmreport.errors import InputError, Place, did_you_mean, quoted
+from zlmreport.errors import Place
 from zlmreport.files import Document, write
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, diagnosis_values
 from zlmreport.machines.document import machine_document
-from zlmreport.machines.editing import edit_effects
+from zlmreport.machines.editing import edit_effects, effects_with, effects_without
 from zlmreport.machines.planning import next_run, plan_values
 from zlmreport.machines.prediction import prediction_values
 from zlmreport.machines.reading import MachineFile, read_machine
@@ -132,25 +133,21 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
     return _laid_out(machine, sections), build_values(found)
 
 
+def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    sections, files, values = compensate(machine, registry, options)
+    further = [f"written: {', '.join(files)}"] if files else ["--output DIR writes it"]
+    return _laid_out(machine, sections, "", *further), values
+
+
 def _add(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Write an effect into the machine file, and say how the error changed."""
-    place = Place("zlmreport machine add")
-    effect = registry.circle_effect(options.effect, place)
-    if options.effect in machine.effect_names:
-        raise InputError.at(place, f"{options.effect} stands in the model already")
-    return _changed(machine, registry, (*machine.effects, effect))
+    effects = effects_with(machine, options.effect, registry, Place("zlmreport machine add"))
+    return _changed(machine, registry, effects)
 
 
 def _remove(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Take an effect out of the machine file, and say how the error changed."""
-    if options.effect not in machine.effect_names:
-        raise InputError.at(
-            machine.file.place_of("model", "effects"),
-            f"{quoted(options.effect)} does not stand in the model; "
-            + did_you_mean(options.effect, machine.effect_names),
-        )
-    kept = [each for each in machine.effects if each.identifier != options.effect]
-    return _changed(machine, registry, kept)
+    return _changed(machine, registry, effects_without(machine, options.effect))
 
 
 def _changed(
@@ -180,6 +177,7 @@ _ACTIONS = {
     "build": _build,
     "plan": _plan,
     "certificate": _certificate,
+    "compensate": _compensate,
     "add": _add,
     "remove": _remove,
 }

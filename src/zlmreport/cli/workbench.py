@@ -43,19 +43,25 @@ def run(options: Namespace) -> int:
 
 
 def _workbench(options: Namespace) -> Served:
-    """Return the page of a job, or that of a folder.
+    """Return the page of a job, of a machine, or of a folder.
 
-    Raises `InputError` if a folder stands beside other jobs, or holds none.
+    Raises `InputError` if a folder or a machine stands beside other files, or a folder holds none.
     """
     from zlmreport.web.app import Workbench  # noqa: PLC0415 - the extra is there
-    from zlmreport.web.folder import JobFolder, jobs_in  # noqa: PLC0415
+    from zlmreport.web.folder import JobFolder, is_machine, jobs_in  # noqa: PLC0415
     from zlmreport.web.folder_app import FolderWorkbench  # noqa: PLC0415
+    from zlmreport.web.machine_app import MachineWorkbench  # noqa: PLC0415
 
     registry, plugins = find_plugins(files=options.plugin), tuple(options.plugin)
     first, *others = (_job_of(each, registry) for each in options.jobs)
     folder = next((each for each in (first, *others) if each.is_dir()), None)
     if folder is None:
-        return Workbench.of((first, *others), registry, plugins)
+        machine = next(filter(is_machine, (first, *others)), None)
+        if machine is None:
+            return Workbench.of((first, *others), registry, plugins)
+        if others:
+            raise InputError.at(_PLACE, f"{machine} is a machine: name it alone; its tests stand in it")
+        return MachineWorkbench.of(machine, registry, plugins)
     if others:
         raise InputError.at(_PLACE, f"{folder} is a folder: name it alone, or the jobs in it one by one")
     jobs_in(first)

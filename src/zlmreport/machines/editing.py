@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from zlmreport.errors import InputError, Place
+from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import demanded, rewrite
 from zlmreport.job.contradictions import validate
 from zlmreport.job.extents import Written
@@ -21,8 +21,44 @@ from zlmreport.job.parse import LARGEST, decoded, parse
 from zlmreport.job.tree import Scalar
 from zlmreport.machines.keys import MachineKeys
 from zlmreport.machines.reading import MachineFile
+from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.plugin.registry import Registry
 
 _EFFECTS = ListKey("model", "effects")
+
+
+def effects_with(
+    machine: MachineFile, name: str, registry: Registry, place: Place
+) -> tuple[CircleEffect, ...]:
+    """Return the effects of a machine's model with one more.
+
+    Raises `InputError` at `place` if there is no such effect, or it stands in the model already.
+    """
+    effect = registry.circle_effect(name, place)
+    if name in machine.effect_names:
+        raise InputError.at(place, f"{name} stands in the model already")
+    return (*machine.effects, effect)
+
+
+def effects_without(machine: MachineFile, name: str) -> tuple[CircleEffect, ...]:
+    """Return the effects of a machine's model without one.
+
+    Raises `InputError` if it does not stand in the model.
+    """
+    if name not in machine.effect_names:
+        raise InputError.at(
+            machine.file.place_of("model", "effects"),
+            f"{quoted(name)} does not stand in the model; {did_you_mean(name, machine.effect_names)}",
+        )
+    return tuple(each for each in machine.effects if each.identifier != name)
+
+
+def put_back(machine: MachineFile, content: bytes) -> None:
+    """Write a machine file as it was before a change.
+
+    Raises as `edit_effects`.
+    """
+    rewrite(machine.path, content, lambda latest: _refuse_changed(machine.path, latest, machine))
 
 
 def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:

@@ -46,6 +46,12 @@ _SQUARE: Mapping[str, tuple[int, int, float]] = MappingProxyType(
 )
 
 
+def square_slope(error: str) -> tuple[str, str, float]:
+    """Return of a squareness error which axis is off along which, and how Δ grows with each rad of it."""
+    direction, along, sign = _SQUARE[error]
+    return AXES[direction], AXES[along], sign
+
+
 @dataclass(frozen=True, slots=True)
 class Chain:
     """The order of the axes from workpiece to tool, with F for the bed: ``XYFZ``."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from zlmreport.model.compensation.cross import (
+    CrossTable,
+)
 from zlmreport.model.compensation.curve import (
     CompensationTable,
 )
@@ -12,4 +15,5 @@ from zlmreport.plugin.protocols import (
 __all__ = [
     "CompensationTable",
     "Controller",
+    "CrossTable",
 ]

@@ -277,7 +277,10 @@ class Controller(Protocol):
     """A writer and reader of compensation tables in the words of a control.
 
     One more attribute, ``most_rows``, is the number of rows that the control takes; one that lacks it takes
-    any number.
+    any number. One that takes tables across axes has ``cross_sign``, ``known`` or ``stated``: whether it is
+    known which way a positive value moves an axis, or the user has to say; ``cross_notes``, as ``notes``;
+    ``cross_files(tables, moves)`` and ``read_cross(files, tables, moves)``, with `CrossTable` values and
+    +1 or −1, the way in which a positive value moves the axis.
 
     Attributes
     ----------

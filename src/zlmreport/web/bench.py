@@ -17,6 +17,7 @@ from zlmreport.evaluation.correction.corrections import without_excluded
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.model.diagnosis.study import Fitted, Study, addition
@@ -50,6 +51,11 @@ class Loaded:
     def digest(self) -> str:
         """SHA-256 of the job file: what a change says that it was made from."""
         return self.job.files[0].sha256
+
+    @property
+    def language(self) -> Language:
+        """Of its certificate."""
+        return self.job.keys.certificate.language
 
     @property
     def content(self) -> str:

@@ -16,6 +16,7 @@ from zlmreport.errors import InputError
 from zlmreport.files import Document, write
 from zlmreport.job.job import Job
 from zlmreport.language import Language
+from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.making import Making, documents, values
 
@@ -68,7 +69,11 @@ class Commands:
         """
         loaded, path = self.bench.loaded(), self.bench.path
         if name == "certificate":
-            arguments = [str(path.resolve()), *self._sheet(loaded.job, wanted), *self._formats(wanted)]
+            arguments = [
+                str(path.resolve()),
+                *self._sheet(loaded.job, wanted),
+                *demanded_formats(wanted, self.bench.registry),
+            ]
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
             arguments = ["compensate", str(path.resolve()), *self._control(wanted), "--output", folder]
@@ -93,8 +98,7 @@ class Commands:
 
     def file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
-        found = (each.file(name) for each in self.making.values())
-        return next((path for path in found if path is not None and path.is_file()), None)
+        return made_file(self.making, name)
 
     def end(self) -> None:
         """End all that is under way, and take away what was only looked at."""
@@ -128,11 +132,6 @@ class Commands:
                 self._aside = TemporaryDirectory(prefix="zlmreport-workbench-", ignore_cleanup_errors=True)
             return self._aside.name
 
-    def _formats(self, wanted: Wanted) -> list[str]:
-        for each in wanted.formats:
-            _demand(each, [renderer.identifier for renderer in self.bench.registry.renderers], "format")
-        return ["--format", ",".join(wanted.formats)] if wanted.formats else []
-
     def _effects(self, wanted: Wanted) -> Sequence[str]:
         for each in wanted.effects:
             _demand(each, [effect.identifier for effect in self.bench.registry.effects], "effect")
@@ -144,6 +143,22 @@ class Commands:
         if wanted.step is not None:
             chosen += ["--step", f"{wanted.step:.10g}"]
         return [*chosen, "--unconfirmed"] if wanted.unconfirmed else chosen
+
+
+def demanded_formats(wanted: Wanted, registry: Registry) -> list[str]:
+    """Return the formats that a page wants as the command line has them; none for those of the file.
+
+    Raises `InputError` if one is none that the page offered.
+    """
+    for each in wanted.formats:
+        _demand(each, [renderer.identifier for renderer in registry.renderers], "format")
+    return ["--format", ",".join(wanted.formats)] if wanted.formats else []
+
+
+def made_file(making: Mapping[str, Making], name: str) -> Path | None:
+    """Return where a file lies that one of several commands wrote; None for any other name."""
+    found = (each.file(name) for each in making.values())
+    return next((path for path in found if path is not None and path.is_file()), None)
 
 
 def siblings(path: Path) -> list[str]:

@@ -15,7 +15,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from threading import Lock, Thread
@@ -27,6 +27,7 @@ from zlmreport.files import Document, cache_folder, write
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.deciding import experiment_of_tie, experiment_values
 from zlmreport.model.planning.experiment import Experiment
@@ -48,7 +49,7 @@ class DiagnosesByContent:
     _known: dict[str, Any] = field(default_factory=dict)
 
     @classmethod
-    def of_user(cls, effects: Iterable[Effect]) -> DiagnosesByContent:
+    def of_user(cls, effects: Iterable[Effect | CircleEffect]) -> DiagnosesByContent:
         """Return those of a user, of this program with these effects."""
         folder = cache_folder()
         return cls(folder / "diagnoses" if folder else None, _program(effects))
@@ -77,7 +78,7 @@ class DiagnosesByContent:
         return f"{hashlib.sha256(f'{self.program} {content}'.encode()).hexdigest()}.json"
 
 
-def _program(effects: Iterable[Effect]) -> str:
+def _program(effects: Iterable[Effect | CircleEffect]) -> str:
     """Return what tells this program and its effects, as they stand in their files, from any other."""
     package = Path(version.__file__).parent
     modules = (sys.modules.get(each.__class__.__module__) for each in effects)
@@ -88,7 +89,7 @@ def _program(effects: Iterable[Effect]) -> str:
 
 _SHARE = "share-done"
 _TOLD = f'{{"{_SHARE}"'
-_COMMAND = (sys.executable, "-m", "zlmreport.web.diagnoses")
+_MODULE = "zlmreport.web.diagnoses"
 
 
 @dataclass(slots=True)
@@ -98,6 +99,7 @@ class Diagnoses:
     path: Path  #: The job file.
     answers: DiagnosesByContent  #: Diagnoses that were made before.
     plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
+    module: str = _MODULE  #: What answers, run as a program.
     _worker: subprocess.Popen[str] | None = None
     _asked: str = ""
     _began: float = 0.0
@@ -174,7 +176,13 @@ class Diagnoses:
         if self._worker is None:
             environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8"}
             self._worker = subprocess.Popen(  # noqa: S603 - this program itself
-                [*_COMMAND, str(self.path.resolve()), *(str(each.resolve()) for each in self.plugins)],
+                [
+                    sys.executable,
+                    "-m",
+                    self.module,
+                    str(self.path.resolve()),
+                    *(str(each.resolve()) for each in self.plugins),
+                ],
                 stdin=subprocess.PIPE,
                 stdout=subprocess.PIPE,
                 encoding="utf-8",
@@ -199,8 +207,13 @@ def main() -> None:
     path, *plugins = map(Path, sys.argv[1:])
     registry = find_plugins(files=plugins)
     bench = Bench(path, registry)
+    answer_all(lambda told: answer(bench, registry, told))
+
+
+def answer_all(answered: Callable[[Told], dict[str, Any]]) -> None:
+    """Answer each line of standard input by one of JSON; before it, how much is done."""
     for _ in sys.stdin:
-        print(json.dumps(answer(bench, registry, _tell)), flush=True)  # noqa: T201 - the answer
+        print(json.dumps(answered(_tell)), flush=True)  # noqa: T201 - the answer
 
 
 def _tell(share: float) -> None:

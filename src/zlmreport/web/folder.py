@@ -1,4 +1,4 @@
-"""The jobs of a folder on one page: what fails, what is due, what is fine; each opens as a workbench."""
+"""The jobs and machines of a folder on one page: what fails, is due, is fine; each opens as a workbench."""
 
 from __future__ import annotations
 
@@ -20,18 +20,22 @@ from zlmreport.job.contradictions import last_day
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
+from zlmreport.machines.reading import read_machine
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.plugin.registry import Registry
+from zlmreport.verification.carrier import results_in
 from zlmreport.web.bench import PLACE, Bench, stamp_of
 
 #: What is due within this time may be planned now.
 SOON = dt.timedelta(days=90)
 _SUFFIXES = {".yaml", ".yml"}
-_JOB = re.compile(r"^schema:\s*[\"']?zlmreport/job/", re.MULTILINE)
+_SCHEMA = re.compile(r"^schema:\s*[\"']?zlmreport/(job|machine)/", re.MULTILINE)
+_MACHINE = "machine"
 #: The line that says what a file is stands among its first; comments may come before it.
 _HEAD = 20_000
 _MOST = 2_000
 _NO_AXIS = Words("")
+_WHOLE = Words("Machine, axes {chain}")
 
 
 class JobState(IntEnum):
@@ -91,7 +95,7 @@ class JobRow:
 
 
 def jobs_in(folder: Path) -> tuple[Path, ...]:
-    """Return the job files below a folder, by their names; hidden folders are passed over.
+    """Return the job and machine files below a folder, by their names; hidden folders are passed over.
 
     Raises `AccessError` if the folder cannot be read, `InputError` if there is none in it.
     """
@@ -102,7 +106,7 @@ def jobs_in(folder: Path) -> tuple[Path, ...]:
     jobs = tuple(path for path in found if _is_job(path, folder))[:_MOST]
     if not jobs:
         raise InputError.at(
-            PLACE, f"{folder}: no job file lies here; one begins with 'schema: zlmreport/job/1'"
+            PLACE, f"{folder}: no job or machine file lies here; one begins with 'schema: zlmreport/job/1'"
         )
     return jobs
 
@@ -112,10 +116,24 @@ def _is_job(path: Path, folder: Path) -> bool:
     if hidden or path.suffix not in _SUFFIXES or not path.is_file():
         return False
     try:
-        with path.open(encoding="utf-8", errors="replace") as file:
-            return bool(_JOB.search(file.read(_HEAD)))
+        return _schema(path) != ""
     except OSError:
         return True  # it is listed, with what is wrong
+
+
+def is_machine(path: Path) -> bool:
+    """Return whether a file is a machine file; one that cannot be read is none."""
+    try:
+        return _schema(path) == _MACHINE
+    except OSError:
+        return False
+
+
+def _schema(path: Path) -> str:
+    """Return whether a file says that it is a job or a machine; nothing for any other."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        found = _SCHEMA.search(file.read(_HEAD))
+    return found[1] if found else ""
 
 
 @dataclass(slots=True)
@@ -170,6 +188,8 @@ class JobFolder:
 def looked_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
     """Return a job with all that its files say, and these files; a job that cannot be evaluated fails."""
     files = [path]
+    if is_machine(path):
+        return _machine(row, path, registry)
     try:
         job = load(path, registry)
         row, files = _described(row, job), _known_paths(job.files)
@@ -180,15 +200,36 @@ def looked_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tupl
             evaluated += pipeline.evaluated(part, readings, registry)
         row = replace(row, state=_state(evaluated))
     except ZlmreportError as error:
-        # Which of the files will be mended nobody knows: those that are named.
-        files += [Path(each.place.file) for each in error.problems]
-        problems = tuple(str(each) for each in error.problems)
-        return replace(row, state=JobState.FAILS, problems=problems), tuple(dict.fromkeys(files))
+        return _failing(row, files, error)
     try:
         Bench(path, registry).tried(job)
     except ZlmreportError as error:
         row = replace(row, closed=error.problems[0].message)
     return row, tuple(dict.fromkeys(files))
+
+
+def _failing(row: JobRow, files: Sequence[Path], error: ZlmreportError) -> tuple[JobRow, tuple[Path, ...]]:
+    """Return a file that cannot be evaluated, and what is watched: those of its files that are named, too."""
+    named = (Path(each.place.file) for each in error.problems)
+    problems = tuple(str(each) for each in error.problems)
+    return replace(row, state=JobState.FAILS, problems=problems), tuple(dict.fromkeys((*files, *named)))
+
+
+def _machine(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
+    """Return a machine file with all that it names."""
+    try:
+        machine = read_machine(path, registry, results_in)
+    except ZlmreportError as error:
+        return _failing(row, [path], error)
+    names = machine.file.keys.machine
+    found = replace(
+        row,
+        state=JobState.FINE,
+        number=machine.number,
+        machine=" ".join(filter(None, (names.type, names.serial or ""))),
+        axis=_WHOLE.given(chain=machine.machine.chain.letters),
+    )
+    return found, tuple(dict.fromkeys(_known_paths(machine.sources)))
 
 
 def _known_paths(files: Sequence[SourceFile]) -> list[Path]:

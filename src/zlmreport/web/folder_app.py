@@ -18,9 +18,11 @@ from starlette.types import Receive, Scope, Send
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
 from zlmreport.plugin.registry import Registry
-from zlmreport.web.app import Workbench, file, language_of, shell
-from zlmreport.web.folder import JobFolder, row_values
+from zlmreport.web.answers import file, language_of, shell
+from zlmreport.web.app import Workbench
+from zlmreport.web.folder import JobFolder, is_machine, row_values
 from zlmreport.web.guard import Door, DoorKeeper
+from zlmreport.web.machine_app import MachineWorkbench
 from zlmreport.web.texts import texts
 
 
@@ -31,7 +33,7 @@ class FolderWorkbench:
     folder: JobFolder
     registry: Registry
     plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
-    _opened: dict[str, tuple[Workbench, Starlette]] = field(default_factory=dict)
+    _opened: dict[str, tuple[Workbench | MachineWorkbench, Starlette]] = field(default_factory=dict)
     _lock: Lock = field(default_factory=Lock)
 
     def warm_up(self) -> None:
@@ -88,7 +90,8 @@ class FolderWorkbench:
                 path = self.folder.paths().get(key)
                 if path is None:
                     return None
-                workbench = Workbench.on(path, self.registry, self.plugins)
+                kind = MachineWorkbench if is_machine(path) else Workbench
+                workbench = kind.on(path, self.registry, self.plugins)
                 self._opened[key] = workbench, workbench.routed()
             return self._opened[key][1]
 

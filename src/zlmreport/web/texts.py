@@ -187,6 +187,56 @@ TEXTS: Mapping[str, Words] = MappingProxyType(
     }
 )
 
+#: What the page of a machine says otherwise, or besides.
+MACHINE_TEXTS: Mapping[str, Words] = MappingProxyType(
+    {
+        "measured": Words("Measured against axes and effects"),
+        "model": Words("Effects of drives and structure"),
+        "noEffects": Words("The model has no effect yet. Begin with centre-offset and radius."),
+        "failures": Words("Where it differs"),
+        "noFailures": Words("Nowhere does a test leave its band."),
+        "certificate": Words("Document"),
+        "makeCertificate": Words("Make the document"),
+        "making": Words("The document is being made …"),
+        "tests": Words("Tests of this machine"),
+        "upwardsCircle": Words("counter-clockwise ↺"),
+        "downwardsCircle": Words("clockwise ↻"),
+        "modelUpCircle": Words("axes, effects ↺, U of the axes"),
+        "modelDownCircle": Words("axes, effects ↻, U of the axes"),
+        "modelUp": Words("axes ↑ with U"),
+        "modelDown": Words("axes ↓ with U"),
+        "resetCircle": Words("Whole circle"),
+        "reset": Words("Whole line"),
+        "targetCircle": Words("Angle"),
+        "target": Words("Place"),
+        "run": Words("Turn"),
+        "directionCircle": Words("Sense"),
+        "zoom": Words("Drag to look closer, with Shift to move; double-click for the whole."),
+        "noiseFloorIs": Words(
+            "Scatter, and irregular shape without a name: what is left once all that was found is in the "
+            "model. No effect takes it away."
+        ),
+        "errorIs": Words(
+            "Root mean square of all circles together, without where the bar stands and how long it is."
+        ),
+        "build": Words("Step by step"),
+        "stairs": Words("The error falls, step by step"),
+        "jobs": Words("Jobs of this folder"),
+        "outside": Words(
+            "The machine file was changed outside of this page; it shows the machine as it is now."
+        ),
+        "broken": Words(
+            "The machine file cannot be read as it is. Mend it in the editor; this page goes on by itself."
+        ),
+    }
+)
+
+
+def machine_texts(language: Language) -> dict[str, str]:
+    """Return all words of the page of a machine in one language, and that it is one."""
+    own = {name: words.in_language(language) for name, words in MACHINE_TEXTS.items()}
+    return {**texts(language), **own, "machine": "machine"}
+
 
 def texts(language: Language) -> dict[str, str]:
     """Return all of them in one language."""

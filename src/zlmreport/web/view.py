@@ -38,7 +38,7 @@ _STEPS = {
     "redo": Words("done again: {subject}"),
 }
 #: Steps that are shown; the file beside the job holds all of them.
-_SHOWN = 30
+SHOWN = 30
 
 
 def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
         "others": panels.others(),
         "excluded": panels.excluded(),
         "offered": offered(bench, loaded, language),
-        "steps": [step(each, language, names) for each in reversed(entries[-_SHOWN:])],
+        "steps": [step(each, language, names) for each in reversed(entries[-SHOWN:])],
         "asked": [
             {
                 "key": each.key,
@@ -74,7 +74,7 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
             )
         ],
         **{
-            name: None if entry is None else names.text(_done(entry).in_language(language))
+            name: None if entry is None else names.text(done_by(entry).in_language(language))
             for name, entry in zip((UNDO, REDO), steps, strict=True)
         },
     }
@@ -128,13 +128,13 @@ def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str,
 
 def step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
-    words = _done(entry)
+    words = done_by(entry)
     if entry.action in {UNDO, REDO}:
         words = _STEPS[entry.action].given(subject=words)
     return {"at": entry.at[11:19], "text": names.text(words.in_language(language))}
 
 
-def _done(entry: JournalStep) -> Words:
+def done_by(entry: JournalStep) -> Words:
     """Return what a step did; of one that took another back or brought it back, what that did."""
     action, subject = entry.action, entry.subject
     if action in {UNDO, REDO}:

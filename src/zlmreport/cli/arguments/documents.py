@@ -40,6 +40,7 @@ MACHINE_ACTIONS = {
     "plan": "the next run of a ballbar: what it decides, in how many minutes, how likely",
     "build": "add effects as long as each has evidence of its own, and write them into the file",
     "certificate": "write the document: errors, map, circles predicted and measured, verdict",
+    "compensate": "tables across axes for a control (straightness, squareness), with their forecast",
     "add": "write an effect into the machine file, and show the error before and after",
     "remove": "take an effect out of the machine file, and show the same",
 }
@@ -290,10 +291,23 @@ def machine(command: str) -> CommandParser:
         "--output",
         metavar="DIR",
         type=Path,
-        help="of certificate: folder; out beside the file without it",
+        help="folder, of certificate (out beside the file without it) and of compensate",
     )
     parser.add_argument(
         "--format", metavar="F,F", help="of certificate: formats, parted by commas; without it pdf,json"
+    )
+    parser.add_argument("--controller", metavar="NAME", help="of compensate: for which control")
+    parser.add_argument(
+        "--moves",
+        choices=("plus", "minus"),
+        help="of compensate: which way a positive value moves an axis, where that is not known",
+    )
+    parser.flag("--trial", "of compensate: a file with one value, which shows that way")
+    parser.add_argument(
+        "--step",
+        metavar="MM",
+        type=position,
+        help="of compensate: between rows; as measured without it",
     )
     parser.flag("--dry-run", "of build: write nothing")
     parser.flag("--json", "print the values in full precision as JSON")
@@ -311,6 +325,9 @@ def demand_machine_action(options: argparse.Namespace, parser: CommandParser) ->
         parser.error(f"{options.action} needs the name of an effect, such as servo-mismatch")
     if not takes_effect and options.effect:
         parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
+    named = ("controller", "moves", "trial", "step")
+    if options.action != "compensate" and (given := [each for each in named if getattr(options, each)]):
+        parser.error(f"--{given[0]} belongs to compensate, not to {options.action}")
     if options.dry_run and options.action != "build":
         parser.error(f"--dry-run belongs to build, not to {options.action}")
 
@@ -436,9 +453,11 @@ def workbench(command: str) -> CommandParser:
         "Open the error model of a job as a web page of this computer: compare the model with the\n"
         "readings, see where it fails, add what is missing, watch the error fall. Every click is\n"
         "written into the job (comments stay) and recorded beside it. Further jobs are other tests of\n"
-        "the axis: they are laid over the first, and nothing is written into them. A folder opens as a\n"
-        "list of its jobs: what fails, what is due. The page opens by the printed address alone.",
+        "the axis: they are laid over the first, and nothing is written into them. A machine file opens\n"
+        "the same loop for a whole machine. A folder opens as a list of its jobs and machines: what\n"
+        "fails, what is due. The page opens by the printed address alone.",
         "examples:\n  zlmreport workbench x-axis.yaml\n  zlmreport workbench after.yaml before.yaml\n"
+        "  zlmreport workbench machine.yaml\n"
         "  zlmreport workbench jobs/\n  zlmreport workbench readings.csv\n"
         "  zlmreport workbench x-axis.yaml --port 8420 --no-browser",
     )
@@ -447,8 +466,8 @@ def workbench(command: str) -> CommandParser:
         metavar="JOB.yaml",
         type=Path,
         nargs="+",
-        help="job file, then those of other tests of it; or a folder of jobs; or a file of readings, for\n"
-        "which a job is written beside it",
+        help="job file, then those of other tests of it; or a machine file, or a folder of them; or a file\n"
+        "of readings, for which a job is written beside it",
     )
     parser.add_argument(
         "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"

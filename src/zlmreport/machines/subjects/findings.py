@@ -13,6 +13,7 @@ from zlmreport.language.numbers import significant_words
 from zlmreport.machines.choosing import with_form
 from zlmreport.machines.diagnosis import MachineDiagnosis
 from zlmreport.machines.forms import plain_form
+from zlmreport.machines.planning import NextRun
 from zlmreport.machines.study import CircleStudy, EstimatedTerm, said_estimates
 from zlmreport.machines.subjects.saying import Sayer, plain_table, right
 from zlmreport.measurement.units import MICROMETRE
@@ -111,7 +112,12 @@ def verdict_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
 
 
 def absence_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
-    """Return what was looked for and not found, with what of it there might be; None where nothing was."""
+    """Return what was looked for and not found, with what of it there might be; None where nothing was.
+
+    Beside something that is there and has no name yet, nothing is told: its share stands in every estimate.
+    """
+    if diagnosis.is_tied:
+        return None
     sentences = [
         _sentence(say(one))
         for each in absent(diagnosis.complete, diagnosis.catalogue)
@@ -195,6 +201,26 @@ def _rms(study: CircleStudy) -> float:
     return float(np.sqrt(np.mean(study.residual**2)))
 
 
+def next_words(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
+    """Return what to do next: the effect to add, the run that decides, where to look, or the document."""
+    if diagnosis.found:
+        first = diagnosis.steps[0]
+        title = next(
+            each.effect.title for each in diagnosis.candidates if each.effect.identifier == first.effect
+        )
+        before, after, noise = (
+            significant_words(MICROMETRE.from_si(each), 2)
+            for each in (first.before, first.after, first.noise)
+        )
+        return _NEXT_ADD.given(effect=title, before=before, after=after, noise=noise)
+    if diagnosis.is_tied and planned.proposals:
+        first_run = planned.proposals[0]
+        return _NEXT_RUN.given(run=first_run.what, minutes=round(first_run.minutes))
+    if diagnosis.verdict is Verdict.ADEQUATE:
+        return _NEXT_DOCUMENT
+    return _NEXT_LOOK
+
+
 def said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
     """Yield what is said of a diagnosis, but for its tests."""
     yield verdict_section(diagnosis, say)
@@ -203,6 +229,15 @@ def said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
             yield section
 
 
+_NEXT_ADD = Words(
+    "Next: add {effect}. The error falls from {before} µm to {after} µm; the noise is {noise} µm."
+)
+_NEXT_RUN = Words("Next: run {run}, {minutes} minutes; then one of them can be named.")
+_NEXT_DOCUMENT = Words("Next: nothing is missing; write the document.")
+_NEXT_LOOK = Words(
+    "Next: repeat the run. If it comes again, look at the machine where the residual stands out: no "
+    "effect of the catalogue has its shape."
+)
 _VERDICT = Words("Verdict")
 _ADEQUATE = Words("Axes and effects describe the circles: nothing is left that the scatter does not explain.")
 _MISSING = Words("Missing: {effects}.")

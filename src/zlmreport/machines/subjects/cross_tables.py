@@ -1,0 +1,114 @@
+"""Tables across axes as people read them: what they hold, which way they act, what they will leave."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Symbol
+from zlmreport.language import Words
+from zlmreport.machines.cross_tables import CrossForecast, CrossPlan
+from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.model.compensation.cross import CrossTable
+
+
+def tables_section(
+    plan: CrossPlan, written: Sequence[CrossTable], notes: Sequence[Words], say: Sayer
+) -> Section:
+    """Return what the tables hold as the control reads them, and what is left out."""
+    rows: list[tuple[Cell, ...]] = [
+        (
+            each.input,
+            each.output,
+            say.span(float(each.positions[0]), float(each.positions[-1])),
+            str(len(each.positions)),
+            say.micrometres(float(np.ptp(each.values))),
+        )
+        for each in written
+    ]
+    columns = (
+        Column(say(_MOVES)), Column(say(_ASIDE)), Column(say(_RANGE), "mm"), right(say(_ROWS)),
+        right(say(_SPAN), "µm"),
+    )  # fmt: skip
+    blocks: list[Block] = [
+        plain_table(say(_TABLES), columns, rows),
+        Paragraph(say(_HELD.given(errors=", ".join(plan.taken)))),
+    ]
+    if plan.within_uncertainty:
+        blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))
+    blocks += [Paragraph(say(_LEFT)), Notice(say(_BEFORE_LOADING), tuple(say(each) for each in notes))]
+    return Section("cross-tables", say(_TABLES), tuple(blocks))
+
+
+def sign_section(moves: int, say: Sayer) -> Section:
+    """Return which way a positive value acts, as it was stated, with what shows that it does."""
+    return Section("sign", say(_SIGN), (Paragraph(say(_STATED[moves])), Paragraph(say(_CHECK))))
+
+
+def trial_section(table: CrossTable, peak: float, say: Sayer) -> Section:
+    """Return what to do with the trial file, and what its outcome says."""
+    middle = float(table.positions[len(table.positions) // 2])
+    said = _TRIAL.given(
+        output=table.output,
+        input=table.input,
+        low=say.millimetres(float(table.positions[0])),
+        at=say.millimetres(middle),
+        peak=say.micrometres(peak),
+    )
+    return Section("trial", say(_TRIAL_TITLE), (Paragraph(say(said)),))
+
+
+def forecast_section(found: CrossForecast, say: Sayer) -> Section:
+    """Return circles, diagonals and the largest error before and after."""
+    rows = list(_forecast_rows(found, say))
+    columns = (Column(""), right(say(_NOW), "µm"), right(say(_WITH), "µm"))
+    table = plain_table(say(_FORECAST), columns, rows)
+    return Section("forecast", say(_FORECAST), (table, Paragraph(say(_NO_MEASUREMENT))))
+
+
+def _forecast_rows(found: CrossForecast, say: Sayer) -> Iterator[tuple[Cell, ...]]:
+    for each in found.circles:
+        yield f"{each.name}, RMS", say.micrometres(each.before), say.micrometres(each.after)
+        for notation, before, after in each.numbers:
+            yield Symbol(notation), say.micrometres(before), say.micrometres(after)
+    for name, before, after in found.diagonals:
+        yield say(_DIAGONAL.given(name=name)), say.micrometres(before), say.micrometres(after)
+    if found.largest:
+        yield say(_LARGEST), *map(say.micrometres, found.largest)
+
+
+_TABLES = Words("Tables across axes")
+_MOVES, _ASIDE = Words("moves"), Words("is corrected")
+_RANGE, _ROWS, _SPAN = (
+    Words("from–to"),
+    Words("rows"),
+    Words("span"),
+)
+_HELD = Words("They hold {errors}.")
+_SMALL = Words("Left out, for they are no larger than their uncertainty: {errors}.")
+_LEFT = Words(
+    "Angles and their arms are left: a table over one axis does not hold them. Positions have tables of "
+    "their own: zlmreport compensate."
+)
+_BEFORE_LOADING = Words("Before it is loaded")
+_SIGN = Words("The sign")
+_STATED = {
+    1: Words("Stated: a positive value moves the axis in its positive direction. So the rows are −e."),
+    -1: Words("Stated: a positive value moves the axis in its negative direction. So the rows are +e."),
+}
+_CHECK = Words(
+    "Load, and measure one line or circle again: the error must shrink. If it doubles, the sign is wrong."
+)
+_TRIAL_TITLE = Words("A trial value")
+_TRIAL = Words(
+    "The file holds nothing of the machine: only +{peak} µm for {output} at {input} {at} mm, and zero at "
+    "both ends. Load it with the axes clear, set an indicator against {output}, and move {input} from {low} "
+    "to {at} mm. If {output} goes in its positive direction, state --moves plus, else --moves minus; then "
+    "remove the file."
+)
+_FORECAST = Words("Forecast")
+_NOW, _WITH = Words("now"), Words("with the tables")
+_DIAGONAL = Words("diagonal {name}, E, predicted")
+_LARGEST = Words("largest error of the work space, predicted")
+_NO_MEASUREMENT = Words("A forecast is no measurement: run the circle again with the tables in effect.")

@@ -1,0 +1,248 @@
+"""What every page of a file on the bench is answered: shell and files, changes, diagnosis, what is made."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Protocol
+
+from pydantic import ValidationError
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request as HttpRequest
+from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
+from starlette.routing import Route
+
+from zlmreport.document.typesetting.resources import page_file
+from zlmreport.document.typesetting.templates import WorkbenchContext, render
+from zlmreport.errors import ZlmreportError
+from zlmreport.language import Language, Words, accepted_language
+from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
+from zlmreport.web.commands import Wanted
+from zlmreport.web.diagnoses import Diagnoses
+from zlmreport.web.making import Making, page_picture
+from zlmreport.web.texts import texts
+
+OTHER_PAGE = "the request is none of a page of this version"
+_TITLE = Words("Workbench")
+_NO_SCRIPT = Words("The workbench needs JavaScript, which comes from this computer alone.")
+
+
+class LoadedFile(Protocol):
+    """A file on the bench as it was read."""
+
+    @property
+    def content(self) -> str:
+        """Names what stands in all files behind it."""
+
+    @property
+    def language(self) -> Language:
+        """Of its document."""
+
+
+class FileBench(Protocol):
+    """A file that is worked on."""
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+
+    def stamp(self) -> str:
+        """Return the name of the state of all files behind it."""
+
+    def loaded(self) -> LoadedFile:
+        """Return the file as it is now."""
+
+
+class FileCommands(Protocol):
+    """What a page can have made."""
+
+    @property
+    def making(self) -> Mapping[str, Making]:
+        """What is under way or done, by its name."""
+
+    def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
+        """Begin to make something, and return how far it is."""
+
+    def file(self, name: str) -> Path | None:
+        """Return where a file lies that was made."""
+
+    def end(self) -> None:
+        """End all that is under way."""
+
+
+class PageAnswers:
+    """The answers that pages of all kinds have alike; what is shown and what a click does, each kind says."""
+
+    __slots__ = ()
+
+    bench: FileBench  #: The file.
+    #: diagnoses and commands: Made beside, each in a process of its own.
+    diagnoses: Diagnoses
+    commands: FileCommands
+
+    def viewed(self, language: Language) -> dict[str, Any]:
+        """Return all that the page shows at once."""
+        raise NotImplementedError
+
+    def changed(self, wanted: Request) -> None:
+        """Do what a click asks for."""
+        raise NotImplementedError
+
+    def told(self, state: dict[str, Any], language: Language) -> dict[str, Any]:  # noqa: ARG002 - as it is
+        """Return how far something is that is being made, as the page shows it."""
+        return state
+
+    def page_texts(self, language: Language) -> dict[str, str]:
+        """Return the words of the page."""
+        return texts(language)
+
+    def warm_up(self) -> None:
+        """Start what the first diagnosis need not wait for."""
+        self.diagnoses.warm_up()
+
+    def end(self) -> None:
+        """End what is under way beside, and take its files away."""
+        self.diagnoses.end()
+        self.commands.end()
+
+    def routes(self) -> list[Route]:
+        """Return the addresses that all pages have."""
+        return [
+            Route("/", self.page),
+            Route("/files/{name}", file),
+            Route("/documents/{name}", self.document),
+            Route("/documents/{name}/{page:int}.png", self.picture),
+            Route("/api/texts", self.texts),
+            Route("/api/job", self.job),
+            Route("/api/diagnosis", self.diagnosis),
+            Route("/api/diagnosis/stop", self.stop, methods=["POST"]),
+            Route("/api/change", self.change, methods=["POST"]),
+            Route("/api/made/{name}", self.made),
+            Route("/api/made/{name}/stop", self.stop_making, methods=["POST"]),
+            Route("/api/made/{name}", self.make, methods=["POST"]),
+        ]
+
+    async def page(self, request: HttpRequest) -> Response:
+        """Answer with the page of the file, or of a part of it; it fills itself."""
+        return shell(await run_in_threadpool(self.language, request), self.bench.path.name)
+
+    async def document(self, request: HttpRequest) -> Response:
+        """Answer with a file that was made from the page, by its name."""
+        path = self.commands.file(request.path_params["name"])
+        return Response(status_code=404) if path is None else FileResponse(path, filename=path.name)
+
+    async def picture(self, request: HttpRequest) -> Response:
+        """Answer with a page of a PDF that was made from the page, as a picture."""
+        path = self.commands.file(request.path_params["name"])
+        if path is None or path.suffix != ".pdf":
+            return Response(status_code=404)
+        found = await run_in_threadpool(page_picture, path, request.path_params["page"])
+        return Response(status_code=404) if found is None else Response(found, media_type="image/png")
+
+    async def texts(self, request: HttpRequest) -> Response:
+        """Answer with the words of the page."""
+        return JSONResponse(self.page_texts(await run_in_threadpool(self.language, request)))
+
+    async def job(self, request: HttpRequest) -> Response:
+        """Answer with the file as values."""
+        return await self.answered(request, lambda: self.viewed(self.language(request)))
+
+    async def diagnosis(self, request: HttpRequest) -> Response:
+        """Answer with the diagnosis of the file, or with the seconds for which it has been under way."""
+
+        def found() -> dict[str, Any]:
+            answer = self.diagnoses.of(self.bench.loaded().content)
+            if "diagnosis" in answer:
+                return {**answer, "diagnosis": answer["diagnosis"][self.language(request).value]}
+            return answer
+
+        return await self.answered(request, found)
+
+    async def stop(self, _: HttpRequest) -> Response:
+        """Let go of the diagnosis that is under way."""
+        await run_in_threadpool(self.diagnoses.stop)
+        return JSONResponse({})
+
+    async def made(self, request: HttpRequest) -> Response:
+        """Answer with how far something is that is being made."""
+        making = self.commands.making.get(request.path_params["name"])
+        if making is None:
+            return Response(status_code=404)
+        return await self.answered(request, lambda: self.told(making.state(), self.language(request)))
+
+    async def stop_making(self, request: HttpRequest) -> Response:
+        """End what is being made."""
+        making = self.commands.making.get(request.path_params["name"])
+        if making is None:
+            return Response(status_code=404)
+        await run_in_threadpool(making.end)
+        return JSONResponse({})
+
+    async def make(self, request: HttpRequest) -> Response:
+        """Begin to make something."""
+        name = request.path_params["name"]
+        if name not in self.commands.making:
+            return Response(status_code=404)
+        try:
+            wanted = Wanted.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
+        return await self.answered(request, lambda: self.commands.begin(name, wanted))
+
+    async def change(self, request: HttpRequest) -> Response:
+        """Do what a click asks for, and answer with the file as it is then."""
+        try:
+            wanted = Request.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
+
+        def changed() -> dict[str, Any]:
+            self.changed(wanted)
+            return self.viewed(self.language(request))
+
+        return await self.answered(request, changed)
+
+    async def answered(self, request: HttpRequest, work: Callable[[], dict[str, Any]]) -> Response:
+        """Answer with what some work comes to, or with what stands against it."""
+        try:
+            return JSONResponse(await run_in_threadpool(work))
+        except (ConflictError, NothingToUndoError) as error:
+            language = await run_in_threadpool(self.language, request)
+            return JSONResponse({"problems": [error.words.in_language(language)]}, 409)
+        except ZlmreportError as error:
+            problems = [str(each) for each in error.problems]
+            return JSONResponse({"problems": problems, "stamp": self.bench.stamp()}, 422)
+
+    def language(self, request: HttpRequest) -> Language:
+        """Return the language of the page: that of its address, of the browser, or else of the file."""
+        asked = language_of(request)
+        if asked is not None:
+            return asked
+        try:
+            return self.bench.loaded().language
+        except ZlmreportError:
+            return Language.ENGLISH
+
+
+def shell(language: Language, name: str) -> Response:
+    """Return a page of the workbench, which fills itself; `name` is that of the file or the folder."""
+    context = WorkbenchContext(
+        language=language.value,
+        title=f"{_TITLE.in_language(language)} · {name}",
+        needs_script=_NO_SCRIPT.in_language(language),
+    )
+    return HTMLResponse(render(context))
+
+
+async def file(request: HttpRequest) -> Response:
+    """Answer with a style sheet, a module, or a face of the typeface: one of a list, by its name."""
+    found = page_file(request.path_params["name"])
+    if found is None:
+        return Response(status_code=404)
+    return Response(found.content, media_type=found.media_type)
+
+
+def language_of(request: HttpRequest) -> Language | None:
+    """Return the language that an address or a browser asks for; None where neither does."""
+    stated = request.query_params.get("lang", "")
+    return accepted_language(stated) or accepted_language(request.headers.get("accept-language", ""))

@@ -1,0 +1,131 @@
+"""What the server answers on a whole machine: its tests, steps of its model, changes, its document."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request as HttpRequest
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from zlmreport.language import Language
+from zlmreport.plugin.registry import Registry
+from zlmreport.web.answers import PageAnswers
+from zlmreport.web.changes import Request
+from zlmreport.web.commands import Wanted, demanded_formats, made_file
+from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
+from zlmreport.web.guard import Door, DoorKeeper
+from zlmreport.web.machine_bench import MachineBench
+from zlmreport.web.machine_changes import change_machine
+from zlmreport.web.machine_view import MachineView
+from zlmreport.web.making import Making, values
+from zlmreport.web.texts import machine_texts
+
+_DIAGNOSING = "zlmreport.web.machine_diagnoses"
+
+
+@dataclass(frozen=True, slots=True)
+class MachineCommands:
+    """The document of a machine, made in a process of its own."""
+
+    bench: MachineBench
+    making: Mapping[str, Making]  #: By its name: ``certificate``.
+
+    def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
+        """Begin to make it, and return how far it is.
+
+        Raises `InputError` if a format is none that the page offered.
+        """
+        loaded = self.bench.loaded()
+        formats = demanded_formats(wanted, self.bench.registry)
+        self.making[name].begin(
+            loaded.stamp, "machine", "certificate", str(self.bench.path.resolve()), *formats
+        )
+        return self.making[name].state()
+
+    def file(self, name: str) -> Path | None:
+        """Return where a file lies that was made from the page; None for any other name."""
+        return made_file(self.making, name)
+
+    def end(self) -> None:
+        """End all that is under way."""
+        for each in self.making.values():
+            each.end()
+
+
+@dataclass(frozen=True, slots=True)
+class MachineWorkbench(PageAnswers):
+    """The answers for one machine."""
+
+    bench: MachineBench  #: The machine file.
+    #: diagnoses and commands: Made beside, each in a process of its own.
+    diagnoses: Diagnoses
+    commands: MachineCommands
+
+    @classmethod
+    def of(cls, path: Path, registry: Registry, plugins: Sequence[Path] = ()) -> MachineWorkbench:
+        """Return the answers for a machine.
+
+        Raises `InputError` or `AccessError` as `MachineBench.loaded`.
+        """
+        made = cls.on(path, registry, plugins)
+        made.bench.loaded()
+        return made
+
+    @classmethod
+    def on(cls, path: Path, registry: Registry, plugins: Sequence[Path] = ()) -> MachineWorkbench:
+        """Return the answers for a machine, whether or not it can be read: the page says what is wrong."""
+        bench = MachineBench(path, registry)
+        answers = DiagnosesByContent.of_user(registry.circle_effects)
+        commands = MachineCommands(bench, {"certificate": Making(values, plugins)})
+        return cls(bench, Diagnoses(path, answers, plugins, _DIAGNOSING), commands)
+
+    def app(self, door: Door) -> DoorKeeper:
+        """Return the application behind its guard."""
+        return DoorKeeper(self.routed(), door)
+
+    def routed(self) -> Starlette:
+        """Return the application, without a guard: behind one of its own, or that of a folder."""
+        own = [
+            Route("/api/stamp", self.stamp),
+            Route("/api/results", self.results),
+            Route("/api/step", self.step),
+        ]
+        return Starlette(routes=[*self.routes(), *own])
+
+    def page_texts(self, language: Language) -> dict[str, str]:
+        """Return the words of the page, and that it is one of a machine."""
+        return machine_texts(language)
+
+    def viewed(self, language: Language) -> dict[str, Any]:
+        """Return the page of the machine."""
+        return self._view(language).page()
+
+    def changed(self, wanted: Request) -> None:
+        """Do what a click asks for."""
+        change_machine(self.bench, wanted)
+
+    async def stamp(self, _: HttpRequest) -> Response:
+        """Answer with the state of all files."""
+        return JSONResponse({"stamp": await run_in_threadpool(self.bench.stamp)})
+
+    async def results(self, request: HttpRequest) -> Response:
+        """Answer with the fall of the error, the tests in numbers, the 21 errors and the work space."""
+        return await self.answered(request, lambda: self._view(self.language(request)).results())
+
+    async def step(self, request: HttpRequest) -> Response:
+        """Answer with the graphs before and after a step of the model, or an effect that it may lack."""
+
+        def found() -> dict[str, Any]:
+            of, test = (request.query_params.get(name, "")[:500] for name in ("of", "test"))
+            return self._view(self.language(request)).before_and_after(of, test)
+
+        return await self.answered(request, found)
+
+    def _view(self, language: Language) -> MachineView:
+        return MachineView(self.bench, self.bench.loaded(), language)

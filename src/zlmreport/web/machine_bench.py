@@ -1,0 +1,143 @@
+"""A machine file on the bench: read again whenever a file behind it changes, its models studied once each."""
+
+from __future__ import annotations
+
+import hashlib
+from collections import OrderedDict
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from threading import RLock
+
+from zlmreport.errors import ZlmreportError
+from zlmreport.language import Language
+from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
+from zlmreport.machines.diagnosis import rms_of
+from zlmreport.machines.reading import MachineFile, read_machine
+from zlmreport.machines.study import CircleStudy
+from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.plugin.registry import Registry
+from zlmreport.verification.carrier import results_in
+from zlmreport.web.bench import stamp_of
+
+#: Studies that are kept: more than anybody tries in an hour.
+_KEPT = 32
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedMachine:
+    """A machine file as it stands, with all that it names."""
+
+    machine: MachineFile
+    stamp: str  #: Names the state of all files behind it.
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of the machine file: what a change says that it was made from."""
+        return self.machine.file.file.sha256
+
+    @property
+    def language(self) -> Language:
+        """Of its document."""
+        return self.machine.file.keys.certificate.language
+
+    @property
+    def content(self) -> str:
+        """Names what stands in all files behind it, wherever and whenever they were written."""
+        return hashlib.sha256(" ".join(each.sha256 for each in self.machine.sources).encode()).hexdigest()
+
+    @property
+    def basis(self) -> str:
+        """Names what its circles and predictions follow from: all but the model."""
+        machine = self.machine
+        keys = machine.file.keys.model_copy(update={"model": None})
+        others = (each.sha256 for each in machine.sources if each is not machine.file.file)
+        return hashlib.sha256(f"{keys!r} {' '.join(others)}".encode()).hexdigest()
+
+
+@dataclass(slots=True)
+class MachineBench:
+    """A machine file that is worked on."""
+
+    path: Path  #: The machine file.
+    registry: Registry  #: The installed plugins.
+    #: Held while the file is read or changed: pages ask from several threads.
+    lock: RLock = field(default_factory=RLock)
+    _loaded: LoadedMachine | None = None
+    _watched: tuple[Path, ...] = ()
+    _studies: OrderedDict[tuple[str, ...], CircleStudy] = field(default_factory=OrderedDict)
+
+    def stamp(self) -> str:
+        """Return the name of the state in which the files are now, without reading them."""
+        return stamp_of([self.path, *self._watched])
+
+    def loaded(self) -> LoadedMachine:
+        """Return the machine as its files are now.
+
+        Raises `InputError` or `AccessError` with every mistake that stands in them.
+        """
+        with self.lock:
+            if self._loaded is not None and self._loaded.stamp == self.stamp():
+                return self._loaded
+            self._loaded = None
+            try:
+                machine = read_machine(self.path, self.registry, results_in)
+            except ZlmreportError as error:
+                # Which of them will be mended nobody knows: those of before, and those that are named.
+                named = (Path(each.place.file) for each in error.problems)
+                self._watched = tuple(dict.fromkeys((*self._watched, *named)))
+                raise
+            paths = (each.path for each in machine.sources if each.path is not None)
+            self._watched = tuple(dict.fromkeys(paths))
+            self._loaded = LoadedMachine(machine, self.stamp())
+            return self._loaded
+
+    def study(self, loaded: LoadedMachine, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
+        """Return the study of the circles with the effects of the model, or with others: each made once.
+
+        Raises `InputError` if the file names no circle.
+        """
+        chosen = loaded.machine.effects if effects is None else tuple(effects)
+        key = (loaded.basis, *(each.identifier for each in chosen))
+        with self.lock:
+            if key not in self._studies:
+                self._studies[key] = loaded.machine.study(chosen)
+                if len(self._studies) > _KEPT:
+                    self._studies.popitem(last=False)
+            self._studies.move_to_end(key)
+            return self._studies[key]
+
+    def compared(self, loaded: LoadedMachine, study: CircleStudy | None) -> tuple[ComparedTest, ...]:
+        """Return all tests beside the prediction of the axes, circles beside the effects of a study, too."""
+        machine = loaded.machine
+        return (
+            *compare_circles(machine.machine, machine.measured, self.registry, study),
+            *(compare_line(machine.machine, each) for each in machine.lines),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class FallenError:
+    """How far the error has fallen with an effect."""
+
+    effect: str  #: Empty of the first two: nothing is taken away, and what the axes predict is.
+    rms: float  #: Of all circles together, m.
+
+
+def fall_of(bench: MachineBench, loaded: LoadedMachine) -> tuple[FallenError, ...]:
+    """Return the error of the circles as measured, beside the axes, and after each effect of the model.
+
+    Where the bar stands and how long it is belongs to no error: such effects are there from the beginning.
+    """
+    base = tuple(each for each in loaded.machine.effects if each.is_base)
+    further = tuple(each for each in loaded.machine.effects if not each.is_base)
+    by_axes = bench.study(loaded, base)
+    measured = replace(by_axes, deviation=by_axes.deviation + by_axes.predicted)
+    return (
+        FallenError("", rms_of(measured)),
+        FallenError("", rms_of(by_axes)),
+        *(
+            FallenError(each.identifier, rms_of(bench.study(loaded, (*base, *further[: number + 1]))))
+            for number, each in enumerate(further)
+        ),
+    )

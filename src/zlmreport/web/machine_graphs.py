@@ -1,0 +1,148 @@
+"""A test of a machine as the linked graphs of a page draw it: over the angle, and over each axis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from zlmreport.document.subjects.linked import drawn_values
+from zlmreport.language import Language, Words, same
+from zlmreport.machines.comparison import ComparedTest
+from zlmreport.machines.course import CircularTest, StraightTest
+from zlmreport.machines.residual import Stretch, centred
+from zlmreport.machines.subjects.tests import circle_figure, line_figure, title_of
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
+from zlmreport.model.effects.circle_design import AXES
+
+#: Readings of a test that are drawn: more show nothing more.
+_MOST = 3000
+_TURN = 2.0 * np.pi
+
+
+def graph_values(found: ComparedTest, language: Language) -> dict[str, Any]:
+    """Return a test as both graphs draw it, in µm: measured, by axes and effects, what is left."""
+    sides = _Sides(found)
+    drawn = sides.drawn
+    figure = circle_figure(found) if sides.is_circle else line_figure(found)
+    unit = MICROMETRE
+    return {
+        "test": found.name,
+        "kind": "circle" if sides.is_circle else "line",
+        "title": title_of(found.test).in_language(language),
+        "axes": [_axis(*each, language) for each in sides.axes()],
+        "arrows": ["↻", "↺"] if sides.is_circle else ["↓", "↑"],
+        "unit": unit.symbol,
+        "deviation": figure.y_title.in_language(language),
+        "residual": _RESIDUAL.in_language(language),
+        "readings": {
+            "place": drawn.tolist(),
+            "direction": sides.way[drawn].astype(int).tolist(),
+            "run": sides.run[drawn].tolist(),
+            "deviation": drawn_values(unit.from_si(sides.shown(found.test.deviation)[drawn])),
+            "residual": drawn_values(unit.from_si(sides.shown(found.left)[drawn])),
+            "fitted": [True] * len(drawn),
+        },
+        "model": model_values(found),
+        "noise": None,
+        "alternative": figure.alternative.in_language(language),
+    }
+
+
+def model_values(found: ComparedTest) -> list[dict[str, Any]]:
+    """Return what axes and effects make of a test in each direction, with the band of the axes."""
+    sides = _Sides(found)
+    model = sides.shown(found.test.deviation) - sides.shown(found.left)
+    u = found.prediction.expanded_uncertainty
+    curves = []
+    for way in (1, -1):
+        own = np.flatnonzero(sides.way == way)
+        if not len(own):
+            continue
+        own = own[sides.run[own] == sides.run[own].min()]
+        own = own[np.argsort(sides.place[own])][:: max(1, len(own) // _MOST)]
+        curves.append(
+            {
+                "direction": way,
+                "x": drawn_values(sides.place[own]),
+                "y": drawn_values(MICROMETRE.from_si(model[own])),
+                "low": drawn_values(MICROMETRE.from_si(model[own] - u[own])),
+                "high": drawn_values(MICROMETRE.from_si(model[own] + u[own])),
+                "reach": False,
+            }
+        )
+    return curves
+
+
+def residual_values(found: ComparedTest) -> list[float | None]:
+    """Return what is left at each reading that is drawn, µm."""
+    sides = _Sides(found)
+    return drawn_values(MICROMETRE.from_si(sides.shown(found.left)[sides.drawn]))
+
+
+def readings_of(stretch: Stretch, found: ComparedTest) -> list[int]:
+    """Return the drawn readings of a stretch, by their places."""
+    sides = _Sides(found)
+    test, drawn = found.test, sides.drawn
+    at = test.angle % _TURN if isinstance(test, CircularTest) else test.at
+    inside = (sides.way == stretch.sense) & (at >= stretch.begin) & (at <= stretch.end)
+    return [int(each) for each in drawn[inside[drawn]]]
+
+
+class _Sides:
+    """What a circle and a line have alike: a direction, a place along the test, a run."""
+
+    def __init__(self, found: ComparedTest) -> None:
+        test = found.test
+        self.test = test
+        self.is_circle = isinstance(test, CircularTest)
+        if isinstance(test, CircularTest):
+            self.way: FloatArray = test.sense
+            self.run: IntArray = test.run
+            self.place: FloatArray = np.degrees(test.angle) % 360.0
+            self.position: FloatArray = test.course().position
+        else:
+            self.way = np.sign(test.course.motion.sum(axis=1))
+            self.run = np.ones(len(test.at), dtype=np.int64)
+            self.place = MILLIMETRE.from_si(test.at)
+            self.position = test.course.position
+
+    @property
+    def drawn(self) -> IntArray:
+        """Which readings are drawn."""
+        return np.arange(0, len(self.way), max(1, -(-len(self.way) // _MOST)))
+
+    def shown(self, values: FloatArray) -> FloatArray:
+        """Return values as a page shows them: without centre and radius, or without the mean."""
+        test = self.test
+        return centred(test, values) if isinstance(test, CircularTest) else values - values.mean()
+
+    def axes(self) -> Iterator[tuple[str, Words, str, FloatArray]]:
+        """Yield all over which the readings can be laid out: key, title, unit, values."""
+        drawn = self.drawn
+        yield (
+            "position",
+            _ANGLE if self.is_circle else _PLACE,
+            "°" if self.is_circle else "mm",
+            self.place[drawn],
+        )
+        for index, axis in enumerate(AXES):
+            if np.ptp(self.position[:, index]) > 0:
+                places = MILLIMETRE.from_si(self.position[drawn, index])
+                yield f"axis-{axis}", same(axis), "mm", places
+        if isinstance(self.test, StraightTest):
+            yield "direction", _DIRECTION, "", self.way[drawn]
+            return
+        yield "run", _RUN, "", self.run[drawn].astype(np.float64)
+        yield "direction", _SENSE, "", self.way[drawn]
+
+
+def _axis(key: str, title: Words, unit: str, values: FloatArray, language: Language) -> dict[str, Any]:
+    return {"key": key, "title": title.in_language(language), "unit": unit, "values": drawn_values(values)}
+
+
+_ANGLE, _PLACE = Words("Angle"), Words("Place on the line")
+_RUN, _SENSE = Words("Turn"), Words("Sense")
+_DIRECTION, _RESIDUAL = Words("Direction"), Words("Residual")

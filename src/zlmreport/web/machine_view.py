@@ -1,0 +1,251 @@
+"""All that the page of a machine shows, as values for a browser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from zlmreport.document.blocks import Section
+from zlmreport.document.writer import NOTHING
+from zlmreport.errors import InputError
+from zlmreport.language import Language, Words
+from zlmreport.language.formatting import rounded_pair
+from zlmreport.machines.comparison import ComparedTest
+from zlmreport.machines.course import CircularTest
+from zlmreport.machines.diagnosis import rms_of
+from zlmreport.machines.editing import effects_with
+from zlmreport.machines.study import CircleStudy, EstimatedTerm
+from zlmreport.machines.subjects.axes import error_section, space_section
+from zlmreport.machines.subjects.saying import Sayer
+from zlmreport.machines.subjects.tests import failure_notice, sizes_table, stretch_in_words, test_section
+from zlmreport.measurement.units import MICROMETRE
+from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.web.bench import PLACE
+from zlmreport.web.blocks import all_sections, blocks_values
+from zlmreport.web.journal import REDO, UNDO, BenchJournal, redoable, undoable
+from zlmreport.web.machine_bench import LoadedMachine, MachineBench, fall_of
+from zlmreport.web.machine_graphs import graph_values, model_values, readings_of, residual_values
+from zlmreport.web.naming import Naming
+from zlmreport.web.panels import symbol
+from zlmreport.web.view import SHOWN, done_by, step
+
+_MOST_FAILURES = 3
+
+
+def effect_names(effects: Iterable[CircleEffect], language: Language) -> Naming:
+    """Return what a page calls effects on circles."""
+    return Naming(language, {each.identifier: each.title.in_language(language) for each in effects}, {})
+
+
+@dataclass(frozen=True, slots=True)
+class MachineView:
+    """Writes the page of a machine in one language."""
+
+    bench: MachineBench
+    loaded: LoadedMachine
+    language: Language
+
+    @property
+    def say(self) -> Sayer:
+        """Writes words and numbers."""
+        return Sayer(self.language)
+
+    @property
+    def names(self) -> Naming:
+        """What effects are called."""
+        return effect_names(self.loaded.machine.catalogue, self.language)
+
+    @property
+    def study(self) -> CircleStudy | None:
+        """The circles with the effects of the model; None where there is no circle."""
+        return self.bench.study(self.loaded) if self.loaded.machine.circles else None
+
+    def page(self) -> dict[str, Any]:
+        """Return what is shown at once: tests with their graphs, effects, what was done."""
+        loaded, machine, names = self.loaded, self.loaded.machine, self.names
+        entries = BenchJournal.beside(self.bench.path).entries()
+        back = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
+        study = self.study
+        compared = self.bench.compared(loaded, study)
+        keys = machine.file.keys
+        return {
+            "stamp": loaded.stamp,
+            "digest": loaded.digest,
+            "number": machine.number,
+            "subject": self.say(
+                _SUBJECT.given(
+                    machine=" ".join(filter(None, (keys.machine.type, keys.machine.serial or ""))),
+                    chain=machine.machine.chain.letters,
+                )
+            ).lstrip(", "),
+            "file": self.bench.path.name,
+            "tests": [graph_values(each, self.language) for each in compared],
+            "failures": list(self._failures(compared)),
+            "error": list(self._error(study)),
+            "effects": [self._effect(each.effect, study) for each in study.effects] if study else [],
+            "others": [
+                {
+                    "effect": each.identifier,
+                    "name": names.text(each.identifier),
+                    "title": self.say(each.title),
+                }
+                for each in machine.catalogue
+                if each.identifier not in machine.effect_names
+            ],
+            "offered": {
+                "formats": [
+                    {"format": each.identifier, "chosen": each.identifier in keys.output.formats}
+                    for each in self.bench.registry.renderers
+                ]
+            },
+            "asked": [],
+            "steps": [step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
+            **{
+                name: None if each is None else names.text(self.say(done_by(each)))
+                for name, each in zip((UNDO, REDO), back, strict=True)
+            },
+        }
+
+    def results(self) -> dict[str, Any]:
+        """Return what takes longer: the fall of the error, each test in numbers, errors and work space."""
+        machine, names, study = self.loaded.machine, self.names, self.study
+        compared = self.bench.compared(self.loaded, study)
+        sizes = sizes_table(compared, self.say)
+        return {
+            "stamp": self.loaded.stamp,
+            "fall": self._fall() if study else None,
+            "sizes": blocks_values([sizes], names)[0],
+            "tests": {each.name: self._test(each) for each in compared},
+            "sections": all_sections(
+                [
+                    space_section(machine.machine, self.say),
+                    error_section(machine.machine, self.say, is_full=True),
+                ],
+                names,
+            ),
+        }
+
+    def before_and_after(self, wanted: str, test: str) -> dict[str, Any]:
+        """Return what the graphs of a test draw before and after a step of the model.
+
+        `wanted`: The number of a row of the fall, from 1; or an effect that is not in the model.
+
+        Raises `InputError` if there is no such effect or test.
+        """
+        machine = self.loaded.machine
+        circle = next((each for each in machine.measured if each.circle.name == test), None)
+        if circle is None:
+            raise InputError.at(PLACE, f"there is no circle {test[:60]!r}")
+        drawn = (self.bench.compared(self.loaded, each) for each in self._around(wanted))
+        return {
+            "stamp": self.loaded.stamp,
+            **{
+                name: {"model": model_values(own), "residual": residual_values(own)}
+                for name, compared in zip(("before", "after"), drawn, strict=True)
+                for own in compared
+                if own.name == test
+            },
+        }
+
+    def _around(self, wanted: str) -> tuple[CircleStudy, CircleStudy]:
+        """Return the studies before and after a step."""
+        machine, bench = self.loaded.machine, self.bench
+        base = tuple(each for each in machine.effects if each.is_base)
+        further = tuple(each for each in machine.effects if not each.is_base)
+        if wanted.isdecimal() and 1 < int(wanted) < len(further) + 2:
+            count = int(wanted) - 1
+            parts = (base + further[: count - 1], base + further[:count])
+        else:
+            parts = (machine.effects, effects_with(machine, wanted, bench.registry, PLACE))
+        before, after = (bench.study(self.loaded, each) for each in parts)
+        return before, after
+
+    def _failures(self, compared: Sequence[ComparedTest]) -> Iterator[dict[str, Any]]:
+        for each in compared:
+            for stretch in each.fails[:_MOST_FAILURES]:
+                said = stretch_in_words(stretch, is_circle=isinstance(each.test, CircularTest))
+                yield {
+                    "test": each.name,
+                    "statement": self.say(said),
+                    "where": each.name if len(compared) > 1 else "",
+                    "p": "",
+                    "axis": "position",
+                    "readings": readings_of(stretch, each),
+                }
+
+    def _test(self, found: ComparedTest) -> list[dict[str, Any]]:
+        """Return a test in numbers, but for where it fails, which the page says elsewhere."""
+        section: Section = test_section(found, self.say)
+        elsewhere = failure_notice([found], self.say)
+        return blocks_values((each for each in section.blocks if each != elsewhere), self.names)
+
+    def _error(self, study: CircleStudy | None) -> Iterator[dict[str, str]]:
+        if study is None:
+            return
+        written = f"{self.say.micrometres(rms_of(study))} {MICROMETRE.symbol}"
+        yield {"name": self.say(_ERROR), "value": written, "meaning": self.say(_ERROR_IS)}
+
+    def _effect(self, effect: CircleEffect, study: CircleStudy) -> dict[str, Any]:
+        return {
+            "effect": effect.identifier,
+            "name": self.names.text(effect.identifier),
+            "title": self.say(effect.title),
+            "equation": symbol(effect.equation),
+            "parameters": [
+                parameter_values(each, self.language) for each in study.estimates_of(effect.identifier)
+            ],
+        }
+
+    def _fall(self) -> dict[str, Any]:
+        rows = fall_of(self.bench, self.loaded)
+        largest = max(each.rms for each in rows) or 1.0
+        names = self.names
+        called = [self.say(_MEASURED), self.say(_BY_AXES), *(names.text(each.effect) for each in rows[2:])]
+        return {
+            "unit": MICROMETRE.symbol,
+            "rows": [
+                {
+                    "effect": each.effect,
+                    "name": name,
+                    "rms": self.say.micrometres(each.rms),
+                    "share": each.rms / largest,
+                    "left_out": "",
+                }
+                for name, each in zip(called, rows, strict=True)
+            ],
+            "largest": MICROMETRE.from_si(largest),
+            "floor": None,
+        }
+
+
+def parameter_values(term: EstimatedTerm, language: Language) -> dict[str, Any]:
+    """Return a parameter as a page shows it."""
+    say, u = Sayer(language), term.expanded_uncertainty
+    value, uncertainty = say.general(term.unit.from_si(term.value)), ""
+    if u is not None:
+        pair = rounded_pair(term.unit.from_si(term.value), term.unit.from_si(u), language.decimal_sign)
+        value, uncertainty = pair
+    return {
+        "name": term.name,
+        "symbol": [{"text": term.name, "italic": False, "subscript": False}],
+        "description": "",
+        "value": value,
+        "number": term.unit.from_si(term.value),
+        "uncertainty": "" if uncertainty == NOTHING else uncertainty,
+        "unit": term.unit.symbol,
+        "given": False,
+        "at_bound": False,
+        "plausibility": "plausible" if term.is_possible else "implausible",
+        "expected": "",
+    }
+
+
+_SUBJECT = Words("{machine}, axes {chain}")
+_MEASURED = Words("as measured")
+_BY_AXES = Words("less what the axes predict")
+_ERROR = Words("Error of all circles")
+_ERROR_IS = Words(
+    "Root mean square of what axes and effects leave of all circles together, without where the bar "
+    "stands and how long it is."
+)

@@ -1,0 +1,152 @@
+"""Tables across axes: what was entered goes, no sign is guessed, what a control cannot take is said."""
+
+import json
+
+import numpy as np
+import pytest
+
+from machines.simulated import bare_machine
+from zlmreport.cli import main
+from zlmreport.errors import InputError, Place
+from zlmreport.machines.course import Course
+from zlmreport.machines.cross_tables import compensated, plan_tables
+from zlmreport.machines.curve import AxisErrorCurve
+from zlmreport.machines.kinematics import ErrorLine
+from zlmreport.machines.machine import predict
+from zlmreport.plugin.registry import find_plugins
+
+PLACE = Place("test")
+NODES = np.linspace(0, 0.4, 9)
+BOW = 8e-6 * (NODES / 0.2 - 1) ** 2
+
+
+def square(name, value, u=1e-6):
+    return AxisErrorCurve(name, np.zeros(1), np.array([value]), np.eye(1) * u, ErrorLine({}), "test")
+
+
+def curve(name, values, u=0.1e-6):
+    return AxisErrorCurve(name, NODES, np.asarray(values), np.eye(9) * u, ErrorLine({}), "test")
+
+
+def displacements(machine):
+    """What is left of Δ at some places, m, relative to the first."""
+    places = np.array([[0, 0, 0], [0.4, 0.1, 0.3], [0.2, 0.35, 0.05], [0.05, 0.2, 0.4]])
+    found = []
+    for sensing in np.eye(3):
+        course = Course(places, np.tile(sensing, (4, 1)), np.zeros_like(places))
+        found.append(predict(machine, course).values)
+    whole = np.array(found).T
+    return whole - whole[0]
+
+
+@pytest.fixture(scope="module")
+def controls():
+    return find_plugins()
+
+
+@pytest.fixture
+def out_of_square():
+    """A machine of which all that a table across axes can hold is known, and nothing else."""
+    straight = [curve(name, BOW) for name in ("EYX", "EXY", "EZX", "EXZ", "EYZ", "EZY")]
+    return bare_machine([*straight, square("C0Y", 40e-6), square("B0Z", -25e-6), square("A0Z", 15e-6)])
+
+
+@pytest.mark.parametrize("moves", [1, -1])
+def test_what_siemens_reads_back_leaves_nothing_of_straightness_and_squareness(
+    out_of_square, controls, moves
+):
+    control = controls.controller("siemens-840d-cec")
+    plan = plan_tables(out_of_square, PLACE)
+    assert len(plan.tables) == 6
+    files = control.cross_files(plan.tables, moves)
+    decoded = control.read_cross(files, plan.tables, moves)
+    assert np.abs(displacements(out_of_square)).max() > 15e-6
+    assert np.abs(displacements(compensated(out_of_square, decoded))).max() < 0.05e-6
+
+
+def test_a_wrong_sign_doubles_the_error(out_of_square, controls):
+    control = controls.controller("siemens-840d-cec")
+    plan = plan_tables(out_of_square, PLACE)
+    decoded = control.read_cross(control.cross_files(plan.tables, 1), plan.tables, -1)
+    before = displacements(out_of_square)
+    assert displacements(compensated(out_of_square, decoded)) == pytest.approx(2 * before, abs=0.05e-6)
+
+
+def test_a_positive_value_that_moves_back_is_the_deviation_itself(controls):
+    table = plan_tables(bare_machine([curve("EYX", BOW)]), PLACE).tables[0]
+    (text,) = controls.controller("siemens-840d-cec").cross_files([table], -1).values()
+    assert "$AN_CEC[0,8]=-0.00800\n" in text  # the middle lies 8 µm below the first row
+    assert "$AN_CEC_INPUT_AXIS[0]=(X1)\n$AN_CEC_OUTPUT_AXIS[0]=(Y1)\n" in text
+    assert "$AN_CEC_DIRECTION[0]=0\n" in text
+
+
+def test_linuxcnc_takes_squareness_by_its_kinematics_and_leaves_straightness(out_of_square, controls):
+    control = controls.controller("linuxcnc")
+    plan = plan_tables(out_of_square, PLACE)
+    files = control.cross_files(plan.tables, 1)
+    # joint X = x + C_xy·y: C0Y > 0 leans Y towards −X, so X goes to +.
+    assert sorted(files["-square.hal"].splitlines()) == [
+        "setp matrixkins.C_xy 0.000040000",
+        "setp matrixkins.C_xz 0.000025000",
+        "setp matrixkins.C_yz 0.000015000",
+    ]
+    decoded = control.read_cross(files, plan.tables, 1)
+    straight = bare_machine([each for each in out_of_square.curves if not each.is_single])
+    assert displacements(compensated(out_of_square, decoded)) == pytest.approx(
+        displacements(straight), abs=1e-9
+    )
+
+
+def test_an_error_within_its_uncertainty_is_left():
+    machine = bare_machine([curve("EYX", BOW), square("C0Y", 1e-6, u=2e-6)])
+    plan = plan_tables(machine, PLACE)
+    assert (plan.taken, plan.within_uncertainty) == (("EYX",), ("C0Y",))
+    with pytest.raises(InputError, match="nothing for a table across axes"):
+        plan_tables(bare_machine([square("C0Y", 1e-6, u=2e-6)]), PLACE)
+
+
+def values(capsys, *arguments):
+    assert main([*map(str, arguments), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_the_command_writes_the_table_with_its_forecast(folder, tmp_path, capsys):
+    path = folder / "machine.yaml"
+    found = values(
+        capsys, "machine", "compensate", path, "--controller", "siemens-840d-cec", "--moves", "minus",
+        "-o", tmp_path / "out",
+    )  # fmt: skip
+    assert found["schema"] == "zlmreport/machine-compensation/1"
+    assert (found["taken"], found["within_uncertainty"]) == (["EYX", "EXY"], ["C0Y"])
+    assert (tmp_path / "out" / "machine-across_CEC.INI").is_file()
+    before, after = found["forecast"]["largest"]
+    assert after < before
+
+
+def test_an_unknown_sign_is_asked_for_and_a_trial_shows_it(folder, tmp_path, capsys):
+    path = folder / "machine.yaml"
+    command = ["machine", "compensate", str(path), "--controller", "siemens-840d-cec", "-o", str(tmp_path)]
+    assert main(command) == 2
+    assert "--trial writes a file that shows it" in capsys.readouterr().err
+    assert not list(tmp_path.glob("*.INI"))
+    assert main([*command, "--trial"]) == 0
+    assert "state --moves plus, else --moves minus" in " ".join(capsys.readouterr().out.split())
+    (trial,) = tmp_path.glob("*.INI")
+    assert "$AN_CEC[0,10]=0.01000\n" in trial.read_text("ascii")
+
+
+@pytest.mark.parametrize(
+    ("control", "said"),
+    [
+        ("fanuc", "of fanuc no tables across axes are known to this program"),
+        ("linuxcnc", "linuxcnc can take away squareness alone"),
+    ],
+)
+def test_what_a_control_cannot_take_is_said_by_its_name(folder, capsys, control, said):
+    assert main(["machine", "compensate", str(folder / "machine.yaml"), "--controller", control]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_key_of_compensate_belongs_to_no_other_action(folder, capsys):
+    assert main(["machine", "predict", str(folder / "machine.yaml"), "--moves", "plus"]) == 2
+    assert "--moves belongs to compensate, not to predict" in capsys.readouterr().err

@@ -1,0 +1,188 @@
+"""The page of a machine: its tests, what is missing, a click that makes the error fall, and the way back."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from environments import ROOT
+from web.jobs import registry
+from zlmreport.errors import InputError
+from zlmreport.language import Language
+from zlmreport.web.folder import JobRow, JobState, is_machine, looked_at
+from zlmreport.web.guard import Door
+from zlmreport.web.machine_app import MachineWorkbench
+from zlmreport.web.machine_bench import MachineBench
+from zlmreport.web.machine_diagnoses import answer
+from zlmreport.web.machine_view import MachineView
+
+PLACE = "machine.yaml"
+
+
+@pytest.fixture
+def machine(tmp_path: Path) -> Path:
+    """Return the example of a machine, in a folder of its own."""
+    shutil.copy(ROOT / "configs" / "laboratory.yaml", tmp_path)
+    return shutil.copytree(ROOT / "configs" / "machine", tmp_path / "machine") / PLACE
+
+
+@pytest.fixture
+def page(machine: Path, door: Door) -> Iterator[TestClient]:
+    """Return a browser that came by the address on the terminal."""
+    made = MachineWorkbench.of(machine, registry())
+    client = TestClient(made.app(door), base_url=f"http://127.0.0.1:{door.port}", follow_redirects=False)
+    assert client.get(door.address).status_code == 303
+    client.headers["Origin"] = f"http://127.0.0.1:{door.port}"
+    yield client
+    made.end()
+
+
+@cache
+def diagnosed() -> dict[str, Any]:
+    """Return the diagnosis of the example: the longest that these tests do, and once."""
+    return answer(MachineBench(ROOT / "configs" / "machine" / PLACE, registry()))["diagnosis"]
+
+
+def clicked(page: TestClient, action: str, effect: str = "", digest: str = "") -> Any:
+    """Do what a click does."""
+    digest = digest or page.get("/api/job").json()["digest"]
+    return page.post("/api/change", json={"based_on": digest, "action": action, "effect": effect})
+
+
+def test_a_click_adds_the_effect_and_the_error_falls_and_a_step_back_restores_the_file(
+    machine: Path, page: TestClient
+) -> None:
+    before = machine.read_text("utf-8")
+    added = clicked(page, "add", "servo-mismatch").json()
+    assert "[centre-offset, radius, servo-mismatch] # where" in machine.read_text("utf-8")
+    assert added["undo"] == "servo-mismatch added"
+    rows = page.get("/api/results").json()["fall"]["rows"]
+    assert [each["name"] for each in rows[2:]] == ["servo-mismatch"]
+    fallen = [float(each["rms"]) for each in rows]
+    assert fallen == sorted(fallen, reverse=True)
+    assert fallen[-1] < 0.1 * fallen[-2]
+    taken_back = clicked(page, "undo").json()
+    assert machine.read_text("utf-8") == before
+    assert (taken_back["undo"], taken_back["redo"]) == (None, "servo-mismatch added")
+
+
+def test_a_test_is_drawn_with_prediction_band_and_residual(page: TestClient) -> None:
+    (test,) = page.get("/api/job").json()["tests"]
+    assert [each["title"] for each in test["axes"]] == ["Angle", "X", "Y", "Turn", "Sense"]
+    assert len(test["readings"]["deviation"]) == len(test["readings"]["residual"]) == 720
+    assert [each["direction"] for each in test["model"]] == [1, -1]
+    assert all(
+        low < high for low, high in zip(test["model"][0]["low"], test["model"][0]["high"], strict=True)
+    )
+
+
+def test_where_it_differs_points_at_the_readings_there(page: TestClient) -> None:
+    found = page.get("/api/job").json()
+    first, readings = found["failures"][0], found["tests"][0]["readings"]
+    assert first["statement"].startswith("counter-clockwise from ")
+    senses = {readings["direction"][readings["place"].index(each)] for each in first["readings"]}
+    assert senses == {1}
+
+
+def test_the_numbers_say_what_of_the_axes_makes_what(page: TestClient) -> None:
+    found = page.get("/api/results").json()
+    kinds = [each["kind"] for each in found["tests"]["circle-xy"]]
+    assert (kinds[0], kinds[-1], "notice" in kinds) == ("table", "graph", False)
+    said = [each["text"] for each in found["tests"]["circle-xy"] if each["kind"] == "paragraph"]
+    assert said[0].startswith("Of the prediction, root mean square: EYY ")
+    assert [each["key"] for each in found["sections"]] == ["work-space", "errors"]
+
+
+def test_a_step_is_seen_before_it_is_taken(page: TestClient) -> None:
+    found = page.get("/api/step", params={"of": "servo-mismatch", "test": "circle-xy"}).json()
+    before, after = (max(map(abs, found[name]["residual"])) for name in ("before", "after"))
+    assert after < 0.3 * before
+
+
+def test_the_diagnosis_says_first_what_to_do_next() -> None:
+    english, german = (diagnosed()[each] for each in ("en", "de"))
+    assert english["next"].startswith("Next: add Servo mismatch. The error falls from 4.7 µm to 0.32 µm;")
+    assert german["next"].startswith("Als Nächstes: Unterschied der Schleppabstände hinzufügen.")
+    assert [each["effect"] for each in english["stairs"]] == ["servo-mismatch"]
+    assert [each["key"] for each in english["sections"]] == ["absence", "plan"]
+    assert german["candidates"][0]["name"] == "Unterschied der Schleppabstände"
+
+
+def test_with_one_sense_nothing_is_named_and_the_next_run_comes_first(machine: Path) -> None:
+    readings = machine.with_name("circle-xy.csv")
+    lines = readings.read_text("utf-8").splitlines(keepends=True)
+    readings.write_text("".join(each for each in lines if not each.startswith("cw")), "utf-8")
+    found = answer(MachineBench(machine, registry()))["diagnosis"]["en"]
+    assert found["next"].startswith("Next: run the same circle ")
+    assert found["stairs"] == []
+    assert found["noise"] is None
+    assert [each["key"] for each in found["sections"]] == ["plan"]  # what is there hides what might be absent
+
+
+def test_a_click_on_a_file_that_changed_meanwhile_overwrites_nothing(machine: Path, page: TestClient) -> None:
+    digest = page.get("/api/job").json()["digest"]
+    machine.write_text(machine.read_text("utf-8") + "# mine\n", "utf-8")
+    assert clicked(page, "add", "servo-mismatch", digest).status_code == 409
+    assert machine.read_text("utf-8").endswith("# mine\n")
+
+
+@pytest.mark.parametrize(
+    ("action", "effect", "said"),
+    [
+        ("add", "servo-mismach", "did you mean 'servo-mismatch'?"),
+        ("add", "radius", "radius stands in the model already"),
+        ("remove", "squareness", "does not stand in the model"),
+        ("fix", "radius", "a machine has no action 'fix'"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_words(
+    page: TestClient, action: str, effect: str, said: str
+) -> None:
+    answered = clicked(page, action, effect)
+    assert answered.status_code == 422
+    assert said in answered.json()["problems"][0]
+
+
+def test_nobody_opens_a_machine_without_the_token(machine: Path, door: Door) -> None:
+    made = MachineWorkbench.on(machine, registry())
+    stranger = TestClient(made.app(door), base_url=f"http://127.0.0.1:{door.port}")
+    assert stranger.get("/api/job").status_code == 403
+
+
+def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path) -> None:
+    line = (machine.parent / "x-positioning.yaml").read_text("utf-8").replace("EXAMPLE-2026-0021", "LINE")
+    (machine.parent / "x-elsewhere.yaml").write_text(line, "utf-8")
+    text = machine.read_text("utf-8").replace("[circle-xy.yaml]", "[circle-xy.yaml, x-elsewhere.yaml]")
+    machine.write_text(text, "utf-8")
+    bench = MachineBench(machine, registry())
+    _, drawn = MachineView(bench, bench.loaded(), Language.GERMAN).page()["tests"]
+    assert (drawn["kind"], drawn["arrows"]) == ("line", ["↓", "↑"])
+    assert [each["title"] for each in drawn["axes"]] == ["Ort auf der Linie", "X", "Richtung"]
+
+
+def test_a_folder_lists_a_machine_and_says_what_is_wrong_with_one(machine: Path) -> None:
+    assert is_machine(machine)
+    assert not is_machine(machine.with_name("circle-xy.yaml"))
+    row, files = looked_at(JobRow("key", PLACE), machine, registry())
+    assert (row.state, row.axis.in_language(Language.ENGLISH), row.closed) == (
+        JobState.FINE,
+        "Machine, axes XYFZ",
+        "",
+    )
+    assert machine.with_name("circle-xy.csv") in files
+    machine.write_text(machine.read_text("utf-8").replace("XYFZ ", "XYZ "), "utf-8")
+    row, _ = looked_at(row, machine, registry())
+    assert row.state is JobState.FAILS
+    assert "'XYZ' is no chain" in row.problems[0]
+
+
+def test_a_machine_that_cannot_be_read_is_refused_before_its_page_opens(machine: Path) -> None:
+    machine.write_text(machine.read_text("utf-8").replace("XYFZ ", "XYZ "), "utf-8")
+    with pytest.raises(InputError, match="is no chain"):
+        MachineWorkbench.of(machine, registry())
