@@ -54,8 +54,12 @@ def text(element: ET.Element | None) -> str:
 
 
 def structure(document: ET.Element) -> list[str]:
-    """The elements in order, but for those that set the letters of a symbol."""
-    return [element.tag for element in document.iter() if element.tag not in {"i", "sub"}]
+    """The elements in order, but for those that set the letters of a symbol or keep blocks on one page."""
+    return [
+        element.tag
+        for element in document.iter()
+        if element.tag not in {"i", "sub"} and (element.tag, element.get("class")) != ("div", "whole")
+    ]
 
 
 def with_everywhere(words: str) -> Certificate:
