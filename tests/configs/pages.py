@@ -15,8 +15,8 @@ from zlmreport.document.certificate.document import Certificate
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0
-#: A part of a page that may be left empty nowhere but on the last.
-_LEAST_FILL = 0.35
+#: The least part of a page that is filled; of the last page, unless what stands on it had to begin there.
+_LEAST_FILL, _LEAST_END = 0.35, 0.2
 #: Points between a rule and what it belongs to, at most.
 _APART = 8
 
@@ -30,7 +30,11 @@ def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
         for number, page in enumerate(pages)
     ]
     return [
-        *(f"page {number} is filled to {fill:.2f}" for number, fill in _emptiness(pages)),
+        *(
+            f"page {number} is filled to {fill:.2f}"
+            for number, fill in _emptiness(certificate, pages, bodies[-1])
+        ),
+        *(f"page 1 is without {text!r}" for text in _missing_on_the_first(certificate, bodies[0])),
         *(f"page {number} ends with a line below nothing" for number in _ruled(pages)),
         *(f"page {number} leaves alone {line!r}" for number, line in _left_alone(certificate, bodies)),
         *(f"page {number} parts a paragraph: {line!r}" for number, line in _widows(certificate, bodies)),
@@ -65,12 +69,31 @@ def _ink(page: pypdfium2.PdfPage, *, scale: float) -> np.ndarray:
     return ink[int(_HEAD * scale) : int((page.get_height() - _FOOT) * scale)]
 
 
-def _emptiness(pages: list[pypdfium2.PdfPage]) -> Iterator[tuple[int, float]]:
-    for number, page in enumerate(pages[:-1], 1):
+def _emptiness(
+    certificate: Certificate, pages: list[pypdfium2.PdfPage], end: list[str]
+) -> Iterator[tuple[int, float]]:
+    """Yield pages with little on them; the last has what is left of a section or a table that must part."""
+    parted = [
+        text_of(each.columns[0].heading)
+        for each in _blocks(certificate)
+        if isinstance(each, Table) and not table_layout(each).is_whole
+    ]
+    may_be_short = len(pages) == 1 or certificate.sections[-1].new_page or any(map(end[0].startswith, parted))
+    for number, page in enumerate(pages, 1):
         body = _ink(page, scale=0.5).any(axis=1)
         fill = (np.flatnonzero(body).max(initial=-1) + 1) / len(body)
-        if fill < _LEAST_FILL:
+        is_last = number == len(pages)
+        if fill < (_LEAST_FILL if not is_last else 0.0 if may_be_short else _LEAST_END):
             yield number, fill
+
+
+def _missing_on_the_first(certificate: Certificate, first: list[str]) -> Iterator[str]:
+    """Yield statements of the first page that do not stand on it whole."""
+    if certificate.is_compact and not certificate.parts:
+        there = _letters("".join(first))
+        for block in certificate.cover:
+            if isinstance(block, Paragraph) and _letters(block.text) not in there:
+                yield block.text
 
 
 def _left_alone(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple[int, str]]:

@@ -47,6 +47,7 @@ from zlmreport.document.certificate.cover import (
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords
+from zlmreport.document.certificate.endings import Ending, endings
 from zlmreport.document.certificate.statements import (
     TRACEABLE,
 )
@@ -94,6 +95,7 @@ __all__ = [
     "Customer",
     "Decision",
     "Described",
+    "Ending",
     "EvaluatedParameter",
     "Explained",
     "Fact",
@@ -120,6 +122,7 @@ __all__ = [
     "address_lines",
     "changes",
     "decimal_padding",
+    "endings",
     "facts_side_by_side",
     "notation_spans",
     "numbered_blocks",

@@ -12,7 +12,7 @@ import numpy as np
 import pypdf
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, registry
+from document.certificate.documents import COMPLETE, certificate, having, registry
 from document.certificate.everything import EVERYTHING, write_tables
 from document.figures.samples import figure
 from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Paragraph, Table
@@ -30,6 +30,16 @@ SEVEN = (
     "vdi-vde-2617",
     "nmtba",
 )
+#: More of the conditions than a first page has room for beside the results by seven standards.
+_LONG: Mapping[str, Any] = {
+    "measurement": {**COMPLETE["measurement"], "feed": 600, "dwell": 3, "remarks": "Words of a remark. " * 6},
+    "environment": {
+        **COMPLETE["environment"],
+        "expansion_coefficient": 11.5,
+        "sensors": "air 0.2 m beside the axis, axis on its base",
+        "thermometers": [{"name": f"T{number}", "certificate": f"C-T{number}"} for number in range(4)],
+    },
+}
 #: Points of a page that hold text: between the margins, and where the running head and foot stand.
 _TOP, _BOTTOM = 782.0, 54.0
 
@@ -98,6 +108,22 @@ def test_one_standard_takes_no_more_than_four_pages(tmp_path: Path) -> None:
     assert len(pages(laid_out(tmp_path, "standard", axis=axis, measurement=measurement))) <= 4
 
 
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_the_first_page_ends_with_the_statements_and_none_of_it_stands_on_the_second(
+    tmp_path: Path, language: str, renderer: str
+) -> None:
+    keys = having("certificate.language", language, {**COMPLETE, "evaluate": list(SEVEN), **_LONG})
+    found = laid_out(tmp_path, "standard", **keys)
+    first, second, *_ = (" ".join(page.extract_text().split()) for page in pages(found, renderer))
+    rule, *_, in_full = (each.text for each in found.cover if isinstance(each, Paragraph))
+    for stated in ("A Customer", "S-1", "A. Person, Head", rule, in_full):
+        assert stated.split()[-1] in first
+    assert in_full not in second
+    (section,) = (each for each in found.sections if each.key == "conditions")
+    assert section.title in first
+
+
 def test_no_page_but_the_last_is_emptier_than_a_third(seven: Certificate) -> None:
     *others, _ = map(_fill, pages(seven))
     assert min(others) > 0.35
@@ -128,9 +154,9 @@ def test_it_states_what_the_full_layout_states(keys: Mapping[str, Any], tmp_path
     write_tables(tmp_path)
     standard, full = (laid_out(tmp_path, layout, **keys) for layout in ("standard", "full"))
     assert facts(full) - facts(standard) <= _of_machine(keys)
-    for kind in (Paragraph, Notice):
+    for kind, within in ((Paragraph, blocks(standard)), (Notice, standard.cover)):
         stated = {str(block) for block in full.cover if isinstance(block, kind)}
-        assert stated <= {str(block) for block in standard.cover}
+        assert stated <= {str(block) for block in within}
 
 
 def _of_machine(keys: Mapping[str, Any]) -> set[str]:

@@ -54,8 +54,12 @@ def text(element: ET.Element | None) -> str:
 
 
 def structure(document: ET.Element) -> list[str]:
-    """The elements in order, but for those that set the letters of a symbol."""
-    return [element.tag for element in document.iter() if element.tag not in {"i", "sub"}]
+    """The elements in order, but for those that set the letters of a symbol or keep blocks on one page."""
+    return [
+        element.tag
+        for element in document.iter()
+        if element.tag not in {"i", "sub"} and (element.tag, element.get("class")) != ("div", "whole")
+    ]
 
 
 def with_everywhere(words: str) -> Certificate:
@@ -140,9 +144,9 @@ def test_sections_are_numbered_and_can_be_linked_to() -> None:
     assert [text(section.find("h2/span[@class='count']")) for section in sections] == ["1", "2", "3", "4"]
 
 
-def test_sections_that_ask_for_a_new_page_get_one() -> None:
+def test_sections_that_ask_for_a_new_page_get_one_and_what_ends_before_it_stays_together() -> None:
     sections = list(tree(certificate()).iter("section"))
-    assert [section.get("class") for section in sections] == [None, "new-page", "new-page", None]
+    assert [section.get("class") for section in sections] == ["whole", "new-page", "new-page", None]
 
 
 def test_headings_descend_without_a_gap() -> None:

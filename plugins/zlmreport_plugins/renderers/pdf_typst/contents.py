@@ -27,6 +27,7 @@ from zlmreport.plugin.renderer import (
     Align,
     Cell,
     Certificate,
+    Ending,
     Explained,
     Facts,
     Formulas,
@@ -39,6 +40,7 @@ from zlmreport.plugin.renderer import (
     Table,
     Verdict,
     decimal_padding,
+    endings,
     facts_side_by_side,
     numbered_blocks,
     table_layout,
@@ -72,6 +74,7 @@ def contents(certificate: Certificate) -> Data:
         [_block(each, certificate.language) for each in blocks] for blocks in numbered_blocks(certificate)
     )
     letterhead, words = certificate.letterhead, certificate.page_words
+    ended = endings(certificate)
     return {
         "language": certificate.language.value,
         "paper": certificate.paper,
@@ -103,10 +106,12 @@ def contents(certificate: Certificate) -> Data:
                 "number": str(number),
                 "title": fitted(section.title, _SECTION, FontFace.SEMIBOLD),
                 "new-page": section.new_page,
+                "kept": ending.kept,
+                "leads-on": after.is_joined,
                 "blocks": blocks,
             }
-            for number, (section, blocks) in enumerate(
-                zip(certificate.sections, sections, strict=True), start=1
+            for number, (section, ending, after, blocks) in enumerate(
+                zip(certificate.sections, ended, (*ended[1:], Ending()), sections, strict=True), start=1
             )
         ],
     }

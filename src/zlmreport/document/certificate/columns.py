@@ -356,8 +356,9 @@ _SUBJECT_EM, _LABORATORY_EM = 50.0, (46.0, 30.0)
 _SUBJECT_LINE = 12.9
 #: What a section has above its heading that begins below the title, and no page.
 BELOW_TITLE = 5.5
-#: Em of the names and values of facts in one of two columns.
+#: Em of the names and values of facts in one of two columns, and where a single group has the page's width.
 _NAME_EM, _VALUE_EM = 10.4, 16.3
+_WIDE_NAME_EM, _WIDE_VALUE_EM = 16.0, 38.5
 _FACTS_MARGIN = 4.0
 _USUAL_GRAPH = 60 * MILLIMETRE
 
@@ -402,7 +403,9 @@ def _height(block: GatheredBlock) -> float:
             lines = sum(map(notice_lines, (title, *items)))
             return lines * _LINE + 1.5 * len(items) + 19.0
         case facts:
-            return _FACTS_MARGIN + max(map(_facts_height, side_by_side(facts)))
+            return _FACTS_MARGIN + max(
+                _facts_height(each, is_wide=len(facts) == 1) for each in side_by_side(facts)
+            )
 
 
 def notice_lines(text: str) -> int:
@@ -432,18 +435,19 @@ def _table_height(table: Table) -> float:
     return head + body * 1.3 * em + between + 8.0
 
 
-def _facts_height(groups: tuple[Facts, ...]) -> float:
+def _facts_height(groups: tuple[Facts, ...], *, is_wide: bool) -> float:
     room = 0.0
     for group in groups:
         room += _LINE + 2.0 if group.heading else 0.0
-        room += sum(fact_lines(*pair) * _LINE + 1.6 for pair in group.pairs)
+        room += sum(fact_lines(*pair, is_wide=is_wide) * _LINE + 1.6 for pair in group.pairs)
     return room
 
 
-def fact_lines(name: str, value: str) -> int:
-    """Return how many lines a fact takes in one of two columns."""
-    lines = sum(_lines_of_words(line, _VALUE_EM, 1.0) for line in value.split("\n"))
-    return max(_lines_of_words(name, _NAME_EM, 1.0), lines)
+def fact_lines(name: str, value: str, *, is_wide: bool = False) -> int:
+    """Return how many lines a fact takes in one of two columns, or where it has the page's width."""
+    of_name, of_value = (_WIDE_NAME_EM, _WIDE_VALUE_EM) if is_wide else (_NAME_EM, _VALUE_EM)
+    lines = sum(_lines_of_words(line, of_value, 1.0) for line in value.split("\n"))
+    return max(_lines_of_words(name, of_name, 1.0), lines)
 
 
 #: Running text is narrower than its letters are estimated.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -68,20 +68,22 @@ def section(
 
 
 def facts(
-    job: Job,
-    measurements: MeasurementSet,
-    described: Sequence[Described],
-    writer: Writer,
-    beside: Container[str] = (),
+    job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
 ) -> Iterator[Block]:
-    """Yield what is stated of the item, the method, the instrument and the environment.
-
-    A group of which everything stands `beside` them already is left out.
-    """
+    """Yield what is stated of the item, the method, the instrument and the environment."""
     for _, group in groups(job, measurements, described, writer):
-        if any(value not in beside for _, value in group.pairs):
-            yield group
+        yield group
     yield from no_influence(job, measurements, writer)
+
+
+def groups_beside_identification(
+    job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
+) -> Iterator[tuple[str, Facts]]:
+    """Yield the groups of which not everything stands in an identification of the machine in one line."""
+    said = identified(job, writer)
+    for key, group in groups(job, measurements, described, writer):
+        if any(value not in said for _, value in group.pairs):
+            yield key, group
 
 
 def groups(

@@ -6,16 +6,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from zlmreport.document.blocks import Block, Facts, Notice, RowGroup, Symbol, Table
+from zlmreport.document.blocks import Block, Facts, Notice, Paragraph, RowGroup, Symbol, Table
 from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
 from zlmreport.document.certificate.circumstances import Fact, date, days, stated_facts
 from zlmreport.document.certificate.conditions import (
     MACHINE_KINDS,
     axis_in_words,
-    facts as facts_of_conditions,
     groups as conditions_in_groups,
-    identified,
+    groups_beside_identification,
     measured_of,
+    no_influence,
+    section as conditions_section,
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import missing_readings
@@ -35,11 +36,26 @@ if TYPE_CHECKING:
     from zlmreport.job.keys import JobKeys
 
 
-def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -> tuple[Block, ...]:
+@dataclass(frozen=True, slots=True)
+class Behind:
+    """What of the first page stands behind it, because it has no room."""
+
+    conditions: frozenset[str] = frozenset()  #: Groups of conditions, by their job keys.
+    explains_uncertainty: bool = False  #: What U means.
+    results: bool = False  #: The results in brief: below all else, and as far as they go.
+
+
+_IN_SECTION = Words("In section “{title}”: {what}.")
+_MEANING_OF_U = Words("what U means, and what it is made of")
+
+
+def blocks(
+    of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None, behind: Behind = Behind()
+) -> tuple[Block, ...]:
     """Return the blocks under the title.
 
-    Where standards share `pages`, they share their results in brief, and the conditions stand here too; the
-    statements that every certificate makes find their place there.
+    Where standards share `pages`, they share their results in brief, and the conditions stand here too, but
+    for what stands `behind`.
     """
     if of.is_part:
         return tuple(_of_part(of))
@@ -49,23 +65,45 @@ def blocks(of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None) -
     if pages is None:
         first: tuple[Block, ...] = (Facts(facts),)
     else:
-        beside = identified(job, writer)
-        of_conditions = facts_of_conditions(job, measurements, of.described, writer, beside)
-        first = (Facts(facts, writer.say(statements.WORK[job.keys.certificate.kind])), *of_conditions)
+        further = groups_beside_identification(job, measurements, of.described, writer)
+        first = (
+            Facts(facts, writer.say(statements.WORK[job.keys.certificate.kind])),
+            *(group for key, group in further if key not in behind.conditions),
+            *no_influence(job, measurements, writer),
+        )
+    in_brief = _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None)
+    of_uncertainty = uncertainty.statement(evaluated[0].budget, evaluations, writer)
     return (
         *amendment_notice(job.keys.certificate, writer),
         *first,
-        _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None),
-        *uncertainty.statement(evaluated[0].budget, evaluations, writer),
+        *(() if behind.results else (in_brief,)),
+        *(each for each in of_uncertainty if isinstance(each, Notice) or not behind.explains_uncertainty),
         *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
+        *_elsewhere(of, behind),
         *unlikely(of, writer),
         *missing_readings(measurements, writer),
         *measured_lines.notices(of.tests, writer),
         *_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_as_found(job, writer),
         *statements.notices(job.keys, writer),
-        *(statements.paragraphs(job, writer) if pages is None else ()),
+        *statements.paragraphs(job, writer),
+        *((in_brief,) if behind.results else ()),
     )
+
+
+def _elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
+    """Yield where that stands for which the page has no room."""
+    writer = of.writer
+    if behind.conditions:
+        groups = conditions_in_groups(of.job, of.measurements, of.described, writer)
+        named = ", ".join(group.heading for key, group in groups if key in behind.conditions)
+        title = conditions_section(of.job, of.measurements, of.described, writer).title
+        yield Paragraph(writer.say(_IN_SECTION.given(title=title, what=named)))
+    if behind.explains_uncertainty:
+        title = uncertainty.section(
+            of.evaluated[0].budget, [each.evaluation for each in of.evaluated], writer
+        ).title
+        yield Paragraph(writer.say(_IN_SECTION.given(title=title, what=_MEANING_OF_U)))
 
 
 #: Keys of the facts that one of several measurements has of its own.

@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TypeAlias, TypeGuard
 
-from zlmreport.document.blocks import Block, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
-from zlmreport.document.certificate import columns, conditions, conformity, cover, results, statements
+from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
+from zlmreport.document.certificate import columns, conditions, conformity, results, statements
+from zlmreport.document.certificate.first_page import first_page
 from zlmreport.document.certificate.material import (
     LaidOut,
     Material,
@@ -57,28 +58,22 @@ def lay_out(of: Material) -> LaidOut:
     """Return the document.
 
     Each standard begins a page where the first page holds all that stands before the results, and is not
-    left empty by it; where it does not, parts follow each other without a break. What holds of every
-    certificate goes over to the uncertainty where only that makes the first page too long.
+    left empty by it; where it does not, parts follow each other without a break.
     """
     pages = together(of.evaluated, of.writer)
     page = columns.PAGES[of.job.keys.certificate.paper]
-    on_cover = cover.blocks(of, pages)
-    said = () if of.is_part else tuple(statements.paragraphs(of.job, of.writer))
-    free = page - head_height(of) - columns.height(on_cover)
-    is_said_at_end = columns.height(said) > free >= 0
+    below_title = page - head_height(of)
+    on_cover, behind = first_page(of, pages, below_title)
+    free = below_title - columns.height(on_cover)
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
-    *others, last = map(_without_graphs, uncertainty_sections(of))
-    if is_said_at_end:
-        last = replace(last, blocks=(*last.blocks, *statements.in_a_paragraph(said)))
     return LaidOut(
-        on_cover if is_said_at_end else (*on_cover, *said),
+        on_cover,
         (
             *_results(of, pages, page if breaks else None),
             *results_by_line(of),
-            *map(in_smaller_type, _besides_conditions(of)),
+            *map(in_smaller_type, _further_conditions(of, behind)),
             *in_common(pages, of.writer),
-            *others,
-            last,
+            *map(_without_graphs, uncertainty_sections(of)),
             *readings_sections(of),
             in_smaller_type(origin_section(of)),
             *map(in_smaller_type, opinions_and_model(of)),
@@ -117,9 +112,9 @@ def results_by_line(
         used = (taken if begins_page else used + taken) % room
 
 
-def _besides_conditions(of: Material) -> Iterator[Section]:
-    """Yield what is to be said of the conditions and is no fact: the facts stand on the first page."""
-    blocks = tuple(conditions.besides(of.measurements, of.described, of.writer))
+def _further_conditions(of: Material, behind: tuple[Facts, ...]) -> Iterator[Section]:
+    """Yield what is to be said of the conditions besides what the first page states of them."""
+    blocks = (*behind, *conditions.besides(of.measurements, of.described, of.writer))
     if blocks:
         section = conditions.section(of.job, of.measurements, of.described, of.writer)
         yield replace(section, blocks=blocks)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup, Section, Table
@@ -128,13 +128,6 @@ def paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     yield Paragraph(writer.say(_ONLY_THIS_ITEM[keys.certificate.kind]))
     if keys.certificate.kind == "certificate":
         yield Paragraph(writer.say(_ONLY_IN_FULL))
-
-
-def in_a_paragraph(blocks: Iterable[Block]) -> Iterator[Block]:
-    """Yield what is said in sentences as one paragraph, below what is not."""
-    said = list(blocks)
-    yield from (each for each in said if not isinstance(each, Paragraph))
-    yield Paragraph(" ".join(each.text for each in said if isinstance(each, Paragraph)))
 
 
 def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _KEY) -> Iterator[Notice]:

@@ -26,6 +26,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.columns import GatheredBlock, NumberedBlock
 from zlmreport.document.certificate.document import Certificate, Linked
+from zlmreport.document.certificate.endings import Ending, all_of, endings
 from zlmreport.document.typesetting.resources import linked_values
 from zlmreport.document.typesetting.templates import (
     CellContext,
@@ -94,9 +95,9 @@ def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
         letterhead=_letterhead(certificate, setting),
         cover=tuple(markup for _, markup in cover),
         sections=tuple(
-            _section(number, section, blocks, linked, own)
-            for number, (section, blocks) in enumerate(
-                zip(certificate.sections, sections, strict=True), start=1
+            _section(number, section, ending, blocks, linked, own)
+            for number, (section, ending, blocks) in enumerate(
+                zip(certificate.sections, endings(certificate), sections, strict=True), start=1
             )
         ),
     )
@@ -111,9 +112,10 @@ def _letterhead(certificate: Certificate, setting: Setting) -> Markup:
     return render(LetterheadContext(letterhead, logo), certificate.look.templates)
 
 
-def _section(
+def _section(  # noqa: PLR0913, PLR0917 - what a section is set from
     number: int,
     section: Section,
+    ending: Ending,
     blocks: list[tuple[GatheredBlock, Markup]],
     linked: Linked | None,
     own: tuple[tuple[str, str], ...],
@@ -123,7 +125,18 @@ def _section(
     if linked and linked.section == section.key:
         first = next(at for at, (block, _) in enumerate(blocks) if isinstance(block, Graph))
         markup.insert(first, render(LinkedContext(linked_values(linked))))
-    return render(SectionContext(section.key, number, section.title, section.new_page, tuple(markup)), own)
+    is_whole = all_of(section, ending)
+    context = SectionContext(
+        section.key,
+        number,
+        section.title,
+        section.new_page,
+        tuple(markup),
+        is_whole,
+        ending.is_joined,
+        0 if is_whole else ending.kept,
+    )
+    return render(context, own)
 
 
 def _context(numbered: NumberedBlock, certificate: Certificate, setting: Setting) -> Context:

@@ -132,7 +132,11 @@ class GraphContext:
 
 @dataclass(frozen=True, slots=True)
 class SectionContext:
-    """A section: its anchor, number, title, and its blocks as markup."""
+    """A section: its anchor, number, title, and its blocks as markup.
+
+    `is_whole`: Whether no page parts it; `is_joined`: Whether it stays with what ends before it; `kept`: How
+    many of its last blocks no page parts, where that is not all of it.
+    """
 
     template: ClassVar[str] = "section.html"
     key: str
@@ -140,6 +144,9 @@ class SectionContext:
     title: str
     new_page: bool
     blocks: tuple[Markup, ...]
+    is_whole: bool = False
+    is_joined: bool = False
+    kept: int = 0
 
 
 @dataclass(frozen=True, slots=True)

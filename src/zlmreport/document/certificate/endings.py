@@ -1,0 +1,73 @@
+"""What stands last before a page that begins anew, or before the end: enough of it stays together.
+
+Otherwise such a page has as little on it as happens to be left over: a small table, or the last rows of one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Formulas, Section, Table
+from zlmreport.document.certificate import columns
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.columns import GatheredBlock
+    from zlmreport.document.certificate.document import Certificate
+
+#: Parts of a page: that stay together at least, and at most, for what is higher must be parted.
+_LEAST, _MOST = 0.28, 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """How many blocks of a section, facts that follow each other counted as one, stay together at its end.
+
+    Where these are all, its heading stays with them; where it is `joined`, they stay with the end of the
+    section before it, too.
+    """
+
+    kept: int = 0
+    is_joined: bool = False
+
+
+def endings(certificate: Certificate) -> tuple[Ending, ...]:
+    """Return the ending of each section."""
+    sections, page = certificate.sections, columns.PAGES[certificate.paper]
+    found = [Ending()] * len(sections)
+    ends = [*(after.new_page for _, after in pairwise(sections)), True]
+    for last in (number for number, is_end in enumerate(ends) if is_end):
+        taken = 0.0
+        for number in range(last, -1, -1):
+            section = sections[number]
+            blocks = tuple(columns.gather_facts(section.blocks))
+            kept, taken = _kept(blocks, taken, page)
+            is_joined = kept == len(blocks) and taken < _LEAST * page and number > 0 and not section.new_page
+            found[number] = Ending(kept, is_joined)
+            if not is_joined:
+                break
+            taken += columns.heading_height(section.title)
+    return tuple(found)
+
+
+def _kept(blocks: Sequence[GatheredBlock], taken: float, page: float) -> tuple[int, float]:
+    """Return how many blocks stay together before what is taken of a page, and what then is."""
+    kept = 0
+    for block in reversed(blocks):
+        height = columns.height(block if isinstance(block, tuple) else (block,))
+        if taken >= _LEAST * page or taken + height > _MOST * page or _is_parted(block):
+            break
+        kept, taken = kept + 1, taken + height
+    return kept, taken
+
+
+def _is_parted(block: GatheredBlock) -> bool:
+    """Return whether pages may part a block."""
+    return isinstance(block, Table | Formulas) and not columns.table_layout(block).is_whole
+
+
+def all_of(section: Section, ending: Ending) -> bool:
+    """Return whether a section stays together with its heading."""
+    return bool(ending.kept) and ending.kept == sum(1 for _ in columns.gather_facts(section.blocks))

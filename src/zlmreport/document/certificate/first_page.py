@@ -1,0 +1,61 @@
+"""What the first page of a compact document holds, where not everything has room on it.
+
+Who and what, the results in brief, the decision rule and the statements stand together, whatever a job
+states. What is long stands behind, and the page says where: first conditions of the measurement, group by
+group, then what U means. Where even that leaves too little room, it is the results that go on on the next
+page.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from zlmreport.document.blocks import Block, Facts
+from zlmreport.document.certificate import columns, conditions, cover
+from zlmreport.document.certificate.cover import Behind
+
+if TYPE_CHECKING:
+    from zlmreport.document.certificate.material import Material
+    from zlmreport.document.certificate.results import Evaluated
+
+#: Groups of conditions by their job keys, in the order in which they leave the page; an extension's has none.
+_LEAST_LOOKED_FOR = ("", "environment", "instrument", "measurement", "axis", "circle", "machine")
+
+
+def first_page(
+    of: Material, pages: Sequence[tuple[Evaluated, ...]], room: float
+) -> tuple[tuple[Block, ...], tuple[Facts, ...]]:
+    """Return the blocks under the title, and the groups of conditions that stand behind.
+
+    `pages`: Evaluations that share their results in brief. `room`: What the page has below its title, points.
+    """
+    for behind in _ways(of):
+        blocks = cover.blocks(of, pages, behind)
+        if columns.height(blocks) <= room:
+            break
+    left = [group for key, group in _conditions(of) if key in behind.conditions]
+    return blocks, tuple(left)
+
+
+def _ways(of: Material) -> Iterator[Behind]:
+    """Yield what stands behind, from nothing to all that can; a section that a job leaves out takes none."""
+    wanted = of.job.keys.certificate.sections
+    behind = Behind()
+    yield behind
+    if wanted is None or "conditions" in wanted:
+        keys = [key for key, _ in _conditions(of)]
+        for key in _LEAST_LOOKED_FOR:
+            if key in keys:
+                behind = replace(behind, conditions=behind.conditions | {key})
+                yield behind
+    if wanted is None or "uncertainty" in wanted:
+        behind = replace(behind, explains_uncertainty=True)
+        yield behind
+    yield replace(behind, results=True)
+
+
+def _conditions(of: Material) -> list[tuple[str, Facts]]:
+    """Return the groups that the first page has where there is room, with their job keys."""
+    return list(conditions.groups_beside_identification(of.job, of.measurements, of.described, of.writer))
