@@ -40,8 +40,10 @@ def placed_notes(panel: Panel, frame: Frame, language: Language) -> Iterator[Pla
     """Yield the notes where they stand: above or below their places, in the middle."""
     for note in panel.notes:
         value = note.value
-        is_name = isinstance(value, Words)
-        text = value.in_language(language) if is_name else fixed_number(value, 1, language.decimal_sign)
+        if isinstance(value, Words):
+            text = value.in_language(language)
+        else:
+            text = fixed_number(value, 1, language.decimal_sign)
         label = plain_label(text, TICK_TEXT_SIZE)
         x, y = frame.x_point(note.x), frame.y_point(note.y)
         foot = y - _GAP - label.height if note.is_below else y + _GAP
