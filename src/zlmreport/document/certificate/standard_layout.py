@@ -285,10 +285,11 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
 def main_graph(figures: Sequence[Figure]) -> Figure | None:
     """Return the graph that shows where the parameters arise; any other of one panel if none does.
 
-    Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis.
+    Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis,
+    or the first one with panels beside each other.
     """
     single = [each for each in figures if len(each.panels) == 1]
-    single = single or [each for each in figures if each.has_several_quantities]
+    single = single or [each for each in figures if each.has_several_quantities] or list(figures)
     single = [each for each in single if each.panels[0].is_polar] or single
     return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
 
