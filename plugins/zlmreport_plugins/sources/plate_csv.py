@@ -52,6 +52,7 @@ from zlmreport.plugin.table import (
 )
 
 LINE, STATION, RUN, READING = "line", "station", "run", "reading"
+COLUMN_NAMES: tuple[str, ...] = (LINE, STATION, RUN, READING)
 #: What the feet of a carriage may be apart, m: what is farther off is in another unit.
 _SHORTEST, _LONGEST = 5e-3, 1.0
 
@@ -59,7 +60,7 @@ _SHORTEST, _LONGEST = 5e-3, 1.0
 class PlateCsvOptions(TableOptions):
     """Where the table of slopes is, and what it does not say itself."""
 
-    column_names = (LINE, STATION, RUN, READING)
+    column_names = COLUMN_NAMES
     column_units = MappingProxyType({READING: ANGLE_UNITS})
     header_example = "line,station,reading"
 

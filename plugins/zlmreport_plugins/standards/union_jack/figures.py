@@ -127,11 +127,10 @@ def _plan(plate: Plate, above: dict[str, FloatArray]) -> Panel:
             written.append(place)
             east, north = _millimetres(place).tolist()
             notes.append(Note(east, north, _number(height)))
-    corners = (
-        Note(*_millimetres(np.array(_corner(plate, name))).tolist(), words, is_below=True)
-        for name, words in _POINTS.items()
-    )
-    return Panel(curves=tuple(curves), notes=(*notes, *corners), projection="wire")
+    for name, words in _POINTS.items():
+        east, north = _millimetres(np.array(_corner(plate, name))).tolist()
+        notes.append(Note(east, north, words, is_below=True))
+    return Panel(curves=tuple(curves), notes=tuple(notes), projection="wire")
 
 
 def _corner(plate: Plate, name: str) -> tuple[float, float]:
