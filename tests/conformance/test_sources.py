@@ -16,6 +16,7 @@ from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, STRAIGHTNESS
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import SOURCE_CHECKS, FileContents
+from zlmreport_plugins.standards.union_jack.lines import LINE
 from zlmreport_step_gauge.calibration import read_calibration
 from zlmreport_step_gauge.set_up import GaugeSetUp
 
@@ -105,6 +106,12 @@ SAMPLES: list[tuple[str, Mapping[str, Any], Axis | SourceContext, FileContents]]
         },
         Axis("X", quantity=DISPLACEMENT),
         FileContents(49, ((0.0, "+", 1, 12.42), (4.0, "+", 1, 14.37))),
+    ),
+    (
+        "plate-csv",
+        {"file": CONFIGS / "flatness" / "plate.csv", "foot": 100},
+        Axis("W-E", quantity=LINE),
+        FileContents(16, ((100.0, "+", 1, 5.16), (800.0, "+", 2, 6.70))),
     ),
     ("dcc", {"file": DATA / "y-axis.xml"}, Axis("Y"), _Y_AXIS),
     ("renishaw-rtl", {"file": DATA / "bidirectional.rtl"}, Axis("Y"), _Y_AXIS),

@@ -123,6 +123,36 @@ def _drift() -> list[WorkedExample]:
     return [WorkedExample(joined(Axis("machine", quantity=of), lines), values, keys)]
 
 
+def _plate() -> list[WorkedExample]:
+    """Return a plate that is twisted by ±4 µm in its corners, with straight edges.
+
+    Its centre lines begin and end at 0, and should be 0 in the middle, too: they rise to 3 and fall to −2 µm.
+    """
+    (of,) = measurands_of(_installed("union-jack"))
+    micrometre = math.degrees(1e-6 / 0.1) * 3600
+    rises = {
+        "NW-SE": [3, 1, -1, -3],
+        "NE-SW": [-3, -1, 1, 3],
+        "NW-NE": [2, 2, 2, 2],
+        "SW-SE": [-2, -2, -2, -2],
+        "NW-SW": [2, 2, 2, 2],
+        "NE-SE": [-2, -2, -2, -2],
+        "W-E": [1.5, 1.5, -1.5, -1.5],
+        "N-S": [-1, -1, 1, 1],
+    }
+    lines = {
+        name: bidirectional_test(
+            [100, 200, 300, 400],
+            micrometre * np.array([[each + 29.5, each + 30.5] for each in of_line]),
+            micrometre * np.array([[each - 30.5, each - 29.5] for each in of_line]),
+            axis=Axis(name, quantity=of.of_lines),
+        )
+        for name, of_line in rises.items()
+    }
+    values = {"t": 8.0, "t_LS": 8.0, "t_MZ": 8.0, "closure_WE": 3.0, "closure_NS": -2.0}
+    return [WorkedExample(joined(Axis("plate", quantity=of), lines), values)]
+
+
 def _installed(identifier: str) -> Any:
     from zlmreport.plugin.registry import find_plugins
 
@@ -134,6 +164,7 @@ _OF_LINES = {
     "iso230-4:2005": _circle,
     "iso230-6:2002": _diagonals,
     "iso230-3": _drift,
+    "union-jack": _plate,
 }
 _NONE = [math.nan, math.nan]
 #: Faces in turn, each probed from one side; between its neighbours the other side is interpolated.

@@ -11,6 +11,7 @@ from zlmreport.document.figures.figure import (
     Bracket,
     Curve,
     Level,
+    Note,
     Panel,
     Role,
 )
@@ -93,6 +94,7 @@ __all__ = [
     "Finding",
     "Information",
     "Level",
+    "Note",
     "Panel",
     "PositionQuantity",
     "PositionStatistics",

@@ -225,3 +225,4 @@ def test_quantities_of_their_own_stand_one_below_the_other_on_one_axis() -> None
     assert [each.is_wide for each in in_less_room([alike])] == [True]
     assert list(in_less_room([of_several])) == [of_several]
     assert main_graph([of_several]) is of_several
+    assert main_graph([alike]) is alike

@@ -30,8 +30,8 @@ from zlmreport.language import Words
 
 #: Heights of graphs, mm: of the main one, of panels beside each other, of any other, of what is no result.
 _MAIN, _BESIDE, _OTHER, _ASIDE = 57.0, 43.0, 54.0, 46.0
-#: Of a graph about a circle, mm: the other one stands below it on the same page.
-_ROUND = 120.0
+#: Of a picture, as of a circle or a plate, mm: the other one stands below it on the same page.
+_PICTURE = 120.0
 #: The part of its height that a graph keeps at least where a page is short of room.
 _LEAST_DRAWN = 0.75
 #: Points that are none.
@@ -257,7 +257,7 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
     if main is not None and len(main.panels) == 1:
         again = [each for each in single if each is not main and _shows_again(each.panels[0], main.panels[0])]
         readings = main.panels[0].readings or next((each.panels[0].readings for each in again), ())
-        height = _ROUND if main.panels[0].is_polar else _MAIN
+        height = _PICTURE if main.panels[0].projection != "straight" else _MAIN
         yield replace(main, panels=(replace(main.panels[0], readings=readings),), height=height)
         single = [each for each in single if each is not main and each not in again]
     for each in figures:
@@ -266,16 +266,17 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
         elif len(each.panels) > 1:
             yield each
         elif any(each is other for other in single):
-            yield replace(each, height=_OTHER)
+            yield replace(each, height=_PICTURE if each.panels[0].is_wire else _OTHER)
 
 
 def main_graph(figures: Sequence[Figure]) -> Figure | None:
     """Return the graph that shows where the parameters arise; any other of one panel if none does.
 
-    Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis.
+    Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis,
+    or the first one with panels beside each other.
     """
     single = [each for each in figures if len(each.panels) == 1]
-    single = single or [each for each in figures if each.has_several_quantities]
+    single = single or [each for each in figures if each.has_several_quantities] or list(figures)
     single = [each for each in single if each.panels[0].is_polar] or single
     return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
 

@@ -98,8 +98,12 @@ def sketch(layout: FigureLayout) -> Iterator[Shape]:
 def panel_shapes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
     """Return the shapes of a panel; only below the lowest panel the positions are written."""
     if layout.grid is not None:
-        yield from _about_a_circle(layout, layout.grid)
-        return
+        return _about_a_circle(layout, layout.grid)
+    return _of_a_body(layout) if layout.panel.is_wire else _over_positions(layout, is_lowest=is_lowest)
+
+
+def _over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
+    """Return the shapes of a panel with axes."""
     frame, panel = layout.frame, layout.panel
 
     yield from _grid(frame)
@@ -142,6 +146,17 @@ def _about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape]:
     for letters in grid_labels(panel, grid, frame):
         yield _ground(letters.placed)
         yield letters
+
+
+def _of_a_body(layout: PanelLayout) -> Iterator[Shape]:
+    """Return the shapes of a wire picture."""
+    for curve in layout.panel.curves:
+        points = np.column_stack([curve.x, curve.y])
+        stroke = ROLES[curve.role].stroke
+        yield Outline(f"curve {curve.role.name.lower()}", (points,), stroke, frame=layout.frame)
+    for note in layout.notes:
+        yield _ground(note)
+        yield Lettering("note", note, INK)
 
 
 def curve_marks(

@@ -143,6 +143,16 @@ class Bar:
 
 
 @dataclass(frozen=True, slots=True)
+class Note:
+    """What is written at a place of a wire picture: the value there, to one decimal, or a name."""
+
+    x: float
+    y: float
+    value: float | Words
+    is_below: bool = False  #: Whether it stands below the place instead of above it.
+
+
+@dataclass(frozen=True, slots=True)
 class Panel:
     """One pair of axes.
 
@@ -155,7 +165,10 @@ class Panel:
     projection
         ``polar`` for values over an angle, in degrees: drawn outwards from a nominal circle, magnified. A
         curve then shows where it begins and in which sense it goes on; levels are circles, and arrows,
-        brackets and bars have no place.
+        brackets and bars have no place. ``wire`` for a picture of a body: curves whose coordinates are those
+        of the picture, both on one scale, without axes; only curves and notes have a place.
+    notes
+        Of a wire picture: what stands at places of it.
     directions
         Of a panel about a circle: angles, degrees, and what stands at them beside the angle, such as the
         letter of the axis that turns round there; a point on the nominal circle marks each.
@@ -172,7 +185,8 @@ class Panel:
     brackets: tuple[Bracket, ...] = ()
     levels: tuple[Level, ...] = ()
     bars: tuple[Bar, ...] = ()
-    projection: Literal["straight", "polar"] = "straight"
+    notes: tuple[Note, ...] = ()
+    projection: Literal["straight", "polar", "wire"] = "straight"
     directions: tuple[tuple[float, str], ...] = ()
     y_title: Words | None = None
     y_unit: str = ""
@@ -181,6 +195,11 @@ class Panel:
     def is_polar(self) -> bool:
         """Whether it is drawn about a circle."""
         return self.projection == "polar"
+
+    @property
+    def is_wire(self) -> bool:
+        """Whether it is a picture of a body, without axes."""
+        return self.projection == "wire"
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,7 +215,7 @@ class Figure:
     alternative
         What the graph shows, for those who cannot see it: with its values.
     x_title, y_title
-        The axes' quantities, without unit.
+        The axes' quantities, without unit. Of a wire picture the first one stands alone below it.
     x_unit, y_unit
         As printed.
     panels

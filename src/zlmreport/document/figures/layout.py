@@ -33,6 +33,7 @@ _MILLIMETRE = 72 / 25.4
 WIDTH = 170 * _MILLIMETRE
 _HEIGHT_OF_PANEL = 52 * _MILLIMETRE
 _HEIGHT_OF_CIRCLE = 96 * _MILLIMETRE
+_HEIGHT_OF_BODY = 62 * _MILLIMETRE
 _HEIGHT_OF_BARS = 34 * _MILLIMETRE
 _HEIGHT_BESIDES = 38 * _MILLIMETRE
 
@@ -78,6 +79,8 @@ def figure_size(figure: Figure) -> tuple[float, float]:
 def _height_of(panel: Panel) -> float:
     if panel.is_polar:
         return _HEIGHT_OF_CIRCLE
+    if panel.is_wire:
+        return _HEIGHT_OF_BODY
     return _HEIGHT_OF_BARS if panel.bars else _HEIGHT_OF_PANEL
 
 
@@ -107,14 +110,23 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
         lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels, language)
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
-    x_title = plain_label(axis_title(figure.x_title, figure.x_unit, language), TEXT_SIZE)
     right = boxes[-1].right if boxes else right
     if all(panel.is_polar for panel in figure.panels) and panels:
         told = plain_label(_magnified(figure, panels, language), TEXT_SIZE)
         alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
         return FigureLayout(WIDTH, height, panels, (alone,))
+    is_bare = bool(figure.panels) and all(panel.is_wire for panel in figure.panels)
+    along = (
+        figure.x_title.in_language(language)
+        if is_bare
+        else axis_title(figure.x_title, figure.x_unit, language)
+    )
+    x_title = plain_label(along, TEXT_SIZE)
+    below = PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
+    if is_bare:
+        return FigureLayout(WIDTH, height, panels, (below,))
     titles = (
-        PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE),
+        below,
         *_value_titles(figure, boxes, language, Box(left, bottom, right, height)),
     )
     return FigureLayout(WIDTH, height, panels, titles)

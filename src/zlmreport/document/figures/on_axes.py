@@ -80,7 +80,7 @@ def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> N
     size = axes.bbox.width * to_points, axes.bbox.height * to_points
     layout = lay_out_alone(figure, number, language, *size)
     is_lowest = number == len(figure.panels) - 1
-    _set_scales(layout.frame, axes, size, is_lowest=is_lowest, is_polar=layout.panel.is_polar)
+    _set_scales(layout.frame, axes, size, is_lowest=is_lowest, is_bare=layout.panel.projection != "straight")
     font = _font(TypeFace.REGULAR, TEXT_SIZE)
     axes.set_ylabel(axis_title(*figure.value_axis(figure.panels[number]), language), fontproperties=font)
     if is_lowest:
@@ -93,12 +93,12 @@ def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> N
 
 
 def _set_scales(
-    frame: Frame, axes: Axes, size: tuple[float, float], *, is_lowest: bool, is_polar: bool
+    frame: Frame, axes: Axes, size: tuple[float, float], *, is_lowest: bool, is_bare: bool
 ) -> None:
     """Set limits and ticks: the frame is a part of the axes, and the rest holds legend and brackets."""
     (left, bottom), (right, top) = frame.values(np.array([(0.0, 0.0), size])).tolist()
     axes.set(xlim=(left, right), ylim=(bottom, top))
-    if is_polar:
+    if is_bare:
         axes.set_aspect("equal")
         axes.set_axis_off()
         return

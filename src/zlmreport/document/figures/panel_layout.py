@@ -25,6 +25,7 @@ from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level
 from zlmreport.document.figures.metrics import plain_label, symbol_label
 from zlmreport.document.figures.polar import PolarGrid, polar_grid, square
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, PlacedLabel
+from zlmreport.document.figures.wire import placed_notes, wire_frame
 from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray
 
@@ -51,6 +52,7 @@ class PanelLayout:
     levels: tuple[tuple[Level, float, PlacedLabel], ...]
     bar_values: tuple[PlacedLabel, ...]  #: What is written at the end of each bar.
     grid: PolarGrid | None = None  #: Of a panel about a circle; None for the usual ones.
+    notes: tuple[PlacedLabel, ...] = ()  #: Of a wire picture.
 
 
 def lay_out_panel(
@@ -61,6 +63,10 @@ def lay_out_panel(
         grid = polar_grid(panel, language.decimal_sign)
         round_frame = Frame(square(frame.box), grid.scale, grid.scale)
         return PanelLayout(panel, round_frame, legend, (), (), (), (), grid)
+    if panel.is_wire:
+        fitted = wire_frame(panel, frame.box)
+        notes = tuple(placed_notes(panel, fitted, language))
+        return PanelLayout(panel, fitted, legend, (), (), (), (), notes=notes)
     box = frame.box
     spans = [_span(bracket, frame, bracket.low_at, bracket.high_at) for bracket in drawable_brackets(panel)]
     brackets = margin_columns(spans, box.right + level_width + _MARGIN_GAP, box.bottom, box.top)

@@ -1,0 +1,163 @@
+"""Flatness of a surface plate by the union jack: eight lines of slopes (J. C. Moody, 1955).
+
+The recipe, the data and the largest closure are published; in the corrected form, in which the lowest height
+is subtracted and every reading counts. Planes of least squares and of minimum zone are general; that the
+diagonals should fit the edges to a tenth of their length is this program's demand.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+
+import numpy as np
+
+from zlmreport.plugin import Axis, Evaluation, Figure, MeasurementSet, Options, Words, hookimpl
+from zlmreport.plugin.standard import (
+    Arithmetic,
+    Basis,
+    Finding,
+    Information,
+    PositionQuantity,
+    PositionStatistics,
+    Standard,
+    deviation_in_words,
+    no_missing_readings,
+    position_in_words,
+    position_statistics,
+)
+from zlmreport_plugins.standards.union_jack.figures import figures
+from zlmreport_plugins.standards.union_jack.heights import Plate, plate_of
+from zlmreport_plugins.standards.union_jack.lines import (
+    ACROSS,
+    ALONG,
+    CENTRE_LINES,
+    DIAGONALS,
+    FLATNESS,
+    LINES,
+    in_one_order,
+    lacking,
+)
+from zlmreport_plugins.standards.union_jack.planes import least_squares_span, minimum_zone
+from zlmreport_plugins.standards.union_jack.quantities import (
+    MOST_CLOSURE,
+    NOTES,
+    QUANTITIES,
+    closure_symbol,
+)
+
+#: Of the length that a diagonal has by the edges.
+_FITS = 0.1
+_FEWEST = 4
+
+
+class UnionJack:
+    """The union jack of eight lines."""
+
+    identifier = "union-jack"
+    designation = "Union jack (Moody 1955)"
+    title = Words("Flatness of a surface plate by the union-jack method")
+    position_index = "i"
+    options: type[Options] = Options
+    measurands = (FLATNESS,)
+    information = (Information.TEMPERATURES, Information.INSTRUMENT)
+    quantities = QUANTITIES
+    position_quantities: tuple[PositionQuantity, ...] = ()
+    notes: tuple[Words, ...] = NOTES
+
+    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no key of its own
+        """Hold the plan of the lines, and how well they agree, against the test."""
+        tests = measurements.tests
+        yield _all_eight(tests)
+        yield _stations(tests)
+        yield from sorted(
+            (no_missing_readings(each) for each in tests.values()), key=lambda each: bool(each.met)
+        )[:1]
+        plate = plate_of(
+            {
+                name: position_statistics(each.deviations(), each.target_positions)
+                for name, each in tests.items()
+            }
+        )
+        if plate is not None:
+            yield _lengths(tests)
+            yield _closing(plate, measurements.axis)
+
+    def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no key of its own
+        """Return the flatness over the three planes, and the closures."""
+        plate = plate_of(statistics.tests)
+        if plate is None:
+            return Arithmetic(
+                {each.symbol: np.full(statistics.mean.shape[:-2], np.nan) for each in QUANTITIES}
+            )
+        closures = {closure_symbol(name): plate.closures[name] for name in CENTRE_LINES}
+        return Arithmetic(
+            {
+                "t": np.asarray(np.ptp(plate.heights, axis=-1)),
+                "t_LS": least_squares_span(plate.points, plate.heights),
+                "t_MZ": minimum_zone(plate.points, plate.heights),
+                **closures,
+            }
+        )
+
+    def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no key of its own
+        """Return the plate as a wire picture, and its plan with the heights in numbers."""
+        return figures(evaluation)
+
+
+def _all_eight(tests: Mapping[str, MeasurementSet]) -> Finding:
+    missing = lacking(tests)
+    if missing:
+        return Finding(_EIGHT, _LACKING.given(names=", ".join(missing)), met=False)
+    if len(tests) > len(LINES):
+        return Finding(_EIGHT, _TWICE, met=None)
+    return Finding(_EIGHT, _ALL, met=True)
+
+
+def _stations(tests: Mapping[str, MeasurementSet]) -> Finding:
+    fewest = min((len(each.target_positions) for each in tests.values()), default=0)
+    number = Words("{number}").given(number=fewest)
+    return Finding(_READINGS.given(number=_FEWEST), number, fewest >= _FEWEST, Basis.APPLIED)
+
+
+def _lengths(tests: Mapping[str, MeasurementSet]) -> Finding:
+    """Return whether the diagonals are as long as the edges make them."""
+    lines = in_one_order(tests)
+    length = {name: float(each.target_positions[-1]) for name, (_, each) in lines.items()}
+    along, across = (np.mean([length[name] for name in names]) for names in (ALONG, ACROSS))
+    nominal = math.hypot(along, across)
+    name = max(DIAGONALS, key=lambda each: abs(length[each] - nominal))
+    axis = lines[name][1].axis
+    found = _DIAGONAL.given(
+        name=name,
+        measured=position_in_words(axis, float(f"{length[name]:.4g}")),
+        nominal=position_in_words(axis, float(f"{nominal:.4g}")),
+    )
+    return Finding(_FIT, found, abs(length[name] - nominal) <= _FITS * nominal, Basis.APPLIED)
+
+
+def _closing(plate: Plate, axis: Axis) -> Finding:
+    """Return whether the centre lines meet the diagonals in the middle of the plate."""
+    worst = max((float(abs(each)) for each in plate.closures.values()), default=math.nan)
+    asked = _CLOSURE.given(most=deviation_in_words(axis, MOST_CLOSURE))
+    if not math.isfinite(worst):
+        return Finding(asked, _NOT_STATED, met=False)
+    found = deviation_in_words(axis, float(f"{worst:.3g}"))
+    return Finding(asked, found, worst <= MOST_CLOSURE, Basis.PUBLISHED)
+
+
+_EIGHT = Words("Eight lines: diagonals, edges and centre lines")
+_ALL = Words("all eight")
+_LACKING = Words("{names} not measured; no height follows from the others")
+_TWICE = Words("a line was measured both ways: that in the usual direction counts")
+_NOT_STATED = Words("not defined")
+_READINGS = Words("At least {number} readings on each line")
+_FIT = Words("Diagonals as long as the edges make them, to a tenth")
+_DIAGONAL = Words("{name}: {measured}, by the edges {nominal}")
+_CLOSURE = Words("Closure of both centre lines up to {most}")
+
+
+@hookimpl
+def zlmreport_standards() -> tuple[Standard, ...]:
+    """Offer the standard."""
+    return (UnionJack(),)
