@@ -316,7 +316,8 @@ def no_missing_readings(measurements: MeasurementSet) -> Finding:
     present = ~np.isnan(measurements.deviations())
     total = int(np.count_nonzero(present)) + missing
     if not missing:
-        complete = Words("all {total} readings", "alle {total} Messwerte").given(total=total)
+        several = Words("all {total} readings", "alle {total} Messwerte").given(total=total)
+        complete = Words("the only reading", "der einzige Messwert") if total == 1 else several
         return Finding(requirement, complete, met=True)
     count = np.count_nonzero(present, axis=-1)[[approach.index for approach in measurements.approaches]]
     found = Words(

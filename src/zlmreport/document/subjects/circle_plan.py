@@ -17,6 +17,7 @@ from zlmreport.model.planning.circle_path import SENSES, CirclePath
 
 _MINUTE = 60.0
 _DIGITS = 3
+_SIZE_OF_ONE = Words(en="1 turn of radius {radius} mm", de="1 Umlauf mit Radius {radius} mm")
 _SIZE = Words(en="{count} turns of radius {radius} mm", de="{count} Umläufe mit Radius {radius} mm")
 _PATH = Words(en="Path", de="Bahn")
 _ROUND = Words(
@@ -48,7 +49,8 @@ _SOURCE = Words(
 
 def size_of_circle(path: CirclePath) -> Words:
     """Return how many turns a test has, and of which radius."""
-    return _SIZE.given(count=len(path.turns), radius=path.radius)
+    turns = len(path.turns)
+    return (_SIZE if turns != 1 else _SIZE_OF_ONE).given(count=turns, radius=path.radius)
 
 
 def circle_plan_sections(job: Job, paths: Sequence[CirclePath], language: Language) -> tuple[Section, ...]:
