@@ -95,7 +95,11 @@ def _keys(world: World) -> dict[str, Any]:
         "certificate": {"number": "1", "kind": "report"},
         "axis": {"name": "X"},
         "measurement": {"source": {"plugin": "laser-csv", "file": "x.csv"}},
-        "instrument": {"name": "Interferometer", "expanded_uncertainty": world.instrument},
+        "instrument": {
+            "name": "Interferometer",
+            "expanded_uncertainty": world.instrument,
+            "compensates": {"air": True},
+        },
         "environment": {"expansion_coefficient": _ALPHA},
         "uncertainty": {
             "machine_temperature": _SENSOR_RANGE,

@@ -30,7 +30,11 @@ measurement:
   method: linear
   feed: 2000
   source: {{plugin: laser-csv, file: {number}.csv}}
-instrument: {{name: Laser interferometer, certificate: EXAMPLE-CAL-1, expanded_uncertainty: 0.5}}
+instrument:
+  name: Laser interferometer
+  certificate: EXAMPLE-CAL-1
+  expanded_uncertainty: 0.5
+  compensates: {{air: true}}
 uncertainty:
   misalignment: 0.2
   machine_temperature: 0.3

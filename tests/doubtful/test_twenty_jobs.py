@@ -82,6 +82,32 @@ def copied(deviations: np.ndarray) -> np.ndarray:
     return moved
 
 
+def with_a_digit_changed(deviations: np.ndarray) -> np.ndarray:
+    """Return readings whose last run is the one before it but for a digit."""
+    moved = copied(deviations)
+    moved[5, 0, -1] += 0.03
+    return moved
+
+
+def moved_by_a_constant(deviations: np.ndarray) -> np.ndarray:
+    moved = copied(deviations)
+    moved[..., -1] += 1.7
+    return moved
+
+
+def one_direction_moved(deviations: np.ndarray) -> np.ndarray:
+    """Return readings whose negative direction is the positive one, less a reversal."""
+    moved = deviations.copy()
+    moved[:, 1] = moved[:, 0] - 0.8
+    return moved
+
+
+def with_a_stray_target(deviations: np.ndarray) -> np.ndarray:
+    moved = deviations.copy()
+    moved[6] += 60
+    return moved
+
+
 def one_direction_twice(deviations: np.ndarray) -> np.ndarray:
     return np.repeat(deviations[:, :1], 2, axis=1)
 
@@ -120,6 +146,36 @@ JOBS: dict[str, Doubtful] = {
         changed(GERMAN, SHEET, by("vdi-vde-2617", P=20)),
         "Die Durchläufe 4, 5 sind in jeder Stelle gleich",
         copied,
+    ),
+    "a run that was copied and touched up": Doubtful(
+        SOUND, "Runs 4, 5 differ by a constant only, but for single digits", with_a_digit_changed
+    ),
+    "a run that was copied and moved": Doubtful(
+        changed(GERMAN, SHEET, by("vdi-dgq-3441", P=25)),
+        "Die Durchläufe 4, 5 unterscheiden sich bis auf einzelne Stellen nur um eine Konstante",
+        moved_by_a_constant,
+    ),
+    "a direction that was copied and moved": Doubtful(
+        changed(GERMAN, STANDARD),
+        "in Durchläufen 1, 2, 3, 4, 5, und streuen sonst: Kopien",
+        one_direction_moved,
+    ),
+    "a target that is off in every run": Doubtful(
+        changed(by("iso230-2:2014", A=200)), "The target at 601.4 mm lies", with_a_stray_target
+    ),
+    "a target of an axis that turns, off in every run": Doubtful(
+        changed(GERMAN, SHEET, by("iso230-2:2014", A=200), of=TURNING),
+        "Die Sollposition 180° liegt in jedem Durchlauf",
+        with_a_stray_target,
+        ANGLES,
+    ),
+    "an interferometer of which nobody says in which air it counted": Doubtful(
+        changed(REPORT, ("instrument", without("compensation", keys=SOUND["instrument"]))),
+        "U incomplete: Air temperature; Air pressure; Relative humidity not considered",
+    ),
+    "an interferometer whose compensation is a dash": Doubtful(
+        changed(REPORT, GERMAN, ("instrument.compensation", "-")),
+        "U unvollständig: Lufttemperatur; Luftdruck; Relative Luftfeuchte nicht berücksichtigt",
     ),
     "a direction that was copied": Doubtful(
         changed(by("iso230-2:1997", B=1)), "Both directions are identical in every digit", one_direction_twice
@@ -248,6 +304,13 @@ def false_in(document: Certificate) -> list[str]:
         and set(document.measurements.approaches) != set(Approach),
     }
     return [what for what, is_so in found.items() if is_so]
+
+
+def test_silence_on_the_air_refuses_a_certificate_and_a_word_is_enough(tmp_path: Path) -> None:
+    silent = changed(("instrument", without("compensation", keys=SOUND["instrument"])))
+
+    assert "instrument.compensates: {air: true} is enough" in refusals(tmp_path, silent)
+    assert not refusals(tmp_path, changed(("instrument.compensates", {"air": True}), of=silent))
 
 
 # A whole machine.

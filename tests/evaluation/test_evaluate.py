@@ -99,3 +99,14 @@ def test_a_value_that_is_not_plausible_is_named_with_its_parameter(
     statistics = position_statistics(np.array([[[1e-6, -3e-6]]]))
     (finding,) = doubts([(quantity, value)], statistics, Axis("X"))
     assert finding.found.in_language(Language.ENGLISH) == sentence
+
+
+def test_notes_on_parameters_that_are_not_reported_are_left_out() -> None:
+    def said(found: Evaluation) -> str:
+        return " ".join(each.in_language(Language.ENGLISH) for each in found.notes)
+
+    assert "R is the largest" not in said(of_one_direction({}))
+    assert "B is its largest amount" not in said(of_one_direction({}))
+    both = said(evaluate(ISO, simulated_test(), Options(), {}))
+    assert "R is the largest" in both
+    assert "B is its largest amount" in both

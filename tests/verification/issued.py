@@ -29,7 +29,7 @@ schema: zlmreport/job/1
 extends: ../laboratory.yaml
 axis: {name: X, travel: [0, 200], compensation_table: tables/compensation.csv}
 measurement: {source: {plugin: laser-csv, file: x-axis.csv}}
-instrument: {name: Interferometer, expanded_uncertainty: 0.5}
+instrument: {name: Interferometer, expanded_uncertainty: 0.5, compensates: {air: true}}
 evaluate:
   - {standard: nmtba, tolerances: {P: 20}}
 output: {directory: out, formats: [pdf]}

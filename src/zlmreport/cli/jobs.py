@@ -30,6 +30,7 @@ from zlmreport.document.writer import Writer, written
 from zlmreport.errors import InputError, ZlmreportError, as_problems
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
+from zlmreport.job.parse import counted
 from zlmreport.language import Language
 from zlmreport.language.formatting import plain
 from zlmreport.measurement.units import Unit
@@ -309,7 +310,7 @@ def requirements(designation: str, found: Iterable[Finding], writer: Writer) -> 
 def _subject(job: Job) -> str:
     machine = job.keys.machine
     serial = f"serial {machine.serial}" if machine.serial else ""
-    of = f"{len(job.measurements)} measurements" if job.measurements else _in_a_line(job.axis)
+    of = counted(len(job.measurements), "measurement") if job.measurements else _in_a_line(job.axis)
     return ", ".join(part for part in (of, machine.type, serial) if part)
 
 

@@ -284,7 +284,8 @@ def no_missing_readings(measurements: MeasurementSet) -> Finding:
     present = ~np.isnan(measurements.deviations())
     total = int(np.count_nonzero(present)) + missing
     if not missing:
-        complete = Words("all {total} readings").given(total=total)
+        several = Words("all {total} readings").given(total=total)
+        complete = Words("the only reading") if total == 1 else several
         return Finding(requirement, complete, met=True)
     count = np.count_nonzero(present, axis=-1)[[approach.index for approach in measurements.approaches]]
     found = Words("{missing} of {total} missing; n from {least} to {most}, evaluated by what is there")

@@ -94,9 +94,15 @@ def evaluate(
             *undefined,
             *doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
         ),
-        notes=standard.notes,
+        notes=_notes(standard, frozenset(each.quantity.symbol for each in parameters)),
         is_method=getattr(standard, "is_method", False),
     )
+
+
+def _notes(standard: EvaluatingStandard, reported: frozenset[str]) -> tuple[Words, ...]:
+    """Return the notes of a standard without those on parameters of which the test reports none."""
+    idle = [note for symbols, note in getattr(standard, "notes_on", ()) if reported.isdisjoint(symbols)]
+    return tuple(each for each in standard.notes if each not in idle)
 
 
 def _undefined(quantity: Quantity) -> Finding:

@@ -6,11 +6,13 @@ readings too. Sentences are yielded for what chance hardly makes; each test has 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from zlmreport.evaluation.copies import agreement_by_chance, are_nearly_copies, groups_of_copies
 from zlmreport.evaluation.correction.corrections import condition_at_readings
+from zlmreport.evaluation.stray_targets import found_in_both, stray_target
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
@@ -36,6 +38,18 @@ _IDENTICAL = Words("Runs {runs} are identical in every digit: copies, or a resol
 _SAME_DIRECTIONS = Words(
     "Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the reversal"
 )
+_NEARLY_IDENTICAL = Words(
+    "Runs {runs} differ by a constant only, but for single digits: copies, or a resolution that hides the "
+    "scatter"
+)
+_NEARLY_SAME_DIRECTIONS = Words(
+    "Both directions differ by a constant only, but for single digits, in {runs}, and scatter otherwise: "
+    "copies"
+)
+_STRAY = Words(
+    "The target at {target} lies {distance} off the line through its neighbours in every run, far more "
+    "than any other: a defect of the axis at this place, or readings of another place"
+)
 _TOO_SMALL = Words(
     "All deviations together span {range} over {length}: read as {unit}; if the file has {other}, state "
     "measurement.source.units: {{deviation: {other}}}"
@@ -60,6 +74,8 @@ _OUTLYING = 8.0
 _MOST_NAMED = 3
 #: Positions at which runs must agree for their agreement to say anything.
 _FEWEST_POSITIONS = 3
+#: Share of equal differences of two runs below which the last digit shows their scatter.
+_TELLS = 0.5
 #: Spans of all deviations that no machine reaches over so long a way, m or rad: of a position, of any other.
 _LEAST_SPAN, _LEAST_ACROSS, _LONG = 1e-7, 2e-8, 1e-2
 #: Spans of positions that none exceeds, m or rad, and as a part of the way.
@@ -77,8 +93,9 @@ def evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     return (
         *_drift(job, measurements, readings),
         *_outliers(measurements, readings),
-        *_identical_runs(measurements, readings),
-        *_identical_directions(measurements, readings),
+        *_stray_targets(measurements, readings),
+        *_copied_runs(measurements, readings),
+        *_copied_directions(measurements, readings),
         *_other_unit(measurements),
         *_temperatures(job, measurements),
         *_resolution(job, measurements),
@@ -140,8 +157,7 @@ def _outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Wo
     known = distance[np.isfinite(distance)]
     if not known.size:
         return
-    unit = measurements.axis.deviation_unit
-    step = unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    step = _step(measurements)
     # Half of the readings of a small cell lie nearer to its median than to its mean.
     scale = max(_NORMAL_MAD * float(np.median(np.abs(known[known != 0.0]))) if known.any() else 0.0, step)
     # Of readings that scatter from place to place as they may, a large one among large ones is none.
@@ -173,30 +189,73 @@ def _spread_of_others(cell: FloatArray, run: int, scale: float) -> float:
     return max(scale, float(np.abs(others).max())) if others.size else scale
 
 
-def _identical_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
-    """Yield the runs that are copies of each other, digit by digit, wherever both have a reading."""
-    runs = measurements.runs
+def _copied_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the runs that are copies of each other, where both have a reading: exact ones, or nearly so."""
+    series = readings.reshape(-1, readings.shape[-1])
+    exact = _groups_of_identical(series)
+    for group in exact:
+        yield _IDENTICAL.given(runs=_numbers(measurements, group))
+    for alike in groups_of_copies(series, _step(measurements)):
+        if not any(set(alike) <= set(each) for each in exact):
+            yield _NEARLY_IDENTICAL.given(runs=_numbers(measurements, alike))
+
+
+def _groups_of_identical(series: FloatArray) -> list[list[int]]:
+    """Return which columns are copies of each other, digit by digit."""
     groups: list[list[int]] = []
-    for run in range(readings.shape[-1]):
+    for run in range(series.shape[1]):
         for group in groups:
-            one, other = readings[..., group[0]], readings[..., run]
-            if _are_identical(one, other):
+            if _are_identical(series[:, group[0]], series[:, run]):
                 group.append(run)
                 break
         else:
             groups.append([run])
-    for group in groups:
-        if len(group) > 1:
-            yield _IDENTICAL.given(runs=", ".join(str(int(runs[each])) for each in group))
+    return [group for group in groups if len(group) > 1]
 
 
-def _identical_directions(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
-    """Yield the runs whose readings of one direction are those of the other, digit by digit."""
-    runs = measurements.runs
-    same = [run for run in range(readings.shape[-1]) if _are_identical(*readings[..., run])]
-    if same and measurements.is_bidirectional:
-        numbers = ", ".join(str(int(runs[each])) for each in same)
-        yield _SAME_DIRECTIONS.given(runs=(_RUN if len(same) == 1 else _RUNS).given(runs=numbers))
+def _copied_directions(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the runs whose readings of one direction are those of the other: exact ones, or nearly so."""
+    if not measurements.is_bidirectional:
+        return
+    runs = range(readings.shape[-1])
+    same = [run for run in runs if _are_identical(*readings[..., run])]
+    step = _step(measurements)
+    by_chance = agreement_by_chance(readings.reshape(-1, len(runs)), step)
+    near = [
+        run
+        for run in runs
+        if by_chance < _TELLS
+        and are_nearly_copies(readings[0, :, run], readings[1, :, run], step, by_chance, len(runs))
+    ]
+    for words, found in (
+        (_SAME_DIRECTIONS, same),
+        (_NEARLY_SAME_DIRECTIONS, [each for each in near if each not in same]),
+    ):
+        if found:
+            of_runs = _RUN if len(found) == 1 else _RUNS
+            yield words.given(runs=of_runs.given(runs=_numbers(measurements, found)))
+
+
+def _numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
+    return ", ".join(str(int(measurements.runs[each])) for each in runs)
+
+
+def _stray_targets(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the target that lies apart from its neighbours in every run, far more than any other."""
+    positions, step = measurements.target_positions, _step(measurements)
+    unit = measurements.axis.position_unit
+    for stray in found_in_both(*(stray_target(positions, each, step) for each in readings)):
+        target = float(positions[stray.position])
+        yield _STRAY.given(
+            target=_with_unit(unit.from_si(target), unit.symbol),
+            distance=_size(measurements, abs(stray.distance)),
+        )
+
+
+def _step(measurements: MeasurementSet) -> float:
+    """Return the step of the last digit of the readings, m or rad."""
+    unit = measurements.axis.deviation_unit
+    return unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
 
 
 _RUN, _RUNS = Words("run {runs}"), Words("runs {runs}")

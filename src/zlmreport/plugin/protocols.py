@@ -40,8 +40,9 @@ class Standard(Protocol):
 
     More attributes may stand beside these: ``measurands``, what it evaluates, positioning without it;
     ``information``, the `Information` that it wants reported of a test, which is held against the job;
-    ``is_method``, true of a published method and nobody's standard; ``of_error(error)``, the standard as it
-    evaluates that `ErrorSymbol`, whose quantities may bear the error's symbol; and
+    ``is_method``, true of a published method and nobody's standard; ``notes_on``, pairs of symbols and one of
+    the ``notes``, which is left out where none of these parameters is reported; ``of_error(error)``, the
+    standard as it evaluates that `ErrorSymbol`, whose quantities may bear the error's symbol; and
     ``contributions(measurements, options)``, what it knows of errors of single lines of several that it
     evaluates together, by their names.
 

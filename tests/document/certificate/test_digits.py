@@ -67,7 +67,7 @@ def _unit(number: str) -> float:
     return 10.0 ** (zeros if zeros and len(whole) > 2 else -_decimals(number))
 
 
-@pytest.mark.parametrize("expanded", [0.06, 0.432, 2.0, 43.2])
+@pytest.mark.parametrize("expanded", [0.06, 0.432, 2.0, 32.1])
 @pytest.mark.parametrize("decimals", [0, 1, 3])
 def test_digits_of_values_follow_u_those_of_means_the_readings_and_none_contradicts(
     tmp_path: Path, decimals: int, expanded: float

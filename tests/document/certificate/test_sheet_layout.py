@@ -111,7 +111,7 @@ def test_no_verdict_is_told_where_nothing_is_limited(tmp_path: Path) -> None:
 
 def test_a_table_by_position_that_fits_stands_below_the_graph(tmp_path: Path) -> None:
     rows = [
-        f"{target},{sign},{run},{target % 7 + run / 5 + (sign == '-') / 10}"
+        f"{target},{sign},{run},{target % 7 + run * (1 + target % 4) / 5 + (sign == '-') / 10}"
         for run in (1, 2)
         for sign in "+-"
         for target in (0, 9, 19)

@@ -186,12 +186,22 @@ def notes(edition: Edition) -> tuple[Words, ...]:
     return (*general, _REVERSAL)
 
 
+#: Notes that speak of parameters, with the symbols of which one must be reported.
+_NOTES_ON: tuple[tuple[tuple[str, ...], Words], ...] = (
+    (("R",), _REPEATABILITY),
+    (("B", "B_mean"), _REVERSAL),
+    (("B_mean",), _OPPOSITE_REVERSAL),
+    (("A", "A_fwd", "A_bwd", "R", "R_fwd", "R_bwd"), _NOT_COMPARABLE),
+)
+
+
 class Iso230Part2:
     """ISO 230-2 in one edition."""
 
     title = Words("Accuracy and repeatability of positioning of numerically controlled axes")
     options = Options
     information = tuple(Information)
+    notes_on = _NOTES_ON
 
     measurands = (POSITIONING, ANGLE)
 

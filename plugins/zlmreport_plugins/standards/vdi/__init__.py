@@ -82,12 +82,20 @@ def notes(guideline: Guideline) -> tuple[Words, ...]:
     return (_WIDTHS.given(k=guideline.factor), _NOT_ACCURACY, _INDEX, _SOURCE)
 
 
+#: Notes that speak of parameters, with the symbols of which one must be reported.
+_NOTES_ON: tuple[tuple[tuple[str, ...], Words], ...] = (
+    (("P",), _NOT_ACCURACY),
+    (("U_max", "U_mean", "Ps_mean"), _INDEX),
+)
+
+
 class VdiGuideline:
     """VDI/DGQ 3441 or VDI/VDE 2617."""
 
     position_index = "j"
     options = Options
     position_quantities = BY_POSITION
+    notes_on = _NOTES_ON
 
     def __init__(self, guideline: Guideline) -> None:
         self.guideline = guideline

@@ -17,6 +17,7 @@ from zlmreport.model.planning.circle_path import SENSES, CirclePath
 
 _MINUTE = 60.0
 _DIGITS = 3
+_SIZE_OF_ONE = Words("1 turn of radius {radius} mm")
 _SIZE = Words("{count} turns of radius {radius} mm")
 _PATH = Words("Path")
 _ROUND = Words(
@@ -39,7 +40,8 @@ _SOURCE = Words("source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}
 
 def size_of_circle(path: CirclePath) -> Words:
     """Return how many turns a test has, and of which radius."""
-    return _SIZE.given(count=len(path.turns), radius=path.radius)
+    turns = len(path.turns)
+    return (_SIZE if turns != 1 else _SIZE_OF_ONE).given(count=turns, radius=path.radius)
 
 
 def circle_plan_sections(job: Job, paths: Sequence[CirclePath], language: Language) -> tuple[Section, ...]:

@@ -10,7 +10,7 @@ from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN
 
 #: Names of instruments that count wavelengths; one that triangulates with a laser does not.
 _INTERFEROMETER = re.compile(
-    r"interferomet|\b(XL-?80|ML-?10|XD\s?L|XM-?60|5519\w?|5529\w?|5530|IDS\s?3010|LSP\s?30|HPI-?3D)\b|"
+    r"interf[eé]r[oó]m[eéè]t|\b(XL-?80|ML-?10|XD\s?L|XM-?60|5519\w?|5529\w?|5530|IDS\s?3010|LSP\s?30|HPI-?3D)\b|"
     r"\blaser(?!.*(triangul|sensor|scanner|distan|abstand))",
     re.IGNORECASE,
 )
@@ -60,7 +60,16 @@ def is_blind_to_air(job: Job) -> bool:
     if instrument.compensates is not None and instrument.compensates.air is not None:
         return not instrument.compensates.air
     said = instrument.compensation
-    return bool(said and _INTERFEROMETER.search(instrument.name) and says_air_is_left(said))
+    return bool(said and counts_wavelengths(instrument.name) and says_air_is_left(said))
+
+
+def counts_wavelengths(name: str) -> bool:
+    """Return whether the name of an instrument says that it is an interferometer.
+
+    >>> counts_wavelengths("Interféromètre laser"), counts_wavelengths("Laser triangulation sensor")
+    (True, False)
+    """
+    return bool(_INTERFEROMETER.search(name))
 
 
 def says_air_is_left(said: str) -> bool:

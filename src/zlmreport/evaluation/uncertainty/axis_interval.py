@@ -10,7 +10,8 @@ opens the door) varies from run to run; what is left belongs to a position and d
 the second part are taken as drawn from one scaled inverse χ² distribution, whose two parameters are estimated
 from all of them by the moments of ln s² (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3, 2004, article 3): so
 positions that scatter alike inform each other, and those that do not keep their own. A position whose scatter
-stands out from all others is judged by itself.
+stands out from all others is judged by itself. That some readings lie far out may also come from long tails:
+`zlmreport.evaluation.uncertainty.long_tails` tells which is more probable, and the pairs are drawn of that.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ import numpy as np
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.statistics import PositionStatistics, joined_statistics, position_statistics
 from zlmreport.evaluation.uncertainty.budget import Budget
+from zlmreport.evaluation.uncertainty.long_tails import Tails, long_tails
 from zlmreport.evaluation.uncertainty.monte_carlo import StandardArithmetic, seed_of, shortened
 from zlmreport.evaluation.uncertainty.rounding import Axes, drawn_axes, hiding_resolution
 from zlmreport.measurement.arrays import BoolArray, FloatArray
@@ -60,6 +62,7 @@ class _Scatter:
     run_variance: FloatArray
     run_freedom: FloatArray
     correlation: float  #: Of what the two directions of a run share.
+    tails: Tails | None = None  #: Of the readings of a cell, where they may be long.
 
 
 def axis_intervals(
@@ -168,7 +171,16 @@ def _scatter_of(readings: FloatArray, target_positions: FloatArray) -> _Scatter 
     product = math.sqrt(float(np.prod((of_run**2).sum(axis=-1))))
     correlation = float((of_run[0] * of_run[1]).sum()) / product if product else 0.0
     pooled, pooled_freedom = _pooled(variance, freedom, target_positions)
-    return _Scatter(mean, pooled, pooled_freedom, run_variance, run_freedom, max(-1.0, min(1.0, correlation)))
+    own = np.where(there, inner * np.sqrt(left)[..., np.newaxis], np.nan)
+    return _Scatter(
+        mean,
+        pooled,
+        pooled_freedom,
+        run_variance,
+        run_freedom,
+        max(-1.0, min(1.0, correlation)),
+        long_tails(own.reshape(-1, own.shape[-1])),
+    )
 
 
 def _pooled(
@@ -254,6 +266,7 @@ def _pairs(
     `axes`: That are drawn where the last digit hides the scatter; both tests are then rounded.
     """
     shape = (count, *there.shape[:2])
+    tails = None if axes else scatter.tails
     if axes is None:
         freedom = scatter.freedom / 2
         variance = scatter.variance * freedom / generator.standard_gamma(freedom, shape)
@@ -261,15 +274,23 @@ def _pairs(
     else:
         variance = np.broadcast_to(axes.sigma[:, np.newaxis, np.newaxis] ** 2, shape)
         means = axes.means
+    tail_freedom = np.empty(0)
+    if tails:
+        tail_freedom, scale = (each[:, np.newaxis, np.newaxis] for each in tails.draw(count, generator))
+        variance = np.broadcast_to(scale**2, shape)
     freedom = np.maximum(scatter.run_freedom, 1.0)
     of_means = scatter.run_variance * freedom / (2 * generator.standard_gamma(freedom / 2, shape[:2]))
     positions = np.maximum(there.any(axis=-1).sum(axis=1), 1)
-    shared = np.maximum(of_means - np.nanmean(variance, axis=-1) / positions, 0.0)
+    of_cells = variance * (tail_freedom / (tail_freedom - 2)) if tails else variance
+    shared = np.maximum(of_means - np.nanmean(of_cells, axis=-1) / positions, 0.0)
     tests = []
     for _ in range(2):
         run = generator.standard_normal((count, 2, there.shape[-1]))
         run[:, 1] = scatter.correlation * run[:, 0] + math.sqrt(1 - scatter.correlation**2) * run[:, 1]
         test = generator.standard_normal((count, *there.shape))
+        if tails:  # Student's t: normal, of a variance that each reading draws for itself
+            half = tail_freedom[..., np.newaxis] / 2
+            test *= np.sqrt(half / generator.standard_gamma(half, test.shape))
         test *= np.sqrt(variance)[..., np.newaxis]
         test += (np.sqrt(shared)[..., np.newaxis] * run)[:, :, np.newaxis, :]
         test += means[..., np.newaxis]

@@ -16,7 +16,7 @@ from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation.correction.compensated import compensated_by_instrument, is_blind_to_air
 from zlmreport.evaluation.correction.corrections import condition_at_readings
 from zlmreport.evaluation.uncertainty import wording
-from zlmreport.evaluation.uncertainty.air import air_contributions, air_error
+from zlmreport.evaluation.uncertainty.air import air_contributions, air_error, is_silent_on_air
 from zlmreport.evaluation.uncertainty.budget import (
     Acts,
     Budget,
@@ -83,7 +83,8 @@ def budget_of(
     considered = {each.contributor for each in contributions} | {name for name, _ in negligible}
     if of_the_instrument:
         considered.add(INSTRUMENT)
-    missing = tuple(name for name in demanded(job) if name not in considered)
+    of_silence = () if of_the_instrument or not is_silent_on_air(job, measurements) else STATE_OF_AIR
+    missing = tuple(name for name in demanded(job, of_silence) if name not in considered)
     has_length = (job.axis.has_length or has_radius(job)) and not of_the_instrument
     expansion = set_up.uncorrected_expansion if has_length else 0.0
     in_readings = (*_expansion_in(measurements, set_up), *air_error(job, measurements)) if has_length else ()
@@ -489,12 +490,15 @@ def has_radius(job: Job) -> bool:
     return job.axis.circle is not None and job.axis.circle.is_calibrated
 
 
-def demanded(job: Job) -> tuple[str, ...]:
-    """Return the contributors that a job must state, by axis and set-up."""
+def demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the contributors that a job must state, by axis and set-up.
+
+    `of_silence`: Those that may act, for all that the job says of its instrument.
+    """
     of_lengths = _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
     corrections = job.keys.corrections
     corrects_air = corrections is not None and corrections.air is not None
-    of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else ()
+    of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else of_silence
     is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
     of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
     return (INSTRUMENT, *of_lengths, *of_air, *of_all)
@@ -513,8 +517,8 @@ def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
             job.place_of(
                 f"uncertainty.negligible.{name}" if name in job.keys.uncertainty.negligible else key
             ),
-            f"a calibration certificate needs {key}{_found(name, job)}: {_HOW[name]}; or say why it is "
-            f"negligible: uncertainty.negligible: {{{name}: reason}}",
+            f"a calibration certificate needs {key}{_found(name, job)}: {_HOW[name]}{_silence(name, job)}; "
+            f"or say why it is negligible: uncertainty.negligible: {{{name}: reason}}",
         )
     instrument = job.keys.instrument
     has_compensated = bool(instrument and instrument.compensates and instrument.compensates.material)
@@ -534,6 +538,17 @@ def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
             "a calibration certificate needs the temperature of the measured length: state environment."
             f"axis_temperature and environment.expansion_coefficient (the expansion then enters U){correct}",
         )
+
+
+def _silence(name: str, job: Job) -> str:
+    """Return what is to be said first of an instrument of which nobody says in which air it counted."""
+    is_told = job.keys.corrections is not None and job.keys.corrections.air is not None
+    if name not in STATE_OF_AIR or is_told or is_blind_to_air(job):
+        return ""
+    return (
+        ", and instrument.compensates: {air: false}; if the instrument knew the refractive index of the air, "
+        "instrument.compensates: {air: true} is enough"
+    )
 
 
 def _found(name: str, job: Job) -> str:

@@ -10,6 +10,7 @@ import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from statistics import NormalDist
 
 import numpy as np
@@ -37,6 +38,7 @@ from zlmreport.evaluation.uncertainty.drift import (
     drift_range,
     reading_times,
 )
+from zlmreport.evaluation.uncertainty.flattest_axis import flattest
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
 from zlmreport.evaluation.uncertainty.rounding import drawn_rounding, hiding_resolution
 from zlmreport.measurement.approach import Approach
@@ -91,8 +93,10 @@ def propagate(
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
     than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
-    drift. It is never less than the budget's bounds. Known errors are taken out of the readings first, errors
-    are drawn about what is left, and U has in it whole what the parameter changes by (JCGM 100, F.2.4.5).
+    drift, and where the instrument errs as much as the axis that of two axes that may be the one
+    (`zlmreport.evaluation.uncertainty.flattest_axis`). It is never less than the budget's bounds. Known
+    errors are taken out of the readings first, errors are drawn about what is left, and U has in it whole
+    what the parameter changes by (JCGM 100, F.2.4.5).
     """
     measurements = evaluations[0][0].measurements
     evaluations, known = _without_known_errors(budget, evaluations)
@@ -104,9 +108,10 @@ def propagate(
     found: list[dict[str, Expanded]] = [{} for _ in evaluations]
     drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
     kinds: Sequence[Drift | None] = drift_kinds(measurements) if drifts else (None,)
-    for kind in kinds:
-        distances = _distances(budget, evaluations, kind, trials // len(kinds), generator)
-        for so_far, (evaluation, _), values in zip(found, evaluations, distances, strict=True):
+    axes = _axes_to_ask(budget, evaluations)
+    for kind, axis in product(kinds, axes):
+        distances = _distances(budget, axis, kind, trials // (len(kinds) * len(axes)), generator)
+        for so_far, (evaluation, _), values in zip(found, axis, distances, strict=True):
             symbols = (each.quantity.symbol for each in evaluation.parameters)
             for symbol, expanded in zip(symbols, _expanded(np.abs(values), least), strict=True):
                 if symbol not in so_far or expanded.uncertainty > so_far[symbol].uncertainty:
@@ -120,27 +125,43 @@ def propagate(
     )
 
 
+def _axes_to_ask(
+    budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
+) -> list[Sequence[tuple[Evaluation, StandardArithmetic]]]:
+    """Return the evaluations of the test, and those of the flattest axis that may be behind it."""
+    flat = flattest(evaluations[0][0].measurements, budget)
+    return [evaluations] if flat is None else [evaluations, _of_readings(flat, evaluations)]
+
+
+def _of_readings(
+    measurements: MeasurementSet, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
+) -> Sequence[tuple[Evaluation, StandardArithmetic]]:
+    """Return the evaluations with the values that other readings of the same test give."""
+    statistics = statistics_of(measurements)
+    found = []
+    for evaluation, arithmetic in evaluations:
+        values = arithmetic(statistics).parameters
+        parameters = tuple(
+            replace(each, value=float(values[each.quantity.symbol])) for each in evaluation.parameters
+        )
+        found.append((replace(evaluation, measurements=measurements, parameters=parameters), arithmetic))
+    return found
+
+
 def _without_known_errors(
     budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
 ) -> tuple[Sequence[tuple[Evaluation, StandardArithmetic]], Sequence[Mapping[str, float]]]:
     """Return the evaluations of the test without its known errors, and what each parameter changes by."""
     if not any(each.known_errors for each in budget.lines):
         return evaluations, [{} for _ in evaluations]
-    right = _right(evaluations[0][0].measurements, budget)
-    statistics = statistics_of(right)
-    corrected, changes = [], []
-    for evaluation, arithmetic in evaluations:
-        values = arithmetic(statistics).parameters
-        parameters = tuple(
-            replace(each, value=float(values[each.quantity.symbol])) for each in evaluation.parameters
-        )
-        corrected.append((replace(evaluation, measurements=right, parameters=parameters), arithmetic))
-        changes.append(
-            {
-                was.quantity.symbol: shortened(now.value - was.value)
-                for was, now in zip(evaluation.parameters, parameters, strict=True)
-            }
-        )
+    corrected = _of_readings(_right(evaluations[0][0].measurements, budget), evaluations)
+    changes = [
+        {
+            was.quantity.symbol: shortened(now.value - was.value)
+            for was, now in zip(before.parameters, after.parameters, strict=True)
+        }
+        for (before, _), (after, _) in zip(evaluations, corrected, strict=True)
+    ]
     return corrected, changes
 
 
