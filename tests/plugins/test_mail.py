@@ -12,11 +12,10 @@ import pytest
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 
 from document.signing.keys import certificate_of, elliptic
+from processes import PATIENCE
 from zlmreport.errors import AccessError
 from zlmreport.plugin.notifier import Message, Occasion
 from zlmreport_plugins.notifiers import Mail, MailOptions
-
-_PATIENCE = 10.0
 
 
 @pytest.fixture
@@ -31,7 +30,7 @@ def port_of_a_stranger(tmp_path: Path) -> Iterator[int]:
 
     def serve() -> None:
         line, _ = listener.accept()
-        line.settimeout(_PATIENCE)
+        line.settimeout(PATIENCE)
         try:
             with context.wrap_socket(line, server_side=True) as secured:
                 secured.sendall(b"220 mail\r\n")
@@ -40,11 +39,11 @@ def port_of_a_stranger(tmp_path: Path) -> Iterator[int]:
             line.close()
 
     with socket.create_server(("127.0.0.1", 0)) as listener:
-        listener.settimeout(_PATIENCE)
+        listener.settimeout(PATIENCE)
         thread = threading.Thread(target=serve, daemon=True)
         thread.start()
         yield listener.getsockname()[1]
-        thread.join(_PATIENCE)
+        thread.join(PATIENCE)
     assert said == []
 
 

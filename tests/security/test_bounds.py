@@ -29,11 +29,8 @@ def test_there_are_texts_to_test() -> None:
     assert len(KEYS) > 40
 
 
-@pytest.mark.timeout(10)
 @pytest.mark.parametrize("key", KEYS, ids=".".join)
-def test_a_text_of_100_000_characters_is_refused_at_its_place_and_quickly(
-    key: tuple[str, ...], tmp_path: Path
-) -> None:
+def test_a_text_of_100_000_characters_is_refused_at_its_place(key: tuple[str, ...], tmp_path: Path) -> None:
     (mistake,) = _mistakes(tmp_path, key, "W" * 100_000)
     assert key[-2 if key[-1] == "[]" else -1] in mistake
     assert f"text of at most {KEYS[key]:,} characters" in mistake

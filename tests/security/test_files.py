@@ -69,7 +69,6 @@ def test_files_are_made_readable_as_the_user_wishes_and_never_executable(job: Pa
     assert (tmp_path / "out" / "CAL-1.json").stat().st_mode & 0o111 == 0
 
 
-@pytest.mark.timeout(20)
 @pytest.mark.parametrize("key", ["logo", "file", "extends"])
 def test_a_device_in_the_place_of_a_file_is_refused_and_not_read_for_ever(
     key: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
@@ -90,7 +89,6 @@ def test_a_device_in_the_place_of_a_file_is_refused_and_not_read_for_ever(
     assert "zero" in capsys.readouterr().err
 
 
-@pytest.mark.timeout(20)
 @pytest.mark.parametrize(
     "command",
     ["", "check", "fleet", "simulate", "verify", "look", "model diagnose", "plan", "surface --at 1,1"],

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from processes import awaited
+from processes import PATIENCE, awaited
 from step_gauge.emulated import RADIUS, Notes, on_a_port, server, small_path
 from step_gauge.paths import planned
 from zlmreport.errors import AccessError, InputError
@@ -29,7 +29,7 @@ def run(tmp_path: Path) -> Run:
     def probe(dme: DmeServer, path: PlannedPath | None = None, tool: str | None = None) -> Notes:
         notes = Notes()
         with on_a_port(dme) as port:
-            keys = MachineKeys(host="127.0.0.1", port=port, timeout=10, tool=tool)
+            keys = MachineKeys(host="127.0.0.1", port=port, timeout=PATIENCE, tool=tool)
             run_probing(LiveProbing(path or small_path(), keys, tmp_path / "raw.csv"), notes)
         return notes
 
@@ -143,7 +143,7 @@ def test_an_interrupt_stops_the_machine_and_keeps_what_was_probed(run: Run, tmp_
 
     path = small_path()
     with on_a_port(Listening(server(path).machine)) as port:
-        keys = MachineKeys(host="127.0.0.1", port=port, timeout=10)
+        keys = MachineKeys(host="127.0.0.1", port=port, timeout=PATIENCE)
         with pytest.raises(KeyboardInterrupt):
             run_probing(LiveProbing(path, keys, tmp_path / "raw.csv"), Impatient())
         awaited(lambda: b"AbortE" in b"".join(heard))
