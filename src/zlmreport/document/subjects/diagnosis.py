@@ -35,6 +35,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.language.formatting import p_value, percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, Verdict
+from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import serious_candidates, verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.effects import wording
@@ -83,6 +84,8 @@ _WHERE = Words(en="Place", de="Ort")
 _SIZE = Words(en="Root mean square", de="Quadratischer Mittelwert")
 _OF_THE_REST = Words(en="Share of what the model leaves", de="Anteil an dem, was das Modell übrig lässt")
 _FORMULA = Words(en="Formula to try", de="Formel zum Probieren")
+_LOOK_AT = Words(en="Look at", de="Ansehen")
+_MEASURE = Words(en="Measure", de="Messen")
 _IMPROBABLE = Words(en="Hardly missing", de="Kaum fehlend")
 _SENTENCES = ColumnKind.SENTENCES
 _MARKS = {
@@ -385,7 +388,7 @@ def _is_named(candidate: Candidate, diagnosis: Diagnosis) -> bool:
 
 
 def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
-    """Return what is left without a name: its shape, place, size, share and formula."""
+    """Return what is left without a name: its shape, place, size, share, formula, what to do."""
     left = diagnosis.remainder
     if left is None:
         return None
@@ -398,6 +401,11 @@ def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
     ]
     if left.formula is not None:
         pairs.append((_FORMULA, left.formula.formula))
+    look = look_for(left, diagnosis.fit.design)
+    pairs += [
+        (_LOOK_AT, look.at.in_language(language)),
+        (_MEASURE, look.measure.in_language(language)),
+    ]
     return Facts(tuple((name.in_language(language), value) for name, value in pairs))
 
 
