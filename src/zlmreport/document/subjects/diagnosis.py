@@ -84,8 +84,7 @@ _WHERE = Words(en="Place", de="Ort")
 _SIZE = Words(en="Root mean square", de="Quadratischer Mittelwert")
 _OF_THE_REST = Words(en="Share of what the model leaves", de="Anteil an dem, was das Modell übrig lässt")
 _FORMULA = Words(en="Formula to try", de="Formel zum Probieren")
-_LOOK_AT = Words(en="Look at", de="Ansehen")
-_MEASURE = Words(en="Measure", de="Messen")
+_LOOK = Words(en="Look at {at}. Measure {measure}.", de="Ansehen: {at}. Messen: {measure}.")
 _IMPROBABLE = Words(en="Hardly missing", de="Kaum fehlend")
 _SENTENCES = ColumnKind.SENTENCES
 _MARKS = {
@@ -231,7 +230,7 @@ def diagnosis_sections(
     leads = bool(rows.candidates) and diagnosis.verdict is not Verdict.ADEQUATE
     sections = (
         section("verdict", VERDICT, Paragraph(rows.statement, _MARKS[diagnosis.verdict]), rows.error),
-        section("remainder", LEFT, rows.remainder),
+        section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
         section("assumed", _ASSUMED, notice(_ASSUMED, rows.remarks)),
         section("model", EFFECTS, parameters(fit, language) if fit.model.terms else None),
         section(
@@ -388,7 +387,7 @@ def _is_named(candidate: Candidate, diagnosis: Diagnosis) -> bool:
 
 
 def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
-    """Return what is left without a name: its shape, place, size, share, formula, what to do."""
+    """Return what is left without a name: its shape, place, size, share and formula."""
     left = diagnosis.remainder
     if left is None:
         return None
@@ -401,12 +400,16 @@ def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
     ]
     if left.formula is not None:
         pairs.append((_FORMULA, left.formula.formula))
-    look = look_for(left, diagnosis.fit.design)
-    pairs += [
-        (_LOOK_AT, look.at.in_language(language)),
-        (_MEASURE, look.measure.in_language(language)),
-    ]
     return Facts(tuple((name.in_language(language), value) for name, value in pairs))
+
+
+def _look(diagnosis: Diagnosis, language: Language) -> Paragraph | None:
+    """Return where to look for what is left, and what to measure."""
+    left = diagnosis.remainder
+    if left is None:
+        return None
+    look = look_for(left, diagnosis.fit.design)
+    return Paragraph(_LOOK.given(at=look.at, measure=look.measure).in_language(language))
 
 
 def _hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
