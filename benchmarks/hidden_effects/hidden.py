@@ -7,11 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hidden_effects.sizes import beyond
+from hidden_effects.sizes import beyond, drawn_theta
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, Parameter
+from zlmreport.model.effects.effect import Effect, Parameter
 
 #: A deviation of which a smaller share is left is imitated entirely.
 _INVISIBLE = 1e-6
@@ -43,7 +43,7 @@ def drawn_effect(
     if not forms:
         return None
     form = forms[int(random.integers(len(forms)))]
-    theta = _drawn_theta(form, design, random)
+    theta = drawn_theta(form, design, random)
     columns = form.columns(design, theta)
     lengths = np.linalg.norm(columns, axis=0)
     gamma = random.standard_normal(columns.shape[1]) / np.where(lengths > 0, lengths, 1.0)
@@ -122,12 +122,3 @@ def _has_possible_signs(effect: Effect, gamma: FloatArray) -> bool:
         return True
     smallest = effect.linear[0].smallest
     return smallest is None or smallest < 0 or gamma[0] >= 0
-
-
-def _drawn_theta(effect: Effect, design: Design, random: np.random.Generator) -> FloatArray:
-    """Return searched parameters from the range of the search, not only where it begins; teeth are whole."""
-    grid = effect.grid(design)
-    row = int(random.integers(len(grid)))
-    towards = grid[min(row + 1, len(grid) - 1)]
-    between = [parameter.dimension is not Dimension.RATIO for parameter in effect.searched]
-    return grid[row] + np.where(between, random.random(len(between)), 0.0) * (towards - grid[row])

@@ -9,23 +9,25 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from hidden_effects.drawn_axes import drawn_linear_test, drawn_rotary_test
-from hidden_effects.hidden import drawn_effect, scale_to
+from hidden_effects.hidden import drawn_effect
+from hidden_effects.ideal import kind_of, told_apart
 from hidden_effects.judge import INSTALLED
 from hidden_effects.sizes import base_columns
 from hidden_effects.strangers import STRANGERS
-from hidden_effects.trial import EFFECTS, OF_A_GAUGE, measured, sum_of
+from hidden_effects.trial import EFFECTS, OF_A_GAUGE, drawn_stranger, measured, sum_of
 from hidden_effects.weather import wandering
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
 from zlmreport.model.effects.axis_model import AxisModel, Term
+from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, observations_of
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import SimulatedNoise
@@ -47,6 +49,7 @@ class Drawn:
     """An axis with several causes."""
 
     causes: tuple[str, ...]
+    told_apart: frozenset[str]  #: Those of them that an ideal observer tells from all else.
     stranger: str | None
     observed: Observations
     sigma: float  #: m or rad.
@@ -58,6 +61,7 @@ class Outcome:
 
     drawn: Drawn
     built: tuple[str, ...]  #: Effects of the model at the end, but for the constant.
+    equals: Mapping[str, frozenset[str]]  #: Effects that were named as equals of each that was added.
     left: float  #: Error at the end, over σ.
     remainder: bool  #: Whether something is told to be left without a name.
     seconds: float  #: CPU of the dearest diagnosis.
@@ -68,9 +72,27 @@ class Outcome:
         return tuple(each for each in self.drawn.causes if each in self.built)
 
     @property
+    def told(self) -> tuple[str, ...]:
+        """Those found among the causes that an ideal observer tells from all else."""
+        return tuple(each for each in self.found if each in self.drawn.told_apart)
+
+    @property
+    def as_equals(self) -> tuple[str, ...]:
+        """Causes that stand in the model, or were named as equals of what stands there."""
+        named = {name for each in self.built for name in (each, *self.equals.get(each, ()))}
+        return tuple(each for each in self.drawn.causes if each in named)
+
+    @property
     def wrong(self) -> tuple[str, ...]:
         """Names that no cause has."""
         return tuple(each for each in self.built if each not in self.drawn.causes)
+
+    @property
+    def wrong_beyond_equals(self) -> tuple[str, ...]:
+        """Those with which no cause was named as an equal."""
+        return tuple(
+            each for each in self.wrong if not self.equals.get(each, frozenset()) & {*self.drawn.causes}
+        )
 
 
 def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
@@ -94,28 +116,50 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
             break
     deviation, stranger = sum_of(causes, design), None
     if with_stranger:
-        stranger = str(random.choice(sorted(STRANGERS)))
-        shape = STRANGERS[stranger](design, random)
-        deviation += (scale_to(shape, base, sigma * float(random.uniform(*_SIZES))) or 0.0) * shape
+        rms = sigma * float(random.uniform(*_SIZES))
+        for name in random.permutation(sorted(STRANGERS)).tolist():
+            drawn = drawn_stranger(STRANGERS[name], design, base, rms, random)
+            if drawn is not None:
+                stranger, deviation = name, deviation + drawn[1]
+                break
     readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
     observed = observations_of(readings, overrun=description.plan.overrun)
-    return Drawn(tuple(sorted(each.effect.identifier for each in causes)), stranger, observed, sigma)
+    return Drawn(
+        tuple(sorted(each.effect.identifier for each in causes)),
+        frozenset(_told_apart(causes, stranger, design, sigma)),
+        stranger,
+        observed,
+        sigma,
+    )
+
+
+def _told_apart(
+    causes: Sequence[Term], stranger: str | None, design: Design, sigma: float
+) -> tuple[str, ...]:
+    beside = base_columns([EFFECTS["offset"]], design)
+    if stranger is not None:
+        kind = kind_of(STRANGERS[stranger], design, np.random.default_rng(_SEED))
+        beside = np.column_stack([beside, kind])
+    return told_apart(causes, design, sigma, INSTALLED, beside)
 
 
 def followed(drawn: Drawn) -> Outcome:
     """Return what comes of following the advice from an empty model."""
     seconds: list[float] = []
 
+    equals: dict[str, frozenset[str]] = {}
+
     def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)
+        equals.update({each.identifier: frozenset(each.equals) for each in found.candidates})
         return found
 
     built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
     names = tuple(each for each in built.model.identifiers if each != "offset")
     left = built.last.error.rms / drawn.sigma
-    return Outcome(drawn, names, left, built.last.remainder is not None, max(seconds))
+    return Outcome(drawn, names, equals, left, built.last.remainder is not None, max(seconds))
 
 
 def report(outcomes: Sequence[Outcome]) -> str:
@@ -129,25 +173,34 @@ def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
     for each in outcomes:
         of = each.drawn
         yield (
-            f"| {MICROMETRE.from_si(of.sigma):.2g} | {', '.join(of.causes)} | {of.stranger or '–'} | "
+            f"| {MICROMETRE.from_si(of.sigma):.2g} | {_marked(of)} | {of.stranger or '–'} | "
             f"{len(each.found)} of {len(of.causes)} | {', '.join(each.wrong) or '–'} | {each.left:.2f} | "
             f"{'yes' if each.remainder else 'no'} |"
         )
 
 
+def _marked(drawn: Drawn) -> str:
+    """Return the causes, those in brackets that an ideal observer does not tell from all else."""
+    return ", ".join(each if each in drawn.told_apart else f"({each})" for each in drawn.causes)
+
+
 def _sums(outcomes: Sequence[Outcome]) -> str:
-    causes = sum(len(each.drawn.causes) for each in outcomes)
-    found, wrong = (
-        sum(map(len, parts)) for parts in zip(*((o.found, o.wrong) for o in outcomes), strict=True)
-    )
+    def summed(of: Callable[[Outcome], Collection[str]]) -> int:
+        return sum(len(of(each)) for each in outcomes)
+
     whole = sum(len(each.found) == len(each.drawn.causes) for each in outcomes)
     down = sum(each.left <= DOWN_TO_NOISE for each in outcomes)
     named = sum(each.remainder for each in outcomes)
     seconds = np.median([each.seconds for each in outcomes])
     return (
-        f"{len(outcomes)} axes: {found} of {causes} causes found, {wrong} wrong, the whole set in {whole}, "
-        f"down to {DOWN_TO_NOISE} σ in {down}, something left without a name in {named}; the dearest "
-        f"diagnosis of an axis takes {seconds:.1f} s of CPU in the median."
+        f"{len(outcomes)} axes: {summed(lambda each: each.found)} of "
+        f"{summed(lambda each: each.drawn.causes)} causes found, {summed(lambda each: each.wrong)} wrong, "
+        f"the whole set in {whole}, down to {DOWN_TO_NOISE} σ in {down}, something left without a name in "
+        f"{named}; the dearest diagnosis of an axis takes {seconds:.1f} s of CPU in the median.\n"
+        f"Of the causes that an ideal observer tells from all else {summed(lambda each: each.told)} of "
+        f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} "
+        f"stand in the model or are named as equals of what stands there, and "
+        f"{summed(lambda each: each.wrong_beyond_equals)} names have no cause among their equals."
     )
 
 

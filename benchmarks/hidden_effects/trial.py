@@ -190,7 +190,7 @@ def drawn_trial(case: Case, sizes: tuple[int, int] | None = None) -> Trial | Non
     coefficients = _KNOWN * _unit(test.axis.kind) * random.standard_normal(base.shape[1]) / lengths
     rms = case.size * description.noise.reading
     if case.kind is Kind.STRANGER:
-        drawn = _outside(STRANGERS[case.hidden[0]], design, base, rms, random)
+        drawn = drawn_stranger(STRANGERS[case.hidden[0]], design, base, rms, random)
     else:
         drawn = _inside(case.hidden, design, base, rms, random)
     if drawn is None:
@@ -219,7 +219,7 @@ def _inside(
     return tuple(effects), hidden, imitated
 
 
-def _outside(
+def drawn_stranger(
     stranger: Stranger, design: Design, base: FloatArray, rms: float, random: np.random.Generator
 ) -> _Drawn | None:
     """Return a shape that no effect imitates; None if in this test each that was drawn looks like one."""

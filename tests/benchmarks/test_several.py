@@ -27,12 +27,22 @@ def test_a_stranger_stands_beside_the_causes() -> None:
 
 def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> None:
     drawn = drawn_axis(1, with_stranger=False)
-    whole = Outcome(drawn, drawn.causes, 1.0, remainder=False, seconds=2.0)
+    whole = Outcome(drawn, drawn.causes, {}, 1.0, remainder=False, seconds=2.0)
     first, *_ = drawn.causes
-    half = Outcome(drawn, (first, "no such effect"), 3.0, remainder=True, seconds=4.0)
+    half = Outcome(drawn, (first, "no such effect"), {}, 3.0, remainder=True, seconds=4.0)
     assert (half.found, half.wrong) == ((first,), ("no such effect",))
     causes = len(drawn.causes)
-    last = report([whole, half]).splitlines()[-1]
+    last = report([whole, half]).splitlines()[-2]
     assert last.startswith(f"2 axes: {causes + 1} of {2 * causes} causes found, 1 wrong, the whole set in 1,")
     assert "down to 1.15 σ in 1, something left without a name in 1" in last
     assert "3.0 s of CPU" in last
+
+
+def test_a_cause_that_is_named_as_an_equal_of_what_was_added_is_no_wrong_name_beyond_equals() -> None:
+    drawn = drawn_axis(1, with_stranger=False)
+    first, *others = drawn.causes
+    equals = {"its twin": frozenset({first})}
+    outcome = Outcome(drawn, ("its twin", *others), equals, 1.0, remainder=False, seconds=2.0)
+    assert outcome.wrong == ("its twin",)
+    assert outcome.wrong_beyond_equals == ()
+    assert outcome.as_equals == drawn.causes

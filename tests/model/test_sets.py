@@ -146,3 +146,25 @@ def test_a_screw_that_hardly_grows_is_unusual_like_one_that_grows_too_much() -> 
 def test_what_is_within_its_uncertainty_of_the_usual_costs_nothing() -> None:
     (growth,) = EFFECTS["screw-expansion"].linear
     assert size_costs(EFFECTS["screw-expansion"], DESIGN, growth, 1e-6, 4e-6) == 0
+
+
+def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:
+    """Return a search in a contest of a joint and a second one, on readings with joints at places, m."""
+    joints = [EFFECTS["scale-joint"], EFFECTS["scale-joint"].repeated(2)]
+    deviation = _hiding(*(("scale-joint", [place]) for place in places), size=4.0)
+    return SetSearch(Contest.of(DESIGN, np.ones((len(DESIGN.position), 1)), joints, deviation)), joints
+
+
+def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None:
+    search, (first, second) = _with_two_joints(0.5)
+    once, twice = search.member_of(first, np.array([0.3])), search.member_of(second, np.array([0.5]))
+    alone, both = (search.renumbered(search.as_noise(each)) for each in ((twice,), (once, twice)))
+    assert [each.identifier for each in alone.members] == ["scale-joint"]
+    assert alone.members[0].theta == pytest.approx([0.5])
+    assert [each.identifier for each in both.members] == ["scale-joint", "scale-joint-2"]
+
+
+def test_an_effect_for_the_second_time_is_no_rival_of_itself() -> None:
+    search, (first, _) = _with_two_joints(0.5)
+    found = search.as_noise([search.member_of(first, np.array([0.5]))])
+    assert search.rivals(found, search.without(found, 0), 40.0) == []

@@ -12,6 +12,7 @@ from model.hidden_effect import example_diagnosis
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import Verdict
+from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.report import listed, verdict_statement
 
@@ -25,6 +26,7 @@ LEFT = Remainder(
     shape=same("a bump"),
     size=4e-6,
     formula=None,
+    course=Course.PLACE,
 )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zlmreport.cli.model_lines import next_step
+from zlmreport.cli.model_lines import measure_lines, next_step
 from zlmreport.cli.terminal import Colour, wrapped
 from zlmreport.document.subjects.fit import deviation
 from zlmreport.job.edit import Edit
@@ -34,6 +34,7 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
     if is_tried and edit is not None:
         yield f"next: zlmreport model build {path}"
     else:
+        yield from measure_lines(last)
         yield f"next: {next_step(last, path)}"
 
 

@@ -19,6 +19,7 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import general_number, plain, rounded_pair
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
+from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.fitting.fit import Fit
@@ -71,6 +72,7 @@ def diagnosis_lines(
         if each.key not in _ON_REQUEST:
             yield from section_lines([_narrow(each)])
         if each.key == "verdict":
+            yield from measure_lines(diagnosis, "  ")
             yield f"  {following}"
     unseen = {each.effect for each in diagnosis.not_testable}
     unseen |= {each.effect for each in diagnosis.visibility if each.is_hidden}
@@ -82,7 +84,17 @@ def diagnosis_lines(
             "",
         )
     yield ""
+    yield from measure_lines(diagnosis)
     yield following
+
+
+def measure_lines(diagnosis: Diagnosis, indent: str = "") -> Iterator[str]:
+    """Yield what to look at and to measure before the certificate, where nothing can be tried."""
+    left = diagnosis.remainder
+    if diagnosis.verdict is Verdict.UNEXPLAINED and left is not None and left.formula is None:
+        look = look_for(left, diagnosis.fit.design)
+        yield from wrapped(f"look at: {look.at.in_language(_ENGLISH)}", indent)
+        yield from wrapped(f"measure: {look.measure.in_language(_ENGLISH)}", indent)
 
 
 def next_step(diagnosis: Diagnosis, path: str, experiment: Experiment | None = None) -> str:

@@ -35,6 +35,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.language.formatting import p_value, percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, Verdict
+from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.report import serious_candidates, verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.effects import wording
@@ -71,6 +72,7 @@ _WHERE = Words("Place")
 _SIZE = Words("Root mean square")
 _OF_THE_REST = Words("Share of what the model leaves")
 _FORMULA = Words("Formula to try")
+_LOOK = Words("Look at {at}. Measure {measure}.")
 _IMPROBABLE = Words("Hardly missing")
 _SENTENCES = ColumnKind.SENTENCES
 _MARKS = {
@@ -210,7 +212,7 @@ def diagnosis_sections(
     leads = bool(rows.candidates) and diagnosis.verdict is not Verdict.ADEQUATE
     sections = (
         section("verdict", VERDICT, Paragraph(rows.statement, _MARKS[diagnosis.verdict]), rows.error),
-        section("remainder", LEFT, rows.remainder),
+        section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
         section("assumed", _ASSUMED, notice(_ASSUMED, rows.remarks)),
         section("model", EFFECTS, parameters(fit, language) if fit.model.terms else None),
         section(
@@ -381,6 +383,15 @@ def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
     if left.formula is not None:
         pairs.append((_FORMULA, left.formula.formula))
     return Facts(tuple((name.in_language(language), value) for name, value in pairs))
+
+
+def _look(diagnosis: Diagnosis, language: Language) -> Paragraph | None:
+    """Return where to look for what is left, and what to measure."""
+    left = diagnosis.remainder
+    if left is None:
+        return None
+    look = look_for(left, diagnosis.fit.design)
+    return Paragraph(_LOOK.given(at=look.at, measure=look.measure).in_language(language))
 
 
 def _hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:

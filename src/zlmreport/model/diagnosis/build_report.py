@@ -28,7 +28,7 @@ def build_values(built: Built) -> dict[str, Any]:
             for each in built.steps
         ],
         "verdict": last.verdict.value,
-        "remainder": report_remainder(last.remainder, axis),
+        "remainder": report_remainder(last.remainder, last.fit.design),
         "model": report_model(last.fit),
         "error": report_error(last.error, axis),
     }

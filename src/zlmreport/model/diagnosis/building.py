@@ -74,10 +74,13 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = untold) -> Buil
     own = frozenset(model.identifiers)
     found = [diagnosing(model, frozenset(), _part(told, 0))]
     steps: list[BuildStep] = []
+    tried = {frozenset(model.identifiers)}
     while len(found) <= _MOST_ROUNDS and found[-1].verdict is Verdict.MISSING:
         extended, taken = _extended(model, found[-1])
-        if not taken:
+        # Two models each of which takes the other for the better one are as good as each other.
+        if not taken or frozenset(extended.identifiers) in tried:
             break
+        tried.add(frozenset(extended.identifiers))
         model = extended
         steps += taken
         may_go = frozenset(each.identifier for each in steps) - own

@@ -231,7 +231,8 @@ def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
     most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
-    found = _believed(search, search.found(start.members, lambda share: told(0.2 + 0.6 * share)))
+    found = search.found(start.members, lambda share: told(0.2 + 0.6 * share))
+    found = search.renumbered(_believed(search, found))
     before = {(each.identifier, each.effect.settings) for each in start.members}
     named = tuple(
         _named(search, found, number)

@@ -45,12 +45,35 @@ class Along(Enum):
     RUN = "run"
 
 
+class Course(Enum):
+    """With what it changes, and in which carrier: what decides where one looks for it."""
+
+    PLACE = "smooth along the axis"
+    IRREGULAR = "from position to position"
+    REVERSAL = "in the reversal, along the axis"
+    TIME = "in time, at all positions alike"
+    SLOPE = "in time, in proportion to the position"
+    REVERSAL_IN_TIME = "in the reversal, in time"
+    RUNS = "from run to run"
+    TARGET = "at some targets"
+
+    @property
+    def along(self) -> Along:
+        """Over what it changes."""
+        if self is Course.RUNS:
+            return Along.RUN
+        return Along.TIME if self in _IN_TIME else Along.PLACE
+
+
+_IN_TIME = frozenset({Course.TIME, Course.SLOPE, Course.REVERSAL_IN_TIME})
+
+
 @dataclass(frozen=True, slots=True)
 class CovariancePart:
     """A part of the covariance, with the amplitudes that are tried of it."""
 
     shape: Words  #: In words.
-    along: Along
+    course: Course
     #: (k,) integer: The places of its columns, whose random combination it is, of mean variance one; empty
     #: for a part that is irregular from position to position, which stands apart.
     columns: IntArray
@@ -93,7 +116,7 @@ def parts_of(
         found.append(
             CovariancePart(
                 _WORDS[each.source],
-                _ALONG[each.source],
+                _COURSES[each.source],
                 places,
                 irregular if is_irregular else None,
                 (*each.ratios, *further),
@@ -103,13 +126,13 @@ def parts_of(
             )
         )
         irregular += is_irregular
-    for shape, along, features in _features(design) if with_nameless else ():
+    for shape, course, features in _features(design) if with_nameless else ():
         contrasts = columns.space.of(features)
         size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
             costs = (0.0, *(PRICE for _ in _VARIANCES))
             places = columns.add(contrasts / size)
-            found.append(CovariancePart(shape, along, places, None, (0.0, *_VARIANCES), costs, 1))
+            found.append(CovariancePart(shape, course, places, None, (0.0, *_VARIANCES), costs, 1))
     return tuple(found)
 
 
@@ -118,25 +141,25 @@ def irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
     return [each.factor for each in noise if each.source in _BY_POSITION]
 
 
-def _features(design: Design) -> Iterator[tuple[Words, Along, FloatArray]]:
+def _features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
     along, moment = _unit(design.position), _unit(working_time(design))
     lever, direction = (2.0 * along - 1.0)[:, np.newaxis], design.direction[:, np.newaxis]
     runs = np.asarray(design.cycle[:, np.newaxis] == np.unique(design.cycle), dtype=np.float64)
     if runs.shape[1] > 1:
-        yield _SLOPE_RUNS, Along.RUN, lever * runs
+        yield _SLOPE_RUNS, Course.RUNS, lever * runs
         if design.is_bidirectional:
-            yield _DIRECTION_RUNS, Along.RUN, direction * runs
+            yield _DIRECTION_RUNS, Course.RUNS, direction * runs
     for length in _LENGTHS:
         place = _smooth(along, length)
-        yield _SMOOTH_PLACE, Along.PLACE, place
+        yield _SMOOTH_PLACE, Course.PLACE, place
         if design.is_bidirectional:
-            yield _DIRECTION_PLACE, Along.PLACE, direction * place
+            yield _DIRECTION_PLACE, Course.REVERSAL, direction * place
         if design.duration > 0:
             time = by_session(design, _smooth(moment, length))
-            yield _SMOOTH_TIME, Along.TIME, time
-            yield _SLOPE_TIME, Along.TIME, lever * time
+            yield _SMOOTH_TIME, Course.TIME, time
+            yield _SLOPE_TIME, Course.SLOPE, lever * time
             if design.is_bidirectional:
-                yield _DIRECTION_TIME, Along.TIME, direction * time
+                yield _DIRECTION_TIME, Course.REVERSAL_IN_TIME, direction * time
 
 
 def _unit(values: FloatArray) -> FloatArray:
@@ -154,11 +177,11 @@ def _smooth(where: FloatArray, length: float) -> FloatArray:
 
 
 _BY_POSITION = frozenset({NoiseSource.POSITION, NoiseSource.DIRECTION})
-_ALONG: Mapping[NoiseSource, Along] = {
-    NoiseSource.POSITION: Along.PLACE,
-    NoiseSource.DIRECTION: Along.PLACE,
-    NoiseSource.RUN: Along.RUN,
-    NoiseSource.TIME: Along.TIME,
+_COURSES: Mapping[NoiseSource, Course] = {
+    NoiseSource.POSITION: Course.IRREGULAR,
+    NoiseSource.DIRECTION: Course.IRREGULAR,
+    NoiseSource.RUN: Course.RUNS,
+    NoiseSource.TIME: Course.TIME,
 }
 _SMOOTH_PLACE = Words("smooth along the axis")
 _DIRECTION_PLACE = Words("a reversal value that changes smoothly along the axis")

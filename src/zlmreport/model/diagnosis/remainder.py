@@ -16,7 +16,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
-from zlmreport.model.diagnosis.nameless import Along
+from zlmreport.model.diagnosis.nameless import Along, Course
 from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
@@ -31,6 +31,8 @@ _FOLLOWS = 0.5
 _DEPENDENT = 1e-9
 #: Of the largest, what still belongs to the place.
 _HALF = 0.5
+#: Of forms, by their carrier; along the axis otherwise.
+_COURSES = {"D": Course.REVERSAL, "time": Course.TIME, "lever": Course.SLOPE}
 _SECOND = Unit("s", "s", 1.0)
 _ABOUT = Words("about {place}")
 _BETWEEN = Words("{first} to {last}")
@@ -57,6 +59,7 @@ class Remainder:
     #: The form that follows it, as an effect of a job: keys of an item of `model.effects`, ranges around what
     #: was found; None where no form does.
     formula: FormulaKeys | None
+    course: Course  #: With what it changes.
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +67,7 @@ class _Share:
     """What one thing without a name explains."""
 
     values: FloatArray  #: (N,), m or rad.
-    along: Along
+    course: Course
     shape: Words
     member: SetMember | None  #: The form; None of a random curve.
 
@@ -104,6 +107,7 @@ def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder 
         shape=_shape_of(form, design) if form and form is main.member else main.shape,
         size=float(whole[int(np.argmax(np.abs(whole)))]),
         formula=proposed,
+        course=main.course,
     )
 
 
@@ -136,6 +140,7 @@ def remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
         shape=found.shape,
         size=float(found.values[int(np.argmax(np.abs(found.values)))]),
         formula=None,
+        course=Course.RUNS,
     )
 
 
@@ -159,6 +164,7 @@ def irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
         shape=_IRREGULAR,
         size=float(fitted.residual[int(np.argmax(squares))]),
         formula=None,
+        course=Course.TARGET,
     )
 
 
@@ -185,14 +191,14 @@ def _shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
         if not member.family.is_named:
             form = member.effect
             assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
-            along = Along.TIME if form.carrier in IN_TIME else Along.PLACE
+            course = _COURSES.get(form.carrier, Course.PLACE)
             shape = _shape_of(member, contest.design)
-            yield _Share(space.single.coloured(of_set[:, own] @ solved[own]), along, shape, member)
+            yield _Share(space.single.coloured(of_set[:, own] @ solved[own]), course, shape, member)
     active = [(part, level) for part, level in zip(contest.parts, found.amplitudes, strict=True) if level]
     for (part, level), factor in zip(active, factors, strict=True):
         if level >= part.noise_levels:
             explained = space.single.coloured(factor @ (factor.T @ left))
-            yield _Share(explained, part.along, part.shape, None)
+            yield _Share(explained, part.course, part.shape, None)
 
 
 def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
@@ -232,7 +238,7 @@ def _sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
 
 def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, float, float, Unit]:
     """Return where something lies: in words, from where to where, and in which unit."""
-    is_time = main.along is not Along.PLACE
+    is_time = main.course.along is not Along.PLACE
     say, unit = _sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
     form = main.member.effect if main.member else None
     if isinstance(form, UnnamedForm) and main.member:
@@ -241,7 +247,7 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
         is_local = form.form in LOCAL
         words = _ABOUT.given(place=say(place)) if is_local else _BETWEEN.given(first=say(low), last=say(high))
         return words, low, high, unit
-    if main.along is Along.RUN:
+    if main.course.along is Along.RUN:
         runs = np.unique(design.cycle)
         sizes = [float(np.mean(whole[design.cycle == run] ** 2)) for run in runs]
         run = int(runs[int(np.argmax(sizes))])

@@ -15,6 +15,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, ErrorNumbers, Verdict
 from zlmreport.model.diagnosis.faults import FaultKind
+from zlmreport.model.diagnosis.looking import look_for
 from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.diagnosis.visibility import Visibility
@@ -86,7 +87,7 @@ def report(
         "set": [each.identifier for each in diagnosis.together],
         "error_after": report_error(diagnosis.error_after, axis),
         "makeshift": list(diagnosis.makeshift),
-        "remainder": report_remainder(diagnosis.remainder, axis, language),
+        "remainder": report_remainder(diagnosis.remainder, fitted.design, language),
         "not_testable": [
             {"effect": each.effect, "reason": each.reason.in_language(language)}
             for each in diagnosis.not_testable
@@ -109,12 +110,12 @@ def report(
 
 
 def report_remainder(
-    remainder: Remainder | None, axis: Axis, language: Language = Language.ENGLISH
+    remainder: Remainder | None, design: Design, language: Language = Language.ENGLISH
 ) -> dict[str, Any] | None:
     """Return what is left without a name; its formula as an item of a job's effects."""
     if remainder is None:
         return None
-    from_si = axis.deviation_unit.from_si
+    from_si, look = design.axis.deviation_unit.from_si, look_for(remainder, design)
     return {
         "rms": from_si(remainder.rms),
         "size": from_si(remainder.size),
@@ -125,6 +126,8 @@ def report_remainder(
         "unit": remainder.unit.ascii,
         "shape": remainder.shape.in_language(language),
         "formula": None if remainder.formula is None else formula_entry(remainder.formula),
+        "look_at": look.at.in_language(language),
+        "measure": look.measure.in_language(language),
     }
 
 

@@ -12,9 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias
 
 import numpy as np
 
+from zlmreport.job.choices import numbered, parted
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, untold
 from zlmreport.model.diagnosis.families import Family, orthonormal
@@ -44,6 +46,11 @@ UNUSUAL, FORBIDDEN = 6.0, 1e3
 _DOUBT, _SHARE_OF_SEARCHED = 2.0, 0.25
 #: Times the usual beyond which a value of the wrong sign costs no more.
 _FARTHEST = 1e3
+#: To how many digits searched parameters are the same.
+_AS_FAR = ".3g"
+_NONE: frozenset[int] = frozenset()
+#: Parts that may be more than noise, families with their searched parameters, amplitudes.
+_State: TypeAlias = tuple[frozenset[int], frozenset[tuple[int, tuple[str, ...]]], Amplitudes]
 #: Of the longest column of an effect, one that is as short is imitated by the model.
 _SEEN = 1e-6
 
@@ -104,23 +111,23 @@ class SetSearch:
 
     def __init__(self, contest: Contest) -> None:
         self.contest = contest
-        self._is_quiet = False  # whether nameless parts are left out
+        self._all = frozenset(range(len(contest.parts)))
+        self._free = self._all  # the parts that may be more than noise
+        self._ends: dict[_State, EffectSet] = {}  # where a climb ends that comes by a set
 
     def found(self, start: Sequence[SetMember] = (), told: Told = untold) -> EffectSet:
         """Return the set with the most evidence.
 
         `start`: Effects that are in it at first, and may go out.
         """
-        self._is_quiet = True
-        quiet = self._climb(self._with(start, self.contest.quiet))
+        quiet = self._climbed(start, _NONE)
         told(0.3)
-        self._is_quiet = False
         released = self._climb(self._with(quiet.members, quiet.amplitudes))
         told(0.5)
         is_whole = bool(released.named) and not self.has_nameless(released)
         if is_whole and min(self.own_evidence(released)) > _SURE:
             return released
-        beside = self._climb(self._with(start, self.contest.quiet))
+        beside = self._climbed(start, self._all)
         told(0.8)
         best, other = sorted((released, beside), key=lambda each: each.score)
         members = best.members
@@ -132,13 +139,25 @@ class SetSearch:
         told(1.0)
         return best
 
+    def _climbed(self, start: Sequence[SetMember], free: frozenset[int]) -> EffectSet:
+        """Return where a climb ends beside which only some parts may be more than noise."""
+        self._free = free
+        found = self._climb(self._with(start, self.contest.quiet))
+        self._free = self._all
+        return found
+
+    def _loud(self, found: EffectSet) -> list[int]:
+        """Return the parts without a name that are more than noise in a set."""
+        quiet = self.contest.as_noise(found.amplitudes)
+        return [number for number in self._all if quiet[number] != found.amplitudes[number]]
+
     def alone(self) -> EffectSet:
         """Return what there is without any effect."""
         return self._with((), self.contest.quiet)
 
     def has_nameless(self, found: EffectSet) -> bool:
         """Whether anything without a name is in a set, beyond what noise may be."""
-        return bool(found.unnamed) or self.contest.as_noise(found.amplitudes) != found.amplitudes
+        return bool(found.unnamed or self._loud(found))
 
     def own_evidence(self, found: EffectSet) -> list[float]:
         """Return for each member the evidence that the set loses without it, all else following."""
@@ -151,9 +170,9 @@ class SetSearch:
 
     def as_noise(self, members: Sequence[SetMember]) -> EffectSet:
         """Return a set beside which there is nothing but noise."""
-        self._is_quiet = True
+        self._free = _NONE
         found = self._with(members, self.contest.quiet)
-        self._is_quiet = False
+        self._free = self._all
         return found
 
     def member_of(self, effect: Effect, theta: FloatArray) -> SetMember:
@@ -169,16 +188,38 @@ class SetSearch:
         )
         return SetMember(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
 
+    def renumbered(self, found: EffectSet) -> EffectSet:
+        """Return a set in which no effect stands for the second time that does not stand there once."""
+        members = list(found.members)
+        for place, each in enumerate(members):
+            name, number = installed(each.effect), parted(each.identifier)[1]
+            if not each.effect.several or number == 1:
+                continue
+            taken = {other.identifier for other in members}
+            for lower in (numbered(name, other) for other in range(1, number)):
+                family = next(
+                    (
+                        family
+                        for family in self.contest.families
+                        if family.identifier == lower and family.effect.settings == each.effect.settings
+                    ),
+                    None,
+                )
+                if family is not None and lower not in taken:
+                    members[place] = replace(each, family=family)
+                    break
+        return replace(found, members=tuple(members))
+
     def rivals(self, found: EffectSet, rest: EffectSet, within: float) -> list[EffectSet]:
         """Return the sets in which another effect stands in the place of a member, best first.
 
         `rest`: The set without it.
         `within`: What evidence they may lack.
         """
-        known = {each.identifier for each in found.members}
+        known = {installed(each.effect) for each in found.members}
 
         def is_another(family: Family) -> bool:
-            return family.is_named and family.identifier not in known
+            return family.is_named and installed(family.effect) not in known
 
         beside = replace(rest, amplitudes=found.amplitudes)
         tried = {
@@ -220,42 +261,46 @@ class SetSearch:
         variance = squares / contest.space.degrees
         solved = reduced.set_root.T @ taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
-        cost, first = 0.0, 0
+        cost, first, seen = 0.0, 0, []
         for each in members:
             own = slice(first, first + len(each.columns))
             first = own.stop
             information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
             square = contest.expected.square(each.identifier)
             cost += each.family.price + each.spread
-            for explained, rank in self._by_size(
-                each, solved[own], np.asarray(information / variance, np.float64)
-            ):
-                cost += contest.worth(explained, rank, square)
+            for explained, shares in self._by_size(each, solved[own], np.asarray(information, np.float64)):
+                cost += contest.worth(explained / variance, shares, square)
+                seen.append(shares)
             if each.family.is_named:
                 cost += self._unusual(each, solved[own], variance * inverse[own, own])
-        return cost
+        return cost + contest.overlap(reduced, seen)
 
     def _by_size(
         self, member: SetMember, solved: FloatArray, information: FloatArray
-    ) -> Iterator[tuple[float, int]]:
-        """Yield what a member explains beside the others of a set, in σ², and with how many columns.
+    ) -> Iterator[tuple[FloatArray, FloatArray]]:
+        """Yield what a member explains beside the others of a set, and what of its columns they leave.
 
         All its coefficients are of one size, but for an effect that contains others: a polynomial is a
         constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
         those before it leave.
         """
+        values, vectors = np.linalg.eigh(information)
+        values = np.maximum(values[-member.rank :], 0.0) if member.rank else values[:0]
+        vectors = vectors[:, len(vectors) - len(values) :]
         if not member.effect.contains:
-            yield float(solved @ information @ solved), member.rank
+            yield values * (vectors.T @ solved) ** 2, values
             return
         contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
         turned = self.contest.columns.values(member.columns).T @ contrasts
-        values, vectors = np.linalg.eigh(information)
-        root = np.sqrt(np.maximum(values, 0.0))[:, np.newaxis] * vectors.T
+        root = np.sqrt(values)[:, np.newaxis] * vectors.T
         powers = root @ turned
         lengths = np.linalg.norm(powers, axis=0)
-        powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
-        parts = np.linalg.qr(powers)[0].T @ (root @ solved)
-        yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
+        is_seen = lengths > _SEEN * lengths.max(initial=0.0)
+        directions, left = np.linalg.qr(powers[:, is_seen])
+        whole = np.linalg.qr(turned[:, is_seen])[1]
+        shares = (np.diagonal(left) / np.diagonal(whole)) ** 2
+        parts = (directions.T @ (root @ solved)) ** 2
+        yield from ((parts[each : each + 1], shares[each : each + 1]) for each in range(len(values)))
 
     def _unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""
@@ -278,7 +323,8 @@ class SetSearch:
     def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
         """Return the best amplitudes of all parts near others, one after another."""
         contest = self.contest
-        now = contest.as_noise(start) if self._is_quiet else start
+        quiet = contest.as_noise(start)
+        now = tuple(level if number in self._free else quiet[number] for number, level in enumerate(start))
         best = contest.criterion(now, columns)
         irregular = [number for number, part in enumerate(contest.parts) if part.irregular is not None]
         smooth = [number for number in range(len(contest.parts)) if number not in irregular]
@@ -311,25 +357,38 @@ class SetSearch:
     def _levels(self, number: int) -> int:
         """Return how many levels of a part are thought of."""
         part = self.contest.parts[number]
-        return part.noise_levels if self._is_quiet else len(part.levels)
+        return len(part.levels) if number in self._free else part.noise_levels
 
     def _climb(self, start: EffectSet) -> EffectSet:
         """Return the best set that moves lead to, one after another."""
-        now = self._shrunk(start)
+        now, passed = self._shrunk(start), set[_State]()
         for _ in range(_MOST_MOVES):
+            state = self._state(now)
+            if state in self._ends:
+                now = self._ends[state]
+                break
+            passed.add(state)
             larger = self._larger(now, _LISTED, _TRIED) if len(now.members) < _MOST_MEMBERS else None
             if larger is not None and larger.score < now.score - _GAIN:
                 now = self._shrunk(larger)
                 continue
             other = self._exchanged(now)
-            if other is None and not self._is_quiet:
+            if other is None and self._free == self._all:
                 other = self._parted(now)
             if other is None and self.has_nameless(now):
                 other = self._paired(now)
             if other is None:
-                return now
+                break
             now = self._shrunk(other)
+        self._ends.update(dict.fromkeys(passed, now))
         return now
+
+    def _state(self, now: EffectSet) -> _State:
+        """Return what a set is, with its searched parameters as far as they matter."""
+        members = frozenset(
+            (id(each.family), tuple(f"{value:{_AS_FAR}}" for value in each.theta)) for each in now.members
+        )
+        return self._free, members, now.amplitudes
 
     def _shrunk(self, now: EffectSet) -> EffectSet:
         """Return a set without the members that the others make needless."""
@@ -577,6 +636,11 @@ class SetSearch:
             if length > 0:
                 found.append(slope / length)
         return contest.columns.add(np.concatenate(found, axis=1)) if found else None
+
+
+def installed(effect: Effect) -> str:
+    """Return the name of an effect by which it is installed, whichever time it stands in a model."""
+    return parted(effect.identifier)[0] if effect.several else effect.identifier
 
 
 def _moved(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:

@@ -1,0 +1,124 @@
+"""Where to look for what has no name, and what to measure that would tell more of it than another guess.
+
+What stays at its place when it is measured again at closer targets is in the machine; what moves with the
+time, the direction or the set-up shows itself where everything else stands still. So each course asks for a
+measurement in which only that changes with which the remainder does. Engineering experience; no standard
+states it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from zlmreport.language import Words
+from zlmreport.model.diagnosis.nameless import Along, Course
+from zlmreport.model.diagnosis.remainder import Remainder
+from zlmreport.model.effects import wording
+from zlmreport.model.effects.design import Design
+
+#: Into how many parts the distance of the targets is divided where a remainder is smooth, and where it is
+#: not: a period has to be caught by four steps and more.
+_CLOSER, _FINE = 4.0, 10.0
+
+_OVER_POSITION = Words("the residuals over the position, {where}")
+_REVERSAL_OVER_POSITION = Words("the difference of the two directions over the position, {where}")
+_OVER_TIME = Words("the residuals over the time, {where}")
+_SLOPES_OVER_TIME = Words("the residuals of the outermost targets over the time, {where}")
+_REVERSAL_OVER_TIME = Words("the difference of the two directions over the time, {where}")
+_RUN_BY_RUN = Words("the residuals run by run, {where}")
+
+_CLOSER_TARGETS = Words(
+    "two runs with a target every {step} from {first} to {last}: what is in the machine comes "
+    "again at the same places"
+)
+_FINE_RUN = Words(
+    "a fine run in steps of {step} from {first} to {last}, twice: a period shorter than the "
+    "distance of the targets looks irregular, and shows itself there"
+)
+_OTHER_OVERRUN = Words(
+    "both directions with a target every {step} from {first} to {last}, once as before and once "
+    "with twice the overrun: lost motion stays, what relaxes or winds up changes"
+)
+_ONE_TARGET = Words(
+    "one target again and again, for {duration}, with the temperatures of scale, screw and air "
+    "logged: what moves there is no matter of the position"
+)
+_BOTH_ENDS = Words(
+    "the first and the last target in turn, for {duration}, with the temperatures of scale, screw "
+    "and air logged: it shows what grows, and from where"
+)
+_BOTH_DIRECTIONS = Words(
+    "one target from both directions in turn, for {duration}: whether the reversal changes with "
+    "the time or only with the place"
+)
+_MORE_RUNS = Words(
+    "three runs more, the first target read before and after each, nothing touched between: a "
+    "set-up that is not firm moves there too"
+)
+_TEN_TIMES = Words(
+    "this target ten times from each direction: whether it always stands off, or scatters more there"
+)
+_WHERE = {
+    Course.PLACE: _OVER_POSITION,
+    Course.IRREGULAR: _OVER_POSITION,
+    Course.TARGET: _OVER_POSITION,
+    Course.REVERSAL: _REVERSAL_OVER_POSITION,
+    Course.TIME: _OVER_TIME,
+    Course.SLOPE: _SLOPES_OVER_TIME,
+    Course.REVERSAL_IN_TIME: _REVERSAL_OVER_TIME,
+    Course.RUNS: _RUN_BY_RUN,
+}
+_MEASURE = {
+    Course.PLACE: _CLOSER_TARGETS,
+    Course.IRREGULAR: _FINE_RUN,
+    Course.TARGET: _TEN_TIMES,
+    Course.REVERSAL: _OTHER_OVERRUN,
+    Course.TIME: _ONE_TARGET,
+    Course.SLOPE: _BOTH_ENDS,
+    Course.REVERSAL_IN_TIME: _BOTH_DIRECTIONS,
+    Course.RUNS: _MORE_RUNS,
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """What to do about something without a name."""
+
+    at: Words  #: Where it shows in what was measured: "the residuals over the position, about 420 mm".
+    measure: Words  #: What to measure that would tell more.
+
+
+def look_for(remainder: Remainder, design: Design) -> Look:
+    """Return where to look for a remainder, and what to measure."""
+    course = remainder.course
+    given: dict[str, Words] = {}
+    if course.along is Along.PLACE:
+        first, last, step = _stretch(remainder, design)
+        axis = design.axis
+        given = {
+            "first": wording.position(axis, first),
+            "last": wording.position(axis, last),
+            "step": wording.length(axis, step / (_FINE if course is Course.IRREGULAR else _CLOSER)),
+        }
+    elif course.along is Along.TIME:
+        given = {"duration": wording.span_of_time(design, design.duration)}
+    return Look(_WHERE[course].given(where=remainder.where), _MEASURE[course].given(**given))
+
+
+def _stretch(remainder: Remainder, design: Design) -> tuple[float, float, float]:
+    """Return from where to where to measure closer, and the distance of the targets there, m or rad.
+
+    What is irregular is so everywhere: two distances about its largest place are enough.
+    """
+    targets = design.target_positions
+    step = float(np.median(np.diff(targets)))
+    if remainder.course is Course.IRREGULAR:
+        middle = min(max((remainder.low + remainder.high) / 2, targets[0] + step), targets[-1] - step)
+        return float(middle - step), float(middle + step), step
+    return (
+        max(float(targets[0]), remainder.low - step),
+        min(float(targets[-1]), remainder.high + step),
+        step,
+    )

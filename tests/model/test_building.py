@@ -1,0 +1,30 @@
+"""A build ends: each step is one that was not taken before."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from model.axis_tests import EFFECTS, model_of
+from model.hidden_effect import example_diagnosis
+from zlmreport.model.diagnosis.building import build
+from zlmreport.model.diagnosis.contest import Told
+from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.effects.axis_model import AxisModel
+from zlmreport.model.fitting.fit import fit
+
+
+def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None:
+    example = example_diagnosis()
+    asked: list[tuple[str, ...]] = []
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> Diagnosis:
+        asked.append(model.identifiers)
+        fitted = fit(model, example.fit.design, example.fit.deviation)
+        has_kink = "scale-kink" in model.identifiers
+        comes, goes = ("first-run", "scale-kink") if has_kink else ("scale-kink", "first-run")
+        makeshift = (goes,) if goes in model.identifiers else ()
+        return replace(example, fit=fitted, together=(EFFECTS[comes],), makeshift=makeshift)
+
+    found = build(model_of("offset"), diagnosing)
+    assert asked == [("offset",), ("offset", "scale-kink"), ("offset", "first-run")]
+    assert found.model.identifiers == ("offset", "first-run")

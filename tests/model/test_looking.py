@@ -1,0 +1,58 @@
+"""What has no name is looked for where it shows, by a measurement in which only that changes."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from model.axis_tests import linear_test
+from model.test_statements import LEFT
+from zlmreport.language import Language
+from zlmreport.model.diagnosis.looking import look_for
+from zlmreport.model.diagnosis.nameless import Course
+
+DESIGN = linear_test()
+
+
+def _said(course: Course, language: Language = Language.ENGLISH) -> tuple[str, str]:
+    look = look_for(replace(LEFT, course=course), DESIGN)
+    return look.at.in_language(language), look.measure.in_language(language)
+
+
+def test_what_is_smooth_along_the_axis_is_measured_at_closer_targets_there() -> None:
+    at, measure = _said(Course.PLACE)
+    assert at == "the residuals over the position, about 250 mm"
+    assert "two runs with a target every 12.7 mm from 149.3 mm to 350.7 mm" in measure
+
+
+def test_what_is_irregular_is_measured_in_fine_steps() -> None:
+    _, measure = _said(Course.IRREGULAR)
+    assert "a fine run in steps of 5.07 mm from 199.3 mm to 300.7 mm, twice" in measure
+
+
+def test_irregular_at_the_end_stays_within_what_was_measured() -> None:
+    at_end = replace(LEFT, course=Course.IRREGULAR, low=DESIGN.span[1], high=DESIGN.span[1])
+    last = float(DESIGN.target_positions[-1]) * 1e3
+    assert f"to {last:.4g} mm" in look_for(at_end, DESIGN).measure.in_language(Language.ENGLISH)
+
+
+@pytest.mark.parametrize(
+    ("course", "asked"),
+    [
+        (Course.REVERSAL, "twice the overrun"),
+        (Course.TIME, "one target again and again"),
+        (Course.SLOPE, "the first and the last target in turn"),
+        (Course.REVERSAL_IN_TIME, "one target from both directions in turn"),
+        (Course.RUNS, "three runs more"),
+        (Course.TARGET, "ten times from each direction"),
+    ],
+)
+def test_only_that_changes_with_which_the_remainder_does(course: Course, asked: str) -> None:
+    assert asked in _said(course)[1]
+
+
+@pytest.mark.parametrize("course", Course)
+def test_every_course_is_said_in_both_languages(course: Course) -> None:
+    assert _said(course) != _said(course, Language.GERMAN)
+    assert not any("{" in each for each in (*_said(course), *_said(course, Language.GERMAN)))
