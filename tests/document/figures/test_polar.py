@@ -73,7 +73,11 @@ def test_the_angles_stand_outside_of_the_circle_and_inside_of_the_figure():
     layout = lay_out(shown, Language.ENGLISH)
     rim = max((each.parts[0] for each in sketch(layout) if each.kind == "grid"), key=np.ptp)
     (right,), (left,) = (
-        [each.placed for each in sketch(layout) if each.kind == "ray" and each.placed.label.runs[0].text == text]
+        [
+            each.placed
+            for each in sketch(layout)
+            if each.kind == "ray" and each.placed.label.runs[0].text == text
+        ]
         for text in ("+X 0°", "−X 180°")
     )
     assert 0 <= left.x < left.x + left.label.width < rim[:, 0].min()

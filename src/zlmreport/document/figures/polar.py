@@ -180,7 +180,7 @@ def grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Letteri
         label = plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
         x = frame.x_point(outermost * across) + _ANGLE_GAP * across
         y = frame.y_point(outermost * up) + _ROOM / 2 * up
-        # To the right of the circle it begins there, to the left it ends, above and below it is in the middle.
+        # Right of the circle it begins there, left of it it ends; above and below it has its middle there.
         shift = 0.0 if across > 0 else label.width * (1.0 if across < 0 else 0.5)
         yield Lettering("ray", PlacedLabel(label, x - shift, y - label.rise), INK)
 
