@@ -27,7 +27,7 @@ from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Fr
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import plain
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.units import DEGREE
+from zlmreport.measurement.units import ARCSECOND, DEGREE
 
 _MILLIMETRE = 72 / 25.4
 #: The text width of an A4 page.
@@ -66,6 +66,9 @@ class FigureLayout:
     height: float
     panels: tuple[PanelLayout, ...]
     titles: tuple[PlacedLabel, ...]
+
+
+_NAMED_SIGNS = {each.symbol: f"{each.symbol} ({each.ascii})" for each in (DEGREE, ARCSECOND)}
 
 
 def figure_size(figure: Figure) -> tuple[float, float]:
@@ -189,8 +192,9 @@ def lay_out_alone(
 
 
 def axis_title(quantity: Words, unit: str, language: Language) -> str:
-    """Return what stands at an axis."""
+    """Return what stands at an axis; a unit that is but a small sign has its name, too."""
     text = quantity.in_language(language)
+    unit = _NAMED_SIGNS.get(unit, unit)
     return f"{text} in {unit}" if unit else text
 
 
