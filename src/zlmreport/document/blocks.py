@@ -6,7 +6,8 @@ kept apart as `Symbol`, because they are set in italics and subscripts.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING, TypeAlias
@@ -65,6 +66,22 @@ def text_of(cell: Cell, symbol: Callable[[str], str] = plain) -> str:
             return cell
 
 
+def with_symbols(text: str, notations: Iterable[str]) -> Iterator[str | Symbol]:
+    """Yield the stretches of a text in which symbols stand as a plain line, each of these as a symbol.
+
+    >>> list(with_symbols("Umax: largest, Umaximum", ["U_{max}"]))
+    [Symbol(notation='U_{max}'), ': largest, Umaximum']
+    """
+    by_name = {plain(each): each for each in notations}
+    if not by_name:
+        yield text
+        return
+    names = "|".join(map(re.escape, sorted(by_name, key=len, reverse=True)))
+    for number, stretch in enumerate(re.split(rf"(?<!\w)({names})(?![\w\u0300-\u036f])", text)):
+        if stretch:
+            yield Symbol(by_name[stretch]) if number % 2 else stretch
+
+
 class Align(Enum):
     """How a column stands: words to the left, numbers on their last digit to the right."""
 
@@ -111,12 +128,13 @@ class RowGroup:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table; `dense` asks for small type, for many columns."""
+    """A table; `dense` asks for small type, for many columns, `symbols` are those its caption speaks of."""
 
     caption: str
     columns: tuple[Column, ...]
     groups: tuple[RowGroup, ...]
     dense: bool = False
+    symbols: tuple[str, ...] = ()
 
     def without(self, *keys: str) -> Table:
         """Return the table without some of its columns."""
@@ -147,6 +165,7 @@ class Paragraph:
     mark: Mark | None = None  #: What it says of its subject, for media with colours.
     fine: bool = False
     verdict: Verdict | None = None
+    symbols: tuple[str, ...] = ()  #: Notations of those that it speaks of.
 
 
 @dataclass(frozen=True, slots=True)

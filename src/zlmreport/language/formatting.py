@@ -16,6 +16,8 @@ from math import ceil, floor, isfinite, log10
 MINUS = "\N{MINUS SIGN}"
 #: A blank at which no line ends.
 HELD = "\N{NO-BREAK SPACE}"
+#: No sign and no width: no line ends where it stands.
+WORD_JOINER = "\N{WORD JOINER}"
 #: Nobody knows the tails of real scatter better: below, a smaller chance is no stronger evidence.
 LEAST_P = 1e-6
 #: Of an expanded uncertainty.
@@ -27,8 +29,14 @@ _MOST_LOST = 0.05
 #: Room for every double, the largest too.
 _ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 
-#: A blank between a number and its unit, and within a coverage factor in brackets.
-_TOGETHER = re.compile(r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))|(?<=\(k) (?== )|(?<=\(k =) (?=\d)")
+#: A blank between a number and its unit, within a coverage factor in brackets, and within n − 1.
+_TOGETHER = re.compile(
+    r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))|(?<=\(k) (?== )|(?<=\(k =) (?=\d)"
+    r"|(?<=\b[A-Za-z]) (?=− \d)|(?<=\b[A-Za-z] −) (?=\d)"
+)
+#: After the slash between two bodies of one standard. Other names and numbers stay as they
+#: are, to the letter: whoever copies one gets it so.
+_BODIES = re.compile(r"(?<=\bVDI/|\bISO/)(?=(?:VDE|DGQ|IEC|TR|TS)\b)")
 
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
 # Fractions count as word characters, but they are numbers.
@@ -75,12 +83,14 @@ def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: 
 
 
 def held(text: str) -> str:
-    r"""Return a text of a page in which no line parts a number from its unit or sign.
+    r"""Return a text of a page in which no line parts a number from its unit, or a standard's name.
 
     >>> held("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
     '2\xa0°C below, 11.5\xa0µm/(m·K), U = 2\xa0µm (k\xa0=\xa02)'
+    >>> held("VDI/VDE 2617: ÷ (n − 1)")
+    'VDI/\u2060VDE 2617: ÷ (n\xa0−\xa01)'
     """
-    return _TOGETHER.sub(HELD, text)
+    return _BODIES.sub(WORD_JOINER, _TOGETHER.sub(HELD, text))
 
 
 def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:

@@ -19,6 +19,7 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
     Verdict,
+    with_symbols,
 )
 from zlmreport.document.certificate.attachments import (
     Attachment,
@@ -130,4 +131,5 @@ __all__ = [
     "report_changes",
     "report_evaluation",
     "table_layout",
+    "with_symbols",
 ]

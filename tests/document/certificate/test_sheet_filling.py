@@ -24,7 +24,10 @@ CONDITIONS = (
 SAID = Said(
     (Notice("The test deviates from a standard", ("Five targets; found: three, " * 9,)),),
     WHO,
-    ("Decision rule: simple acceptance.", "The results relate only to the item calibrated."),
+    (
+        Paragraph("Decision rule: simple acceptance."),
+        Paragraph("The results relate only to the item calibrated."),
+    ),
     CONDITIONS,
     frozenset({("Feed", "600 mm/min")}),
 )
@@ -71,7 +74,7 @@ def test_a_page_that_another_one_follows_has_more_room() -> None:
 
 
 def test_details_say_once_what_several_pages_lack() -> None:
-    lacking = Said(who=WHO, law=("Decision rule.",))
+    lacking = Said(who=WHO, law=(Paragraph("Decision rule."),))
     title, blocks = details((lacking, lacking, Said(who=WHO[:1])), WRITER)
     assert title == "Details"
     assert blocks == (Facts(WHO), Paragraph("Decision rule."))
@@ -83,7 +86,7 @@ _SAID = st.builds(
     Said,
     st.lists(st.builds(Notice, _TEXTS, st.lists(_TEXTS, max_size=2).map(tuple)), max_size=4).map(tuple),
     _PAIRS,
-    st.lists(_TEXTS, max_size=5, unique=True).map(tuple),
+    st.lists(_TEXTS.map(Paragraph), max_size=5, unique=True).map(tuple),
     st.lists(st.builds(Facts, _PAIRS.filter(bool), _TEXTS), max_size=2).map(tuple),
 )
 
@@ -96,7 +99,11 @@ def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: Said, 
     _, left = details((filled.left,), WRITER)
     printed = f"{shown} {' '.join(line for block in left for line in lines_of(block))}"
     stated = [*said.who, *(pair for group in said.conditions for pair in group.pairs)]
-    for words in (*said.law, *(part for pair in stated for part in pair), *(n.heading for n in said.notices)):
+    for words in (
+        *(each.text for each in said.law),
+        *(part for pair in stated for part in pair),
+        *(n.heading for n in said.notices),
+    ):
         assert words in printed
     assert filled.height <= room
     assert ("“Details”: " in shown) == (filled.left != Said())

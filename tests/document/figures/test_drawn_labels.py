@@ -10,7 +10,7 @@ import pytest
 from document.figures.samples import ALL, ORDINARY, both_directions, collisions, drawn, each_direction, figure
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.figure import Bar, Figure, Panel
-from zlmreport.document.figures.layout import figure_size
+from zlmreport.document.figures.layout import axis_title, figure_size
 from zlmreport.language import Language, same
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
@@ -170,3 +170,8 @@ def test_titles_of_several_quantities_do_not_meet(*, is_wide: bool) -> None:
     of = replace(_beside_temperatures(), is_wide=is_wide, height=120.0)
     first, second = (each.runs[0] for each in drawn(of).texts_of("title")[1:])
     assert abs(first.x - second.x) > 50 or abs(first.y - second.y) > 50
+
+
+def test_an_axis_names_a_unit_that_is_but_a_small_sign() -> None:
+    titles = [axis_title(same("Deviation"), unit, Language.ENGLISH) for unit in ("″", "°", "µm")]
+    assert titles == ["Deviation in ″ (arcsec)", "Deviation in ° (deg)", "Deviation in µm"]

@@ -1,5 +1,7 @@
 """A panel about a circle: where values stand, and what is drawn with them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -55,6 +57,31 @@ def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
     assert 0 <= box.bottom < box.top <= height
     (curve,) = [shape for shape in sketch(layout) if shape.kind == "curve mean_positive"]
     assert np.abs(curve.parts[0]).max() <= panel.frame.x_scale.upper
+
+
+@pytest.mark.parametrize(("height", "least"), [(90.0, 71.0), (None, 115.0)])
+def test_a_circle_uses_the_height_of_its_figure(height, least):
+    # Above it a line of the legend and that of the angle, below it the angle and what its distances are.
+    layout = lay_out(replace(figure(3.0 * np.cos(np.radians(ANGLES))), height=height), Language.ENGLISH)
+    outermost = max(np.ptp(each.parts[0][:, 1]) for each in sketch(layout) if each.kind == "grid")
+    assert outermost / 72 * 25.4 >= least
+
+
+def test_the_angles_stand_outside_of_the_circle_and_inside_of_the_figure():
+    shown = figure(3.0 * np.cos(np.radians(ANGLES)), directions=((0, "+X"), (180, "−X")))
+    width, _ = figure_size(shown)
+    layout = lay_out(shown, Language.ENGLISH)
+    rim = max((each.parts[0] for each in sketch(layout) if each.kind == "grid"), key=np.ptp)
+    (right,), (left,) = (
+        [
+            each.placed
+            for each in sketch(layout)
+            if each.kind == "ray" and each.placed.label.runs[0].text == text
+        ]
+        for text in ("+X 0°", "−X 180°")
+    )
+    assert 0 <= left.x < left.x + left.label.width < rim[:, 0].min()
+    assert rim[:, 0].max() < right.x < right.x + right.label.width <= width
 
 
 def test_a_curve_shows_its_sense_by_an_arrow_along_it():

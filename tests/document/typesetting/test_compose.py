@@ -5,12 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from xml.etree import ElementTree as ET
 
+import numpy as np
 import pytest
 
 from document.typesetting.samples import NUMBER, certificate, measurements
 from zlmreport.document.blocks import (
     Column,
     Facts,
+    Graph,
     Mark,
     Notice,
     Paragraph,
@@ -22,9 +24,10 @@ from zlmreport.document.blocks import (
     text_of,
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead, Party
+from zlmreport.document.figures.figure import Curve, Figure, Panel, Role
 from zlmreport.document.typesetting.compose import Setting, compose
 from zlmreport.document.typesetting.templates import symbol
-from zlmreport.language import Language
+from zlmreport.language import Language, same
 
 #: Texts that mean something to some reader of a page; here they mean themselves.
 TEXTS = {
@@ -268,6 +271,20 @@ def test_a_short_table_stays_on_a_page_and_a_long_one_does_not() -> None:
 
 def test_the_same_certificate_is_set_the_same() -> None:
     assert compose(certificate()) == compose(certificate())
+
+
+@pytest.mark.parametrize("block", [Table("Umax, Umaximum", (), (), symbols=("U_{max}",)), None])
+def test_a_symbol_of_which_a_text_speaks_is_set_as_one(block: Table | None) -> None:
+    said = block or Paragraph("Umax, Umaximum", symbols=("U_{max}",))
+    document = compose(replace(certificate(), sections=(Section("s", "S", (said,)),)))
+    assert "<i>U</i><sub>max</sub></span>, Umaximum" in document
+
+
+def test_a_caption_of_a_graph_knows_the_symbols_that_are_drawn() -> None:
+    panel = Panel(curves=(Curve("G_{b}", Role.MEAN_POSITIVE, np.zeros(2), np.zeros(2)),))
+    figure = Figure("g", same("Circles of Gb"), *[same("told")] * 3, "mm", "µm", (panel,))
+    document = compose(replace(certificate(), sections=(Section("s", "S", (Graph(figure),)),)))
+    assert "Circles of <span" in document
 
 
 def test_no_line_parts_a_number_from_its_unit() -> None:

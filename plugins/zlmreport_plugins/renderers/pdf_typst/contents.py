@@ -45,7 +45,7 @@ from zlmreport.plugin.renderer import (
     numbered_blocks,
     table_layout,
 )
-from zlmreport_plugins.renderers.pdf_typst.words import fitted, parted, symbol_data
+from zlmreport_plugins.renderers.pdf_typst.words import fitted, fitted_with_symbols, parted, symbol_data
 
 #: What JSON knows.
 Data: TypeAlias = dict[str, Any]
@@ -133,21 +133,21 @@ def enclosures(certificate: Certificate) -> list[Data]:
 
 def _block(numbered: NumberedBlock, language: Language) -> Data:
     match numbered.block:
-        case Table(caption=caption) as table:
-            return {"kind": "table", **_captioned(numbered, caption), **table_data(table)}
+        case Table(caption=caption, symbols=symbols) as table:
+            return {"kind": "table", **_captioned(numbered, caption, symbols), **table_data(table)}
         case Formulas(caption=caption) as formulas:
             return {"kind": "formulas", **_captioned(numbered, caption), **formulas_data(formulas)}
         case Graph(figure):
             return {
                 "kind": "graph",
-                **_captioned(numbered, figure.title.in_language(language)),
+                **_captioned(numbered, figure.title.in_language(language), figure.symbols),
                 "alternative": figure.alternative.in_language(language),
                 **graph_data(figure, language),
             }
-        case Paragraph(text, fine=fine, verdict=verdict):
+        case Paragraph(text, fine=fine, verdict=verdict, symbols=symbols):
             return {
                 "kind": "paragraph",
-                "text": fitted(text, _PAGE / _FINE if fine else _PAGE),
+                "text": fitted_with_symbols(text, symbols, _PAGE / _FINE if fine else _PAGE),
                 "fine": fine,
                 "verdict": _cell(verdict, _PAGE) if verdict else None,
             }
@@ -163,8 +163,8 @@ def _block(numbered: NumberedBlock, language: Language) -> Data:
             return _facts(facts)
 
 
-def _captioned(numbered: NumberedBlock, caption: str) -> Data:
-    return {"label": numbered.label, "caption": fitted(caption, _CAPTION)}
+def _captioned(numbered: NumberedBlock, caption: str, symbols: Iterable[str] = ()) -> Data:
+    return {"label": numbered.label, "caption": fitted_with_symbols(caption, symbols, _CAPTION)}
 
 
 def _facts(groups: tuple[Facts, ...]) -> Data:

@@ -9,7 +9,7 @@ wherever an x stands.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import lru_cache
 from itertools import groupby
 from typing import Any, TypeAlias
@@ -22,29 +22,30 @@ from zlmreport.plugin.page import (
     mark_offset,
     text_advance,
 )
-from zlmreport.plugin.renderer import notation_spans
+from zlmreport.plugin.renderer import Symbol, notation_spans, with_symbols
 
 #: A text, or its stretches, each with the way in which it is set.
 Text: TypeAlias = str | list[tuple[Any, str]]
 
 #: As it stands; parted anywhere, as a number, a path or a digest; by the rules of the language; with marks
-#: placed one by one.
-AS_WORDS, ANYWHERE, BY_SYLLABLES, MARKED = "words", "anywhere", "syllables", "marked"
+#: placed one by one; as a symbol.
+AS_WORDS, ANYWHERE, BY_SYLLABLES, MARKED, SYMBOL = "words", "anywhere", "syllables", "marked", "symbol"
 
 _WORDS = re.compile(r"\S+|\s+")
 #: Longer words, or those in narrower places, are no words of a language or do not fit by syllables either.
 _LONGEST_WORD = 45
 _LEAST_ROOM = 6.0
 _WIDEST_LETTER = 1.0
+_JOINER = "\N{WORD JOINER}"
 
 
 def fitted(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
     text = held_together(text)
     longest = max(map(len, text.split()), default=0)
-    if _WIDEST_LETTER * longest <= room and not has_marks(text):
+    if _WIDEST_LETTER * longest <= room and _JOINER not in text and not has_marks(text):
         return text
-    ways = [(word, _way(word, room, face)) for word in _WORDS.findall(text)]
+    ways = [(word.replace(_JOINER, ""), _way(word, room, face)) for word in _WORDS.findall(text)]
     if all(way == AS_WORDS for _, way in ways):
         return text
     return [
@@ -54,9 +55,22 @@ def fitted(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     ]
 
 
+def fitted_with_symbols(text: str, notations: Iterable[str], room: float) -> Text:
+    """Return a text for a place of a width, in em, in which symbols of these notations are set as such."""
+    parts = [
+        [(symbol_data(part.notation)["words"], SYMBOL)] if isinstance(part, Symbol) else fitted(part, room)
+        for part in with_symbols(text, notations)
+    ]
+    if len(parts) == 1:
+        return parts[0]
+    return [stretch for part in parts for stretch in ([(part, AS_WORDS)] if isinstance(part, str) else part)]
+
+
 def _way(word: str, room: float, face: FontFace) -> str:
     if has_marks(word):
         return MARKED
+    if _JOINER in word:  # whole, and without the sign: a reader of the document would find it in the text
+        return MARKED if text_advance(word.replace(_JOINER, ""), face) <= room else ANYWHERE
     if _WIDEST_LETTER * len(word) <= room or text_advance(word, face) <= room:
         return AS_WORDS
     is_of_language = word.strip(".,;:!?()").replace("-", "").isalpha() and len(word) <= _LONGEST_WORD

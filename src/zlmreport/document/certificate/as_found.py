@@ -236,7 +236,8 @@ def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
     )
     caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
     quantities = (each.either.quantity for each in every)
-    return Table(told_apart(caption, quantities, has_uncertainty=known, writer=writer), columns, groups)
+    told, symbols = told_apart(caption, quantities, has_uncertainty=known, writer=writer)
+    return Table(told, columns, groups, symbols=symbols)
 
 
 def _both(change: Change) -> Iterator[Parameter]:

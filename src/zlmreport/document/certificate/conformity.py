@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 _UNDERFLOW = 1e-300
 #: The risk of a statement on a value that lies on its limit.
 _EVEN = 0.5
+#: Symbols of the sentences on decision rules: the limit.
+_OF_RULES = ("T_{L}",)
 #: What each statement looks like, and its words.
 STATEMENTS = {
     Conformity.MET: (Mark.MET, Words("conforms")),
@@ -109,7 +111,8 @@ def rule_paragraph(
         words = _WITHOUT_UNCERTAINTY.given(rule=words)
     if any(each.known_error for each in limited):
         words = _KNOWN_ERRORS.given(rule=words)
-    yield Paragraph(writer.say(_source_of_limits(evaluations, writer).given(rule=words)))
+    symbols = (*_OF_RULES, *(each.quantity.notation for each in limited if "_" in each.quantity.notation))
+    yield Paragraph(writer.say(_source_of_limits(evaluations, writer).given(rule=words)), symbols=symbols)
 
 
 def _source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> Words:

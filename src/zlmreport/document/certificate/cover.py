@@ -166,8 +166,8 @@ def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: b
     )
     caption = Words("Results in brief")
     shown = (each.quantity for page in pages for each in _in_brief(page[0].evaluation))
-    told = told_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
-    return Table(told, columns, groups, dense)
+    told, symbols = told_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
+    return Table(told, columns, groups, dense, symbols)
 
 
 def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:

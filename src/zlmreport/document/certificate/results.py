@@ -166,13 +166,13 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
             groups.append(RowGroup(rows, writer.say(heading), writer.say(note)))
     if len(groups) == 1 and not evaluation.measurements.axis.measurand.is_position:
         groups = [replace(groups[0], heading="", note="")]  # nothing that they would be told apart from
-    caption = told_apart(
+    caption, symbols = told_apart(
         parameters_in_words(evaluation),
         (each.quantity for each in evaluation.parameters),
         has_uncertainty=values.has_uncertainty,
         writer=writer,
     )
-    return Table(caption, columns, tuple(groups))
+    return Table(caption, columns, tuple(groups), symbols=symbols)
 
 
 def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
@@ -181,7 +181,8 @@ def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
         symbols = [each.quantity.notation for each in evaluation.parameters if each.raised_to is least]
         if symbols:
             statement = Words("U of {symbols}: {what}.")
-            yield Paragraph(writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words)))
+            said = writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words))
+            yield Paragraph(said, symbols=("U", *symbols))
 
 
 def by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Table]:
@@ -231,13 +232,14 @@ def positions(evaluation: Evaluation, writer: Writer) -> Table:
         if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
             add(column.quantity.notation, column.values)
     caption = Words("Results by target position")
-    told = told_apart(
+    told, symbols = told_apart(
         caption,
         (column.quantity for column in evaluation.columns),
         has_uncertainty=evaluation.mean_uncertainty is not None,
         writer=writer,
     )
-    return Table(told, tuple(columns), (RowGroup(tuple(zip(*cells, strict=True))),), dense=True)
+    rows = tuple(zip(*cells, strict=True))
+    return Table(told, tuple(columns), (RowGroup(rows),), dense=True, symbols=symbols)
 
 
 def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:

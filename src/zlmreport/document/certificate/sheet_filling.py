@@ -53,7 +53,7 @@ class Said:
 
     notices: tuple[Notice, ...] = ()  #: What must not be overlooked.
     who: tuple[Pair, ...] = ()  #: Customer, machine, dates, who answers for it.
-    law: tuple[str, ...] = ()  #: Sentences on decision rule, uncertainty and traceability.
+    law: tuple[Paragraph, ...] = ()  #: Sentences on decision rule, uncertainty and traceability.
     #: Under which circumstances; a group without a heading has names that say of what they are.
     conditions: tuple[Facts, ...] = ()
     #: Facts of conditions that are short and understood without the heading of their group.
@@ -99,7 +99,7 @@ def details(left: Iterable[Said], writer: Writer) -> tuple[str, tuple[Block, ...
     blocks: tuple[Block, ...] = (
         *(notice for each in lacking for notice in each.notices),
         *(Facts(tuple(pairs), heading) for heading, pairs in groups.items() if pairs),
-        *(Paragraph(text) for each in lacking for text in each.law),
+        *(paragraph for each in lacking for paragraph in each.law),
         *(block for each in lacking for block in each.corrections),
     )
     return writer.say(_DETAILS), tuple(dict.fromkeys(blocks))
@@ -282,8 +282,10 @@ def _fine(text: str) -> tuple[Paragraph, ...]:
     return (Paragraph(text, fine=True),) if text else ()
 
 
-def _sentences(texts: Iterable[str]) -> tuple[Paragraph, ...]:
-    return _fine(" ".join(texts))
+def _sentences(paragraphs: Sequence[Paragraph]) -> tuple[Paragraph, ...]:
+    symbols = dict.fromkeys(symbol for each in paragraphs for symbol in each.symbols)
+    fine = _fine(" ".join(each.text for each in paragraphs))
+    return tuple(replace(each, symbols=tuple(symbols)) for each in fine)
 
 
 def _facts_in_a_line(pairs: Iterable[Pair]) -> tuple[Paragraph, ...]:

@@ -203,9 +203,10 @@ def _outcome(evaluation: Evaluation, of: Material) -> Iterator[Paragraph]:
     for each in evaluation.parameters:
         verdict = conformity.verdict(each, of.writer)
         if isinstance(verdict, Verdict):
-            found.setdefault(verdict, []).append(plain(each.quantity.notation))
+            found.setdefault(verdict, []).append(each.quantity.notation)
     for verdict in sorted(found, key=lambda each: _GRAVEST_FIRST.index(each.mark.value)):
-        yield Paragraph(", ".join(found[verdict]), verdict=verdict)
+        symbols = tuple(found[verdict])
+        yield Paragraph(", ".join(map(plain, symbols)), verdict=verdict, symbols=symbols)
 
 
 def _parameters(evaluation: Evaluation, writer: Writer) -> tuple[Block, ...]:
@@ -244,7 +245,7 @@ def _said(of: Material, page: _Page) -> Said:
     return Said(
         notices=notices,
         who=who,
-        law=tuple(each.text for each in said if isinstance(each, Paragraph)),
+        law=tuple(each for each in said if isinstance(each, Paragraph)),
         conditions=tuple(group for _, group in groups),
         plain=frozenset(
             pair

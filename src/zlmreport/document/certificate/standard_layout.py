@@ -333,10 +333,10 @@ def parameters(evaluation: Evaluation, writer: Writer) -> Table:
     if evaluation.measurements.axis.measurand.is_position:
         caption = _IN_THREE_GROUPS.given(parameters=caption)
     rows = tuple(RowGroup(each) for each in groups if each)
-    told = told_apart(
+    told, symbols = told_apart(
         caption,
         (each.quantity for each in evaluation.parameters),
         has_uncertainty=values.has_uncertainty,
         writer=writer,
     )
-    return Table(told, headings, rows, dense=True)
+    return Table(told, headings, rows, dense=True, symbols=symbols)

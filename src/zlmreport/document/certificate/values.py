@@ -102,14 +102,16 @@ def told_apart(
     *,
     has_uncertainty: bool,
     writer: Writer,
-) -> str:
-    """Write a table's caption; where U heads a column, it tells U from the quantities that begin with U."""
-    others = [
-        f"{plain(each.notation)}: {writer.say(each.name)}" for each in quantities if each.notation[:1] == "U"
-    ]
+) -> tuple[str, tuple[str, ...]]:
+    """Write a table's caption; where U heads a column, it tells U from the quantities that begin with U.
+
+    Returns it with the notations of the symbols of which it speaks.
+    """
+    others = {each.notation: writer.say(each.name) for each in quantities if each.notation[:1] == "U"}
     if not (has_uncertainty and others):
-        return writer.say(caption)
-    return writer.say(_TOLD_APART.given(caption=caption, others=", ".join(dict.fromkeys(others))))
+        return writer.say(caption), ()
+    named = ", ".join(f"{plain(notation)}: {name}" for notation, name in others.items())
+    return writer.say(_TOLD_APART.given(caption=caption, others=named)), ("U", *others)
 
 
 def coverage_factor(parameter: Parameter, writer: Writer) -> str:

@@ -12,6 +12,7 @@ from enum import Enum
 from typing import Literal
 
 from zlmreport.language import Words
+from zlmreport.language.formatting import plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 
@@ -239,6 +240,21 @@ class Figure:
     spans_are_alike: bool = True
     height: float | None = None
     is_wide: bool = False
+
+    @property
+    def symbols(self) -> tuple[str, ...]:
+        """Notations of what is drawn, those of several letters: what its caption may speak of.
+
+        A single letter may be a word.
+        """
+        drawn: list[str] = []
+        for panel in self.panels:
+            drawn += [curve.notation for curve in panel.curves]
+            drawn += [band.notation for band in panel.bands]
+            drawn += [arrow.notation for arrow in panel.arrows]
+            drawn += [bracket.notation for bracket in panel.brackets]
+            drawn += [level.notation for level in panel.levels]
+        return tuple(dict.fromkeys(each for each in drawn if len(plain(each)) > 1))
 
     @property
     def has_several_quantities(self) -> bool:

@@ -21,12 +21,13 @@ from zlmreport.document.figures.panel_layout import (
     lay_out_panel,
     level_width,
 )
+from zlmreport.document.figures.polar import BESIDE_CIRCLE
 from zlmreport.document.figures.scale import AxisScale, category_scale, position_scale, value_scales
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Frame, PlacedLabel
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import plain
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.units import DEGREE
+from zlmreport.measurement.units import ARCSECOND, DEGREE
 
 _MILLIMETRE = 72 / 25.4
 #: The text width of an A4 page.
@@ -67,6 +68,9 @@ class FigureLayout:
     titles: tuple[PlacedLabel, ...]
 
 
+_NAMED_SIGNS = {each.symbol: f"{each.symbol} ({each.ascii})" for each in (DEGREE, ARCSECOND)}
+
+
 def figure_size(figure: Figure) -> tuple[float, float]:
     """Return width and height of a figure in points; they depend on nothing but its panels and bars."""
     if figure.height is not None:
@@ -87,18 +91,23 @@ def _height_of(panel: Panel) -> float:
 def lay_out(figure: Figure, language: Language) -> FigureLayout:
     """Return the places of everything in a figure."""
     _, height = figure_size(figure)
-    bottom = _EDGE + 1.35 * TEXT_SIZE + _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
+    is_round = bool(figure.panels) and all(panel.is_polar for panel in figure.panels)
+    bottom = _EDGE + 1.35 * TEXT_SIZE
+    if not is_round:  # its angles stand inside of the frame, and it has no ticks
+        bottom += _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
     columns = len(figure.panels) if figure.is_wide else 1
     rows = max(1, len(figure.panels) // max(1, columns))
     # The width of the values' labels is the left margin, and the legend's rows follow from it; so the
     # values come first, for the height that a legend of one row leaves.
     y_scales = _y_scales(figure, language, (height - bottom) / rows - _ABOUT_LEGEND)
     widest = max((_tick_width(text) for scale in y_scales for text in scale.labels), default=0.0)
-    left = _EDGE + TEXT_SIZE + _TITLE_GAP + widest + TICK_GAP + TICK_LENGTH
+    left = _EDGE + BESIDE_CIRCLE
+    if not is_round:
+        left = _EDGE + TEXT_SIZE + _TITLE_GAP + widest + TICK_GAP + TICK_LENGTH
     levels = max(map(level_width, figure.panels), default=0.0)
     brackets = max(map(bracket_width, figure.panels), default=0.0)
     room = (WIDTH + _PANEL_GAP) / max(1, columns) - _PANEL_GAP
-    right = room - _EDGE - max(levels + brackets, _LEAST_MARGIN)
+    right = room - (left if is_round else _EDGE + max(levels + brackets, _LEAST_MARGIN))
     x_scale = _x_scale(figure, language, right - left)
     bottom += TICK_LINE if any("\n" in label for label in x_scale.labels) else 0.0
     legends = [lay_out_legend(panel, language, room - _EDGE - left) for panel in figure.panels]
@@ -111,7 +120,7 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
     right = boxes[-1].right if boxes else right
-    if all(panel.is_polar for panel in figure.panels) and panels:
+    if is_round:
         told = plain_label(_magnified(figure, panels, language), TEXT_SIZE)
         alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
         return FigureLayout(WIDTH, height, panels, (alone,))
@@ -183,8 +192,9 @@ def lay_out_alone(
 
 
 def axis_title(quantity: Words, unit: str, language: Language) -> str:
-    """Return what stands at an axis."""
+    """Return what stands at an axis; a unit that is but a small sign has its name, too."""
     text = quantity.in_language(language)
+    unit = _NAMED_SIGNS.get(unit, unit)
     return f"{text} in {unit}" if unit else text
 
 

@@ -61,7 +61,9 @@ def lay_out_panel(
     """Return the places of everything in a panel; labels of levels take a width beside the frame."""
     if panel.is_polar:
         grid = polar_grid(panel, language.decimal_sign)
-        round_frame = Frame(square(frame.box), grid.scale, grid.scale)
+        box = square(frame.box)
+        scale = grid.scale(box.width)
+        round_frame = Frame(box, scale, scale)
         return PanelLayout(panel, round_frame, legend, (), (), (), (), grid)
     if panel.is_wire:
         fitted = wire_frame(panel, frame.box)

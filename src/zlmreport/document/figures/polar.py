@@ -40,8 +40,12 @@ from zlmreport.measurement.arrays import FloatArray
 
 #: The innermost circle of the grid, in parts of the outermost.
 _INNERMOST = 0.35
-#: How far beyond the outermost circle the frame reaches, so that the angles have room.
-_ROOM = 1.16
+#: How far beyond the outermost circle the frame reaches, so that the angles have room, and how far to either
+#: side of the frame they reach, points.
+_ROOM = 11.0
+BESIDE_CIRCLE = 24.0
+#: Between the outermost circle and an angle at its side.
+_ANGLE_GAP = 4.0
 _MOST_CIRCLES = 6
 _DIRECTIONS = tuple(range(0, 360, 45))
 _AROUND = np.linspace(0.0, 2 * math.pi, 181)
@@ -76,10 +80,9 @@ class PolarGrid:
         radius = self.radius(value)
         return radius * np.cos(radians), radius * np.sin(radians)
 
-    @property
-    def scale(self) -> AxisScale:
-        """Either axis of the square in which the panel is drawn."""
-        reach = _ROOM * (self.ticks[-1] - self.base)
+    def scale(self, side: float) -> AxisScale:
+        """Return either axis of the square of a side, in points, in which the panel is drawn."""
+        reach = (self.ticks[-1] - self.base) * side / max(side - 2 * _ROOM, side / 2)
         return AxisScale(-reach, reach, (), ())
 
 
@@ -171,12 +174,15 @@ def grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Letteri
         x, y = frame.x_point(radius * math.cos(told_at)), frame.y_point(radius * math.sin(told_at))
         label = plain_label(text, TICK_TEXT_SIZE)
         yield Lettering("circle", PlacedLabel(label, x - label.width / 2, y - label.rise), INK)
-    reach = (_ROOM + 1) / 2 * float(grid.radius(grid.ticks[-1]))
+    outermost = float(grid.radius(grid.ticks[-1]))
     for degrees in _DIRECTIONS:
-        direction = math.radians(degrees)
+        across, up = (round(part(math.radians(degrees)), 9) for part in (math.cos, math.sin))
         label = plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
-        x, y = frame.x_point(reach * math.cos(direction)), frame.y_point(reach * math.sin(direction))
-        yield Lettering("ray", PlacedLabel(label, x - label.width / 2, y - label.rise), INK)
+        x = frame.x_point(outermost * across) + _ANGLE_GAP * across
+        y = frame.y_point(outermost * up) + _ROOM / 2 * up
+        # Right of the circle it begins there, left of it it ends; above and below it has its middle there.
+        shift = 0.0 if across > 0 else label.width * (1.0 if across < 0 else 0.5)
+        yield Lettering("ray", PlacedLabel(label, x - shift, y - label.rise), INK)
 
 
 def sense_shapes(panel: Panel, frame: Frame) -> Iterator[Shape]:

@@ -43,6 +43,7 @@ from zlmreport.document.typesetting.templates import (
     TableContext,
     render,
     symbol,
+    text_with_symbols,
 )
 
 #: Where a renderer finds a drawing by its number from 0, and the logo.
@@ -151,14 +152,16 @@ def _context(numbered: NumberedBlock, certificate: Certificate, setting: Setting
             number = numbered.number - 1
             return GraphContext(
                 label=label,
-                caption=figure.title.in_language(certificate.language),
+                caption=text_with_symbols(figure.title.in_language(certificate.language), figure.symbols),
                 alternative=figure.alternative.in_language(certificate.language),
                 address=GRAPH_ADDRESS.format(number),
                 drawing=Markup(setting.drawings[number]) if setting.drawings else Markup(),  # noqa: S704 (the drawer's own)
             )
-        case Paragraph(text, fine=fine, verdict=verdict):
+        case Paragraph(text, fine=fine, verdict=verdict, symbols=symbols):
             shape = _shape(verdict) if verdict else ""
-            return ParagraphContext(text, fine, shape, verdict.word if verdict else "")
+            return ParagraphContext(
+                text_with_symbols(text, symbols), fine, shape, verdict.word if verdict else ""
+            )
         case Notice() as block:
             return block
         case facts:
@@ -182,7 +185,7 @@ def _table(table: Table, label: str, page: str, *, is_for_screens: bool) -> Tabl
     padding = iter(columns.decimal_padding(table))
     return TableContext(
         label=label,
-        caption=table.caption,
+        caption=text_with_symbols(table.caption, table.symbols),
         size=layout.size,
         whole=layout.is_whole,
         in_fives=layout.in_fives,

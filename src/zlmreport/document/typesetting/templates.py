@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from functools import lru_cache
 from typing import ClassVar, TypeAlias
@@ -23,7 +24,7 @@ from jinja2 import (
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.document.blocks import Facts, Notice
+from zlmreport.document.blocks import Facts, Notice, Symbol, with_symbols
 from zlmreport.document.certificate.document import Certificate, Letterhead
 from zlmreport.document.typesetting.overview import (
     OverviewContext,
@@ -73,7 +74,7 @@ class TableContext:
 
     template: ClassVar[str] = "table.html"
     label: str  #: ``Table 2``.
-    caption: str  #: What it shows.
+    caption: Markup  #: What it shows.
     size: str  #: Class name of its type size.
     whole: bool  #: Whether it is short enough to stay on one page.
     in_fives: bool  #: Whether its rows are read in fives.
@@ -112,7 +113,7 @@ class ParagraphContext:
     """A paragraph of running text, which a verdict may begin."""
 
     template: ClassVar[str] = "paragraph.html"
-    text: str
+    text: Markup
     fine: bool  #: Whether it is in small type.
     shape: str  #: Class name of the verdict's shape; empty without one.
     word: str  #: The verdict's word; empty without one.
@@ -124,7 +125,7 @@ class GraphContext:
 
     template: ClassVar[str] = "graph.html"
     label: str  #: ``Figure 3``.
-    caption: str  #: Its title.
+    caption: Markup  #: Its title.
     alternative: str  #: What it shows, for those who cannot see it.
     address: str  #: Where the renderer finds the drawing: ``graph:2``.
     drawing: Markup  #: The drawing itself as markup; empty where it stands at its address.
@@ -286,6 +287,14 @@ def _shown(markup: str) -> Counter[str]:
     """Return the words and pictures of a block."""
     text = Markup(markup).striptags()  # noqa: S704 - it is only looked at
     return Counter([*_WORDS.findall(text), *_PICTURES.findall(markup)])
+
+
+def text_with_symbols(text: str, notations: Iterable[str]) -> Markup:
+    """Set a text, and in it as symbols those of these notations."""
+    return Markup().join(
+        symbol(part.notation) if isinstance(part, Symbol) else held(part)
+        for part in with_symbols(text, notations)
+    )
 
 
 @lru_cache(maxsize=1024)
