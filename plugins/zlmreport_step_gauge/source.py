@@ -279,6 +279,14 @@ class StepGaugeSource:
                 "this source needs the gauge; state step_gauge with its calibration, "
                 "as in step_gauge: {calibration: gauge.yaml, initial_points: initial-points.csv}",
             )
+        axis = context.axis
+        if not axis.has_length:
+            what = "a rotary axis" if axis.measurand.is_position else axis.measurand.identifier
+            raise InputError.at(
+                context.place,
+                "the faces of a step gauge lie at calibrated lengths along a linear axis, and this job is "
+                f"on {what}; read it by the source of the instrument that measured it",
+            )
         sides = _SIDES[options.side]
         found = _points(options, set_up, sides)
         probed = gridded(found.points, set_up.gauge, sides, place=found.place, problems=found.problems)

@@ -25,7 +25,7 @@ from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.correction.corrections import corrected, corrections_of, without_excluded
 from zlmreport.evaluation.decision import decided, decision_rule
-from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.evaluate import called, evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.likely_units import doubts
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
@@ -240,7 +240,8 @@ def parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tu
     """Evaluate readings by every standard that the job names; uncertainties and decisions are left out."""
     return tuple(
         replace(
-            evaluate(standard, measurements, options, choice.tolerances), specification=choice.specification
+            called(evaluate(standard, measurements, options, choice.tolerances), choice.adoption),
+            specification=choice.specification,
         )
         for (standard, options), choice in zip(standards(job, registry), job.standards, strict=True)
     )

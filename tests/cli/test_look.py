@@ -174,3 +174,25 @@ def test_sensors_whose_times_fall_are_told_by_their_reader(table: Any) -> None:
     fallen = SENSORS.replace("\n9,", "\n7.5,")
     with pytest.raises(InputError, match="the time is before that of the reading of channel 'X1'"):
         looked_at(table(fallen.encode()), REGISTRY)
+
+
+PLATE = (ROOT / "configs" / "flatness" / "plate.csv").read_bytes()
+
+
+def test_a_file_of_a_plate_becomes_a_test_of_each_line(table: Any) -> None:
+    looked = looked_at(table(PLATE), REGISTRY)
+    assert looked.source.identifier == "plate-csv"
+    assert len(looked.read.tests) == len(looked.proposal.tests) == 8
+    assert looked.standard == "union-jack"
+
+
+def test_a_job_on_a_plate_that_is_written_runs(table: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    path = table(PLATE)
+    assert main(["init", "--from", str(path), "job"]) == 0
+    assert main(["check", "job/job.yaml"]) == 0, capsys.readouterr().err
+
+
+def test_a_plate_without_a_station_is_told_by_its_reader(table: Any) -> None:
+    left = b"\n".join(row for row in PLATE.splitlines() if not row.startswith(b"NW-SE,2,"))
+    with pytest.raises(InputError, match="station 2 of the line is left out"):
+        looked_at(table(left), REGISTRY)

@@ -16,7 +16,7 @@ from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, STRAIGHTNESS
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import SOURCE_CHECKS, FileContents
-from zlmreport_plugins.standards.union_jack.lines import LINE
+from zlmreport_plugins.union_jack_lines import LINE
 from zlmreport_step_gauge.calibration import read_calibration
 from zlmreport_step_gauge.set_up import GaugeSetUp
 

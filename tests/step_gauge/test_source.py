@@ -12,7 +12,8 @@ from environments import ROOT
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.axis import Axis, AxisKind
+from zlmreport.measurement.measurand import ANGLE, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
@@ -61,6 +62,19 @@ def gauge_with_size(gauge: StepGauge) -> StepGauge:
     from dataclasses import replace
 
     return replace(gauge, block_width=20e-3, block_height=15e-3)
+
+
+@pytest.mark.parametrize(
+    ("axis", "what"),
+    [
+        (Axis("C", AxisKind.ROTARY), "a rotary axis"),
+        (Axis("X", quantity=STRAIGHTNESS), "straightness"),
+        (Axis("X", quantity=ANGLE), "angle"),
+    ],
+)
+def test_lengths_measure_neither_angles_nor_what_lies_across(axis: Axis, what: str) -> None:
+    with pytest.raises(InputError, match=f"along a linear axis, and this job is on {what};"):
+        SOURCE.read(SOURCE.options(file=RAW), SourceContext(axis, HERE, {"step_gauge": whole()}))
 
 
 def read(path: Path, set_up: GaugeSetUp | None = None, **keys: Any) -> MeasurementSet:

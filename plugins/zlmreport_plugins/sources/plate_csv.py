@@ -8,6 +8,7 @@ stands, a foot spacing from station to station; there is one direction.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 from types import MappingProxyType
 
 from pydantic import Field
@@ -20,6 +21,7 @@ from zlmreport.plugin import (
     InputError,
     MeasurementSet,
     Options,
+    Place,
     Positive,
     Problem,
     Words,
@@ -32,6 +34,7 @@ from zlmreport.plugin.source import (
     Provenance,
     Reading,
     SourceContext,
+    SourceProposal,
     collect_readings,
     read_text,
 )
@@ -50,11 +53,16 @@ from zlmreport.plugin.table import (
     read_headings,
     read_table,
 )
+from zlmreport_plugins.union_jack_lines import FLATNESS, LINE as LINE_OF_A_PLATE, LINES
 
 LINE, STATION, RUN, READING = "line", "station", "run", "reading"
 COLUMN_NAMES: tuple[str, ...] = (LINE, STATION, RUN, READING)
 #: What the feet of a carriage may be apart, m: what is farther off is in another unit.
 _SHORTEST, _LONGEST = 5e-3, 1.0
+#: What they are apart in a job that is begun, mm, until somebody says it.
+_USUAL_FOOT = 100.0
+_FOOT_ASKED = "How far apart are the feet of the carriage (mm)? 'foot: 100' is a guess; heights grow with it."
+_SENSE_ASKED = "Do readings grow where the front foot stands higher? If they fall, say 'falls: true'."
 
 
 class PlateCsvOptions(TableOptions):
@@ -81,6 +89,25 @@ class PlateCsv:
     options: type[Options] = PlateCsvOptions
     suffixes = ()
 
+    def proposals(self, file: Path) -> Iterable[SourceProposal]:
+        """Return the keys by which a file may be read, if it has readings of the lines of a plate."""
+        options = PlateCsvOptions(file=file, foot=_USUAL_FOOT)
+        try:
+            table = _table(options)
+            columns = _columns(table, options, Place(str(file)))
+        except InputError:
+            return []
+        cells = Cells(table, decimal_sign(table, [columns[READING].index], ""), "", options.words_for_missing)
+        said = (cells.word(row, columns[LINE], str) for row in table.rows)
+        names = {_line(name): name for name in said if name}
+        tests = tuple(name for name in FLATNESS.test_names if name in names)
+        if not tests:
+            return []
+        others = [said for name, said in names.items() if name not in tests]
+        asks = [_FOOT_ASKED, _SENSE_ASKED, *(_no_line_asked(others) if others else ())]
+        keys = {"foot": _USUAL_FOOT}
+        return [SourceProposal(keys, tuple(asks), quantity=LINE_OF_A_PLATE, tests=tests)]
+
     def read(self, options: PlateCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read the readings of one line; raise `InputError` with every defect."""
         axis, foot = context.axis, float(MILLIMETRE.to_si(options.foot))
@@ -96,9 +123,8 @@ class PlateCsv:
                 context.place,
                 f"the feet of a carriage are not {options.foot:g} mm apart; 'foot' is in millimetres",
             )
-        text = read_text(options.file, options.encoding, options.sheet)
-        table = read_table(text, options, lambda name: folded(heading_of(name).name) in options.column_names)
-        columns = _columns(table, options, context)
+        table = _table(options)
+        columns = _columns(table, options, context.place)
         numbers = [columns[READING].index]
         sign = options.stated_decimal_sign or decimal_sign(table, numbers, options.thousands_signs)
         cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
@@ -118,10 +144,10 @@ class PlateCsv:
         problems = [*table.problems, *cells.problems]
         if not readings and not problems:
             near = did_you_mean(axis.name, list(names.values()))
-            problems.append(Problem(text.place(), f"there is no line {quoted(axis.name)}; {near}"))
+            problems.append(Problem(table.source.place(), f"there is no line {quoted(axis.name)}; {near}"))
         problems += _gaps(readings, foot)
-        provenance = Provenance(self.identifier, (text.source,))
-        return collect_readings(readings, axis, provenance, place=text.place(), problems=problems)
+        provenance = Provenance(self.identifier, (table.source.source,))
+        return collect_readings(readings, axis, provenance, place=table.source.place(), problems=problems)
 
 
 def _line(name: str) -> str:
@@ -129,7 +155,17 @@ def _line(name: str) -> str:
     return name.strip().upper().replace("–", "-").replace("−", "-").replace("_", "-").replace(" ", "")
 
 
-def _columns(table: TextTable, options: PlateCsvOptions, context: SourceContext) -> dict[str, TextColumn]:
+def _no_line_asked(names: list[str]) -> Iterator[str]:
+    shown = ", ".join(map(quoted, names[:8]))
+    yield f"What is {shown}? The lines of a union jack are {', '.join(LINES)}; other ones are left out."
+
+
+def _table(options: PlateCsvOptions) -> TextTable:
+    text = read_text(options.file, options.encoding, options.sheet)
+    return read_table(text, options, lambda name: folded(heading_of(name).name) in options.column_names)
+
+
+def _columns(table: TextTable, options: PlateCsvOptions, place: Place) -> dict[str, TextColumn]:
     among = read_headings(table, options)
     found: dict[str, Heading] = {
         name: heading
@@ -141,7 +177,7 @@ def _columns(table: TextTable, options: PlateCsvOptions, context: SourceContext)
         raise InputError([missing_column(name, among, table, options) for name in lacking])
     units = {READING: (ANGLE_UNITS, ARCSECOND)}
     return {
-        name: column_with_unit(name, heading, options, units.get(name), context.place, table)
+        name: column_with_unit(name, heading, options, units.get(name), place, table)
         for name, heading in found.items()
     }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import Any, Protocol
 
 import numpy as np
@@ -25,6 +26,8 @@ from zlmreport.language.formatting import plain
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
+
+_IDENTICAL = Words("{adoption} is identical to {standard}.")
 
 
 class EvaluatingStandard(Protocol):
@@ -97,6 +100,18 @@ def evaluate(
         notes=_notes(standard, frozenset(each.quantity.symbol for each in parameters)),
         is_method=getattr(standard, "is_method", False),
     )
+
+
+def called(evaluation: Evaluation, adoption: str) -> Evaluation:
+    """Return an evaluation that names, beside its standard, the identical adoption that was asked for.
+
+    `adoption`: Its name; empty where none was.
+    """
+    if not adoption:
+        return evaluation
+    note = _IDENTICAL.given(adoption=adoption, standard=evaluation.designation)
+    designation = f"{evaluation.designation} ({adoption})"
+    return replace(evaluation, designation=designation, notes=(note, *evaluation.notes))
 
 
 def _notes(standard: EvaluatingStandard, reported: frozenset[str]) -> tuple[Words, ...]:

@@ -58,6 +58,11 @@ class InstalledStandard(WithKeys, Protocol):
         """Its parameters."""
 
 
+def adoptions_of(standard: InstalledStandard) -> tuple[str, ...]:
+    """Return the names under which other bodies publish a standard's text; none for most."""
+    return getattr(standard, "adoptions", ())
+
+
 class InstalledRenderer(Named, Protocol):
     """A file format."""
 

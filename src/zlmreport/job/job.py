@@ -23,6 +23,7 @@ class StandardChoice(Choice):
 
     tolerances: Mapping[str, float]  #: Limits by symbol, m or rad.
     specification: str = ""  #: The document that they come from; empty where the job does not say.
+    adoption: str = ""  #: By whose name the job calls it, if by an identical adoption's; else empty.
 
 
 @dataclass(frozen=True, slots=True)

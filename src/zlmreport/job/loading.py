@@ -459,17 +459,18 @@ def standard_choices(
         except InputError as unknown:
             problems.extend(unknown.problems)
             continue
-        if identifier in first_named:
-            first = first_named[identifier].line
+        if standard.identifier in first_named:
+            first = first_named[standard.identifier].line
             problems.append(
-                Problem(place, f"{identifier} stands in line {first} already; remove one of them")
+                Problem(place, f"{standard.identifier} stands in line {first} already; remove one of them")
             )
-        first_named.setdefault(identifier, place)
+        first_named.setdefault(standard.identifier, place)
         problems.extend(_unknown_tolerances(keys, standard))
         own = replace(keys.without(*_OF_EVERY_STANDARD), place=place)
         options = validate(standard.options, own, problems, within="evaluate", also_known=_OF_EVERY_STANDARD)
         if options:
-            yield StandardChoice(standard.identifier, options, place, {})
+            adoption = "" if identifier == standard.identifier else identifier
+            yield StandardChoice(standard.identifier, options, place, {}, adoption=adoption)
 
 
 def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:

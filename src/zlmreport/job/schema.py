@@ -19,7 +19,7 @@ from zlmreport.job.evaluation_keys import (
     StandardKeys,
 )
 from zlmreport.job.formula_keys import FormulaKeys
-from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys
+from zlmreport.job.installed import Installed, InstalledEffect, InstalledStandard, WithKeys, adoptions_of
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Measurement, SourceKeys
 from zlmreport.job.tree import Step
@@ -54,7 +54,7 @@ def job_schema(registry: Installed) -> Schema:
     definitions[StandardKeys.__name__] = {
         "description": definitions[StandardKeys.__name__]["description"],
         "anyOf": [
-            {"enum": [standard.identifier for standard in registry.standards]},
+            {"enum": [name for standard in registry.standards for name in _names(standard)]},
             *(_standard(standard, definitions) for standard in registry.standards),
         ],
     }
@@ -182,14 +182,23 @@ def _by_name(key: str, what: str, plugin: WithKeys, definitions: Schema) -> Sche
 _ERROR_SYMBOLS = "^[EABC][0A-CU-Z][A-CU-Z](_[a-z]+)?$"
 
 
+def _names(standard: InstalledStandard) -> tuple[str, ...]:
+    """Return what a job may call a standard: its identifier, and its identical adoptions."""
+    return (standard.identifier, *adoptions_of(standard))
+
+
 def _standard(standard: InstalledStandard, definitions: Schema) -> Schema:
     """Return the schema of a standard's keys."""
     of_all = StandardKeys.model_json_schema()["properties"]
     limit = of_all["tolerances"]["additionalProperties"]
     of_error = {**limit, "description": "Of an error by its symbol, µm (″)."}
+    names = _names(standard)
     keys = {
         **of_all,
-        "standard": {"const": standard.identifier, "description": "Identifier of the standard."},
+        "standard": {
+            **({"enum": list(names)} if names[1:] else {"const": standard.identifier}),
+            "description": "Identifier of the standard.",
+        },
         "tolerances": {
             "type": "object",
             "description": of_all["tolerances"]["description"],

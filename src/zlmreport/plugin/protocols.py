@@ -42,7 +42,8 @@ class Standard(Protocol):
     ``information``, the `Information` that it wants reported of a test, which is held against the job;
     ``is_method``, true of a published method and nobody's standard; ``notes_on``, pairs of symbols and one of
     the ``notes``, which is left out where none of these parameters is reported; ``of_error(error)``, the
-    standard as it evaluates that `ErrorSymbol`, whose quantities may bear the error's symbol; and
+    standard as it evaluates that `ErrorSymbol`, whose quantities may bear the error's symbol; ``adoptions``,
+    the names under which other bodies publish the identical text, by which jobs may call it, too; and
     ``contributions(measurements, options)``, what it knows of errors of single lines of several that it
     evaluates together, by their names.
 

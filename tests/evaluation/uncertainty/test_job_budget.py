@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from document.certificate.documents import COMPLETE, job, registry
+from document.certificate.documents import COMPLETE, ROOT, job, registry
 from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution, NoBudget
@@ -346,3 +346,59 @@ def test_without_a_number_of_the_instrument_there_is_no_budget(
 
     assert isinstance(budget, NoBudget)
     assert budget.reason.in_language(Language.ENGLISH) == reason
+
+
+#: What a job states where everything expands: of a machine at 25 °C.
+IN_WARMTH: Mapping[str, Any] = {
+    "environment": {"axis_temperature": 25, "expansion_coefficient": 11.5},
+    "uncertainty": {
+        "misalignment": 1,
+        "machine_temperature": 0.5,
+        "expansion_coefficient": 2,
+    },
+}
+OF_A_LENGTH = set(IN_WARMTH["uncertainty"])
+
+
+def warm(folder: Path, example: str) -> list[Budget]:
+    """Return the budgets of an example that was measured in warmth: of each of its lines."""
+    extending = {
+        "extends": str(ROOT / "configs" / example),
+        "schema": "zlmreport/job/1",
+        "certificate": {"kind": "report"},
+        **IN_WARMTH,
+    }
+    checked = job(folder, extending)
+    found = pipeline.budget_of_job(checked, pipeline.read(checked, registry()), registry())
+    assert isinstance(found, Budget)
+    return list(found.tests.values()) or [found]
+
+
+@pytest.mark.parametrize(
+    "example",
+    [
+        "machine/x-straightness.yaml",
+        "whole-machine/x-pitch.yaml",
+        "machine/xy-squareness.yaml",
+        "flatness/certificate.yaml",
+    ],
+)
+def test_what_is_no_length_neither_expands_nor_shortens(tmp_path: Path, example: str) -> None:
+    for found in warm(tmp_path, example):
+        assert not OF_A_LENGTH & {each.contributor for each in found.contributions}
+        assert not found.uncorrected_expansion
+
+
+@pytest.mark.parametrize("example", ["whole-machine/diagonals.yaml", "machine/x-positioning.yaml"])
+def test_a_length_does_both(tmp_path: Path, example: str) -> None:
+    for found in warm(tmp_path, example):
+        assert {each.contributor for each in found.contributions} >= OF_A_LENGTH
+
+
+def test_a_coefficient_that_a_straightness_shares_with_others_asks_for_no_temperature(tmp_path: Path) -> None:
+    stated = {
+        "extends": str(ROOT / "configs" / "machine" / "x-straightness.yaml"),
+        "schema": "zlmreport/job/1",
+        "uncertainty": {"machine_temperature": 0.5, "device_temperature": 0.5},
+    }
+    assert isinstance(made(tmp_path, stated), Budget)

@@ -193,6 +193,13 @@ def test_without_a_calibrated_length_nothing_of_a_length_counts(tmp_path: Path) 
     assert not found.uncorrected_expansion
 
 
+def test_a_radius_that_nobody_calibrated_does_not_expand(tmp_path: Path) -> None:
+    of_a_length = ("machine_temperature", "expansion_coefficient", "device_expansion_coefficient")
+    stated = {key: STATED[key] for key in (*of_a_length, "environmental_variation")}
+
+    assert not {*of_a_length} & named(budget(job(tmp_path, calibrated=False, uncertainty=stated))).keys()
+
+
 @pytest.mark.parametrize("left_out", ["calibrated_length", "machine_temperature", "environmental_variation"])
 def test_what_is_not_stated_is_missing(tmp_path: Path, left_out: str) -> None:
     stated = {key: each for key, each in STATED.items() if key != left_out}

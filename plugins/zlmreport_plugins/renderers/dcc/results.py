@@ -398,7 +398,7 @@ def _budget(test: _Test, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     budget = test.budget
     if not isinstance(budget, Budget) or budget.tests:  # each line has its own
         return
-    unit, has_length = test.job.axis.deviation_unit, not test.job.axis.measurand.is_continuous
+    unit, has_length = test.job.axis.deviation_unit, test.job.axis.has_length
     contributions = (
         quantity(
             writer.named("name", each.name),

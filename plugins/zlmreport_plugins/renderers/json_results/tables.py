@@ -212,7 +212,8 @@ class _Sheets:
         """Add every sheet that has something to say."""
         found = results(self._certificate)
         for test, prefix in measured(found):
-            self._evaluations(test, self._title(prefix), _targets(test["measurements"]))
+            if test["evaluations"]:  # a line of several may have none of its own
+                self._evaluations(test, self._title(prefix), _targets(test["measurements"]))
         parts = self._certificate.parts or {"": self._certificate}
         for name, part in parts.items():
             for line, measurements in (part.measurements.tests or {"": part.measurements}).items():
@@ -256,10 +257,12 @@ class _Sheets:
             *(key if key.startswith("n_") else f"{key} / {units['deviation']}" for key in keys),
         ]
         table = [[standard, row["target"], *map(row.get, keys)] for standard, row in positions]
+        if not table:
+            return  # what follows from several lines has no positions
         sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
         drawn = [(2 + index, key) for index, key in enumerate(["target", *keys]) if key in _MEANS]
-        of_first = sum(row[0] == table[0][0] for row in table) if table else 0
-        if drawn and of_first:
+        of_first = sum(row[0] == table[0][0] for row in table)
+        if drawn:
             self._chart(sheet, drawn, of_first, self._say(target), units)
 
     def _readings(self, measurements: MeasurementSet, name: str) -> None:

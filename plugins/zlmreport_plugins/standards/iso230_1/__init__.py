@@ -85,6 +85,7 @@ class Iso230Part1:
 
     identifier = "iso230-1:2012"
     designation = "ISO 230-1:2012"
+    adoptions = ("JIS B 6190-1:2016",)
     title = Words("Geometric accuracy of axes of linear motion")
     position_index = "i"
     options: type[Options] = LineOptions

@@ -11,7 +11,8 @@ on long axes: clause 6.2 of GOST ISO 230-2-2016, which is ISO 230-2:2014.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from types import MappingProxyType
 
 from zlmreport.plugin import (
     ANGLE,
@@ -195,6 +196,10 @@ _NOTES_ON: tuple[tuple[tuple[str, ...], Words], ...] = (
 )
 
 
+#: Names of the identical text, where it is published that it is.
+_ADOPTIONS: Mapping[int, tuple[str, ...]] = MappingProxyType({2014: ("BS ISO 230-2:2014",)})
+
+
 class Iso230Part2:
     """ISO 230-2 in one edition."""
 
@@ -209,6 +214,7 @@ class Iso230Part2:
         self.edition = edition
         self.identifier = f"iso230-2:{edition.year}"
         self.designation = f"ISO 230-2:{edition.year}"
+        self.adoptions = _ADOPTIONS.get(edition.year, ())
         self.position_index = edition.position_index
         self.quantities = editions.parameters(edition, of_angle=of_angle)
         self.position_quantities = editions.by_position(edition)

@@ -113,6 +113,7 @@ class Iso230Part6:
 
     identifier = "iso230-6:2002"
     designation = "ISO 230-6:2002"
+    adoptions = ("JIS B 6196:2006",)
     title = Words("Diagonal displacement tests of the work space")
     position_index = "i"
     options: type[Options] = DiagonalOptions

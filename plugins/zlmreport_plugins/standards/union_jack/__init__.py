@@ -28,7 +28,14 @@ from zlmreport.plugin.standard import (
 )
 from zlmreport_plugins.standards.union_jack.figures import figures
 from zlmreport_plugins.standards.union_jack.heights import Plate, plate_of
-from zlmreport_plugins.standards.union_jack.lines import (
+from zlmreport_plugins.standards.union_jack.planes import least_squares_span, minimum_zone
+from zlmreport_plugins.standards.union_jack.quantities import (
+    MOST_CLOSURE,
+    NOTES,
+    QUANTITIES,
+    closure_symbol,
+)
+from zlmreport_plugins.union_jack_lines import (
     ACROSS,
     ALONG,
     CENTRE_LINES,
@@ -37,13 +44,6 @@ from zlmreport_plugins.standards.union_jack.lines import (
     LINES,
     in_one_order,
     lacking,
-)
-from zlmreport_plugins.standards.union_jack.planes import least_squares_span, minimum_zone
-from zlmreport_plugins.standards.union_jack.quantities import (
-    MOST_CLOSURE,
-    NOTES,
-    QUANTITIES,
-    closure_symbol,
 )
 
 #: Of the length that a diagonal has by the edges.

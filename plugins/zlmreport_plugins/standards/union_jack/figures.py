@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.plugin import MICROMETRE, MILLIMETRE, Axis, Evaluation, Figure, FloatArray, Words
 from zlmreport.plugin.standard import Curve, Note, Panel, Role, range_in_words
 from zlmreport_plugins.standards.union_jack.heights import Plate, plate_of
-from zlmreport_plugins.standards.union_jack.lines import (
+from zlmreport_plugins.union_jack_lines import (
     CENTRE_LINES,
     DIAGONALS,
     EDGES,

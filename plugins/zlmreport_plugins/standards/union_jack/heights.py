@@ -15,7 +15,7 @@ import numpy as np
 
 from zlmreport.plugin import FloatArray
 from zlmreport.plugin.standard import PositionStatistics
-from zlmreport_plugins.standards.union_jack.lines import (
+from zlmreport_plugins.union_jack_lines import (
     ACROSS,
     ALONG,
     CENTRE_LINES,

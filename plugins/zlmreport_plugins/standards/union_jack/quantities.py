@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from zlmreport.plugin import Words
 from zlmreport.plugin.standard import Quantity, QuantityGroup
-from zlmreport_plugins.standards.union_jack.lines import CENTRE_LINES
+from zlmreport_plugins.union_jack_lines import CENTRE_LINES
 
 #: Of a closure, m: 100 µin.
 MOST_CLOSURE = 2.54e-6

@@ -20,7 +20,7 @@ from zlmreport.document.certificate.circumstances import (
 from zlmreport.language import Words
 from zlmreport.measurement import units
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurand import Coordinate
+from zlmreport.measurement.measurand import POSITIONING, Coordinate
 
 if TYPE_CHECKING:
     from zlmreport.document.writer import Writer
@@ -130,13 +130,18 @@ def besides(measurements: MeasurementSet, described: Sequence[Described], writer
 
 
 def axis_in_words(job: Job, writer: Writer) -> str:
-    """Write the axis's name and kind; of two that ran a circle, which circle; of sensors their names."""
+    """Write the axis's name and kind; of a circle, which one; of sensors, and of lines, their names."""
     if job.keys.circle is not None:
         return circle_in_words(job.keys.circle, writer)
-    if job.axis.measurand.coordinate is Coordinate.TIME:
+    if job.axis.measurand.coordinate is Coordinate.TIME or _is_along_lines(job):
         return job.axis.name
     words = Words("{name} ({kind})")
     return writer.say(words.given(name=job.axis.name, kind=AXIS_KINDS[job.axis.kind]))
+
+
+def _is_along_lines(job: Job) -> bool:
+    """Return whether what was measured lies along lines of their own, as diagonals or those of a plate."""
+    return job.axis.measurand.bearer != POSITIONING.bearer
 
 
 def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
@@ -151,12 +156,14 @@ def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
 
 
 def measured_of(job: Job) -> Words:
-    """Return what was measured of, as a heading: an axis, two on a circle, or sensors over time."""
+    """Return what was measured of, as a heading: an axis, two on a circle, sensors over time, or lines."""
     if job.keys.circle is not None:
         return Words("Circle")
     if job.axis.measurand.coordinate is Coordinate.TIME:
         joins = job.axis.measurand.joins_tests
         return Words("Sensors") if joins else Words("Sensor")
+    if _is_along_lines(job):
+        return Words("Lines") if job.axis.measurand.joins_tests else Words("Line")
     return Words("Axis")
 
 

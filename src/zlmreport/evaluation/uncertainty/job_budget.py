@@ -160,13 +160,15 @@ def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Itera
 def _of_the_length(job: Job, measurements: MeasurementSet, set_up: SetUp) -> Iterator[Contribution]:
     """Yield what is in proportion to the measured length: alignment, temperatures, expansion.
 
-    A range of zero states nothing: there is no error of which nobody could be wrong.
+    Only of a length, or of a calibrated radius: what lies across the motion, turns or rises neither expands
+    nor shortens with it, whatever a job that shares its keys with others states. A range of zero states
+    nothing: there is no error of which nobody could be wrong.
     """
-    keys = job.keys.uncertainty
+    keys, named = job.keys.uncertainty, _of_length(job)
     length, acts = set_up.length, set_up.acts_of_length
     if not length:
         return
-    if keys.misalignment:
+    if keys.misalignment and "misalignment" in named:
         full_range = misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
         stated = wording.full_range("R", keys.misalignment, "mm")
         source = wording.MISALIGNED.given(length=wording.length(length))
@@ -175,7 +177,7 @@ def _of_the_length(job: Job, measurements: MeasurementSet, set_up: SetUp) -> Ite
         ("machine_temperature", keys.machine_temperature, set_up.of_the_sensor),
         ("device_temperature", keys.device_temperature, set_up.device_expansion),
     ):
-        if temperature and expansion is not None:
+        if temperature and expansion is not None and key in named:
             full_range = temperature_range(expansion, length, temperature)
             source = wording.TEMPERATURE.given(
                 expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.length(length)
@@ -186,7 +188,7 @@ def _of_the_length(job: Job, measurements: MeasurementSet, set_up: SetUp) -> Ite
         ("expansion_coefficient", keys.expansion_coefficient),
         ("device_expansion_coefficient", keys.device_expansion_coefficient),
     ):
-        if coefficient and set_up.difference is not None:
+        if coefficient and set_up.difference is not None and key in named:
             alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
             full_range = expansion_range(length, set_up.difference, alpha)
             stated = wording.full_range("R(α)", coefficient, "µm/(m·K)")
@@ -425,7 +427,7 @@ class SetUp:
 
     def lacks(self, job: Job) -> Iterator[Problem]:
         """Yield the keys of the budget whose formula needs what is not known."""
-        keys = job.keys.uncertainty
+        keys, named = job.keys.uncertainty, _of_length(job)
         temperature = "environment.axis_temperature or environment.material_temperature"
         machine, device = "environment.expansion_coefficient", "instrument.expansion_coefficient"
         for key, known, needed in (
@@ -434,7 +436,7 @@ class SetUp:
             ("expansion_coefficient", self.difference, temperature),
             ("device_expansion_coefficient", self.difference, temperature),
         ):
-            if getattr(keys, key) and known is None:
+            if key in named and getattr(keys, key) and known is None:
                 path = f"uncertainty.{key}"
                 yield Problem(
                     job.place_of(path),
@@ -490,18 +492,22 @@ def has_radius(job: Job) -> bool:
     return job.axis.circle is not None and job.axis.circle.is_calibrated
 
 
+def _of_length(job: Job) -> tuple[str, ...]:
+    """Return the contributors of the length that was measured; none where it was none."""
+    return _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
+
+
 def demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
     """Return the contributors that a job must state, by axis and set-up.
 
     `of_silence`: Those that may act, for all that the job says of its instrument.
     """
-    of_lengths = _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
     corrections = job.keys.corrections
     corrects_air = corrections is not None and corrections.air is not None
     of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else of_silence
     is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
     of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
-    return (INSTRUMENT, *of_lengths, *of_air, *of_all)
+    return (INSTRUMENT, *_of_length(job), *of_air, *of_all)
 
 
 def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:

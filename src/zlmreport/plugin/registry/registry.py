@@ -236,7 +236,13 @@ class Registry:
         return self.all(kinds.INSTRUMENT)
 
     def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
-        """Return a standard, as `find` does."""
+        """Return a standard, as `find` does; by the name of an identical adoption, too."""
+        if identifier not in self.identifiers(kinds.STANDARD):
+            from zlmreport.job.installed import adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
+
+            for each in self.standards:
+                if identifier in adoptions_of(each):
+                    return each
         return self.find(kinds.STANDARD, identifier, named_at)
 
     def source(self, identifier: str, named_at: Place | None = None) -> DataSource:

@@ -12,7 +12,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet, joined
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.union_jack import UnionJack
-from zlmreport_plugins.standards.union_jack.lines import FLATNESS, LINE, LINES, PLACES
+from zlmreport_plugins.union_jack_lines import FLATNESS, LINE, LINES, PLACES
 
 ARCSECOND = np.pi / 180 / 3600
 #: Feet and sides, mm: diagonals of 1000 mm.

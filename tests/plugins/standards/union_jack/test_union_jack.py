@@ -16,7 +16,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.union_jack.heights import plate_of
-from zlmreport_plugins.standards.union_jack.lines import LINE, LINES, reversed_name
+from zlmreport_plugins.union_jack_lines import LINE, LINES, reversed_name
 
 DATA = Path(__file__).parents[3] / "data" / "flatness" / "moody_1955.csv"
 
