@@ -284,6 +284,27 @@ def test_a_denial_in_other_words_is_one(said: str, tmp_path: Path) -> None:
     assert "uncertainty.air_pressure" in refusals(tmp_path, _blind(("instrument.compensation", said)))
 
 
+def test_what_was_said_instead_stands_in_the_question(tmp_path: Path) -> None:
+    asked = refusals(tmp_path, changed(("instrument.compensation", "automatic")))
+
+    assert "(instrument.compensation, 'automatic', does not say)" in asked
+
+
+def test_the_air_of_a_compensation_is_true_or_false(tmp_path: Path) -> None:
+    asked = refusals(tmp_path, changed(("instrument.compensates", {"air": "automatic"})))
+
+    assert "instrument.compensates.air" in asked
+
+
+@pytest.mark.parametrize(
+    "said", ["automatic", "yes", "on", "active", "ja", "full", "ein", "compensated", "standard"]
+)
+def test_a_compensation_without_a_word_on_the_air_is_asked_about(said: str, tmp_path: Path) -> None:
+    asked = refusals(tmp_path, changed(("instrument.compensation", said)))
+
+    assert "instrument.compensates: {air: true} is enough" in asked
+
+
 @pytest.mark.parametrize(
     "said",
     [
@@ -291,7 +312,10 @@ def test_a_denial_in_other_words_is_one(said: str, tmp_path: Path) -> None:
         "Umweltkompensation",
         "refractive index of the air; no material temperature",
         "Edlén, by the weather station",
-        "automatic",
+        "automatic, by the XC-80",
+        "indice de réfraction de l’air",
+        "indice di rifrazione dell’aria",
+        "índice de refracción del aire",
         "Brechzahl der Luft, kein Werkstoff",
     ],
 )
@@ -516,6 +540,12 @@ def test_the_measurement_before_an_adjustment_is_looked_at_too(tmp_path: Path) -
     document = composed(tmp_path, changed(("as_found", before)))
 
     assert "as found, before the adjustment: Run means fall from" in cover(document)
+
+
+def test_a_date_of_issue_before_the_end_of_the_measurement_is_refused(tmp_path: Path) -> None:
+    keys = changed(("measurement.end", "2026-11-19"), ("certificate.issued", "2026-11-18"))
+
+    assert "2026-11-18 lies before the measurement of 2026-11-19" in refusals(tmp_path, keys)
 
 
 def test_a_document_without_a_certificate_of_the_instrument_claims_no_traceability(tmp_path: Path) -> None:

@@ -181,7 +181,7 @@ def test_a_value_has_the_sign_that_its_standard_prints() -> None:
     reversal = parameter(-1.2, standard="iso230-2:1988", symbol="B_mean", expanded_uncertainty=0.1)
     html = page(entry(LATEST, reversal))
     assert " 1.20 ± 0.10 µm" in text(section(html, "machines"))
-    assert "the last 1.20 µm" in html
+    assert f"of {LATEST.isoformat()}: 1.20 µm." in html
 
 
 def test_axes_stand_below_their_machine_each_with_what_was_measured() -> None:

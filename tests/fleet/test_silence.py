@@ -174,7 +174,7 @@ def test_a_night_that_was_broken_off_is_told_once_with_what_it_came_to(
     moment = "2026-11-21T02:00:00+00:00"
     assert last.notices[0].english == (
         f"the night of {moment} was broken off, with its last sign of life at {moment}; it had come to "
-        "1 as drafts. This one makes good what it left"
+        "1 as a draft. This one makes good what it left"
     )
     assert "der Lauf vom" in last.notices[0].text.in_language(Language.GERMAN)
     assert fleet.spend().notices == []

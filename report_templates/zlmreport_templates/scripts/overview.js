@@ -45,7 +45,7 @@ if (tools) {
     for (const block of document.querySelectorAll("main .block")) {
       block.hidden = ![...block.querySelectorAll("tbody")].some((body) => !body.hidden);
     }
-    found.textContent = found.dataset.text.replace("{shown}", shown).replace("{all}", machines.reduce((sum, each) => sum + each.axes.length, 0));
+    found.textContent = found.dataset.text.replace("{shown}", shown);
   };
   // A machine stands where the first of its axes would, and its axes follow each other in the same order.
   const arrange = () => {

@@ -289,7 +289,7 @@ export class Graphs {
     if (form) this.reading.dataset.form = key;
     else delete this.reading.dataset.form;
     fill(this.reading, index === null
-      ? h("p", {}, said(this.texts.chosen, { count: chosen.length }))
+      ? h("p", {}, chosen.length === 1 ? this.texts.chosenOne : said(this.texts.chosen, { count: chosen.length }))
       : this.#values(index), form);
   }
 

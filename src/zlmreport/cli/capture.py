@@ -22,6 +22,7 @@ from zlmreport.document.writer import Writer
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.job.parse import counted
 from zlmreport.language import Language
 from zlmreport.live.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
 from zlmreport.live.capture.follower import Follower
@@ -133,7 +134,7 @@ def _close(job: Job, asked: Assignment, path: Path) -> None:
     with Journal.continued(asked.options.journal) as journal:
         taken, visits = journal.progress.taken, len(journal.progress.visits)
         journal.append(Ended(), journal.elapsed)
-    print(f"closed after {taken} of {visits} visits; what was not taken is missing")
+    print(f"closed after {taken} of {counted(visits, 'visit')}; what was not taken is missing")
     print(f"next: zlmreport {shown_path(path)}")
 
 

@@ -16,6 +16,7 @@ from zlmreport.cli.capture_lines import SIDES, AxisWriter, duration, halted, lin
 from zlmreport.cli.terminal import Colour, visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
+from zlmreport.job.parse import counted
 from zlmreport.live.capture.events import (
     Commented,
     Elsewhere,
@@ -168,9 +169,10 @@ class PlainLines:
     def wait(self) -> None:
         """Say whose test it is, while the instrument is awaited."""
         number, axis = (visible(text) for text in (self._job.keys.certificate.number, self._job.axis.name))
-        visits, method = len(self._assignment.visits), self._assignment.plan.method
+        visits = counted(len(self._assignment.visits), "visit")
+        method = self._assignment.plan.method
         rest = duration(self._assignment.remaining_time(0))
-        self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits} visits, {rest}")
+        self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits}, {rest}")
 
     def begin(self, follower: Follower) -> None:
         """Say what is to be done."""

@@ -214,12 +214,18 @@ def _foretell(fleet: FleetFile, plugins: tuple[Path, ...], options: Namespace) -
         for problem in each.problems:
             print(visible(f"  {problem}"))
     if not options.quiet:
-        print(f"{len(due)} of {len(planned)} jobs are due; nothing was made")
+        print(f"{_due(len(due), len(planned))}; nothing was made")
     return 0
 
 
 _WORD = 9
 _BAR, _USUAL_WIDTH = 30, 80
+
+
+def _due(number: int, jobs: int) -> str:
+    """Return how many of the jobs are due."""
+    jobs_are = "1 job is" if jobs == 1 else f"{jobs} jobs are"
+    return f"{number} of {jobs_are} due"
 
 
 class TextLog:
@@ -231,7 +237,7 @@ class TextLog:
 
     def begun(self, fleet: str, due: int, jobs: int) -> None:
         """Write what is due."""
-        self._line(f"{fleet}: {due} of {jobs} jobs are due")
+        self._line(f"{fleet}: {_due(due, jobs)}")
 
     def happened(self, happened: Happened) -> None:
         """Write what happened to a job; nothing of one that is as it was, also after a new release."""

@@ -19,6 +19,7 @@ from zlmreport.fleet.overview import overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.state import FleetState, Rules, state_of
 from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, load_fleet
+from zlmreport.job.parse import counted
 from zlmreport.plugin.registry import find_plugins
 
 _INCOMPLETE = 4
@@ -79,5 +80,7 @@ def rebuild(options: Namespace) -> int:
     rebuilt = from_certificates(fleet, find_plugins(files=options.plugin), now)
     for problem in rebuilt.problems:
         print(visible(str(problem)), file=sys.stderr)
-    print(f"{len(rebuilt.numbers)} certificates are in the ledger; the next night compares each")
+    count = len(rebuilt.numbers)
+    are = "is" if count == 1 else "are"
+    print(f"{counted(count, 'certificate')} {are} in the ledger; the next night compares each")
     return _INCOMPLETE if rebuilt.problems else 0

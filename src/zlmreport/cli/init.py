@@ -72,7 +72,7 @@ def _summary(read: MeasurementSet) -> str:
     travel = f"from {_number(at[0])} to {_number(at[-1])} {place.symbol}"
     directions = "both directions" if read.is_bidirectional else "one direction"
     parts = [
-        f"{count} readings of {_counted(len(at), 'target')} {travel}",
+        f"{_counted(count, 'reading')} of {_counted(len(at), 'target')} {travel}",
         f"{_counted(len(read.runs), 'run')}, {directions}",
     ]
     if count:

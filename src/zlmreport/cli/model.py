@@ -29,7 +29,7 @@ from zlmreport.job.edit import Edit, NamedEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import LARGEST
+from zlmreport.job.parse import LARGEST, counted
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.build_report import build_values
@@ -246,7 +246,7 @@ def learn(options: Namespace) -> int:
         print(as_text(found, folder.resolve().name), end="")
         return 0
     print(*table(told, indent="  "), sep="\n")
-    print(f"\n{found.tests} tests taught {shown_path(options.output)}")
+    print(f"\n{counted(found.tests, 'test')} taught {shown_path(options.output)}")
     print(f"next: name it in a job: model: {{priors: {options.output.name}}}")
     return 0
 

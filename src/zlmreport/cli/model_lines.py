@@ -15,6 +15,7 @@ from zlmreport.document.subjects.fit import error_facts, fit_sections, in_a_sent
 from zlmreport.document.subjects.forecast import StandardForecast, fall
 from zlmreport.document.writer import Writer
 from zlmreport.job.job import Job
+from zlmreport.job.parse import counted
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import general_number, plain, rounded_pair
 from zlmreport.measurement.axis import Axis
@@ -177,7 +178,7 @@ def _heading(job: Job, fit: Fit) -> str:
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
     more = [f"held together with {', '.join(held)}"] if held else []
     if job.priors:
-        more.append(f"expects what {job.priors.tests} earlier tests taught")
+        more.append(f"expects what {counted(job.priors.tests, 'earlier test')} taught")
     return "\n  ".join([heading, *more])
 
 

@@ -10,6 +10,7 @@ from zlmreport.cli.emulate import put_on_line, refuse_two_lines, troubles_of
 from zlmreport.cli.terminal import shown_path
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, write
+from zlmreport.job.parse import counted
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.language import Language
 from zlmreport.live.emulation.emulator import Scene
@@ -76,7 +77,7 @@ def run_live(options: Namespace) -> int:
             ),
             f"{instrument.identifier}: {instrument.title.in_language(Language.ENGLISH)}, emulated",
             f"port: {address}",
-            f"machine: {len(machine.leaves)} readings in {last:.1f} min, from {when}; Ctrl-C ends",
+            f"machine: {counted(len(machine.leaves), 'reading')} in {last:.1f} min, from {when}; Ctrl-C ends",
             f"next, in another terminal: zlmreport capture {shown_path(job)}",
         )
 

@@ -103,9 +103,11 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
         date = say(issued) if identity.issued else ""
         yield visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
     yield ""
-    stated = Words("{of} attached files as the certificate states")
-    pages = Words("{of} pages as printed again")
-    parts = Words("{of} parts as printed again")
+    stated = Words(
+        "{of} attached file as the certificate states", plural="{of} attached files as the certificate states"
+    )
+    pages = Words("{of} page as printed again", plural="{of} pages as printed again")
+    parts = Words("{of} part as printed again", plural="{of} parts as printed again")
     note = say(Words("note"))
     yield from table(
         [
@@ -150,7 +152,7 @@ def _summary(
     if not findings:
         return
     others = [each for each in findings if each.verdict is not VerificationVerdict.HOLDS]
-    yield label, say(what.given(of=_of(len(findings) - len(others), len(findings))))
+    yield label, say(what.given(of=_of(len(findings) - len(others), len(findings)), number=len(findings)))
     for each in others[:_MOST_LINES]:
         verdict = _COLOURS[each.verdict].of(say(_SAID[each.verdict]))
         yield "", f"{verdict}  {visible(f'{each.subject}: {say(each.detail)}')}"

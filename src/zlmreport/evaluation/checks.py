@@ -57,6 +57,11 @@ def runs_in_words(number: int) -> Words:
     return Words("{number} run", plural="{number} runs").given(number=number)
 
 
+def readings_in_words(number: int) -> Words:
+    """Return how many readings there are."""
+    return Words("{number} reading", plural="{number} readings").given(number=number)
+
+
 def _with_unit(unit: Unit, value: float) -> Words:
     phrase = with_unit("{value}", unit.symbol)
     return Words(phrase).given(value=float(unit.from_si(value)))

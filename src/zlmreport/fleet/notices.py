@@ -9,6 +9,7 @@ from pathlib import Path
 from zlmreport.errors import Place, ZlmreportError
 from zlmreport.fleet.basis import Disk
 from zlmreport.fleet.ledger import Night
+from zlmreport.fleet.overview_words import AS_DRAFTS
 from zlmreport.fleet.plan import Evening, PlannedJob, damage
 from zlmreport.fleet.records import About, NightNotice, PastNight, State
 from zlmreport.job.fleet import FleetFile, is_retired, number_of
@@ -28,7 +29,7 @@ _BROKEN = Words(
 )
 _CAME_TO = {
     State.MADE: Words("{number} made"),
-    State.DRAFT: Words("{number} as drafts"),
+    State.DRAFT: AS_DRAFTS,
     State.FAILED: Words("{number} failed"),
     State.STOPPED: Words("{number} stopped"),
     State.SET_ASIDE: Words("{number} set aside"),
@@ -38,19 +39,27 @@ _NOTHING = Words("nothing")
 _CLOCK = Words("the clock stands at {now}, before the last night: {last}")
 _MANY_GONE = Words("{gone} of {before} jobs are gone since the last night; look whether that is meant")
 _MOST_GONE = Words(
-    "{gone} of {before} jobs are gone since the last night; look whether their folder is mounted, or name "
-    "those under retired that are gone on purpose"
+    "the only job is gone since the last night; look whether its folder is mounted, or name it under "
+    "retired if it is gone on purpose",
+    plural="{gone} of {number} jobs are gone since the last night; look whether their folder is mounted, or "
+    "name those under retired that are gone on purpose",
 )
 _NO_FOLDER = Words("is no folder, and the certificates of the fleet belong into one; move away what is there")
 _EMPTY = Words(
-    "the folder is empty, and {number} certificates were issued into it; look whether it is mounted. A "
-    "file in it, whatever it is, lets the night make them again"
+    "the folder is empty, and {number} certificate was issued into it; look whether it is mounted. A "
+    "file in it, whatever it is, lets the night make it again",
+    plural="the folder is empty, and {number} certificates were issued into it; look whether it is mounted. "
+    "A file in it, whatever it is, lets the night make them again",
 )
 _FOREIGN = Words(
     "the ledger knows none of the certificates in {folder}, where {found} of {jobs} jobs have theirs; put "
     "its backup back, or make it again: zlmreport fleet rebuild {fleet}"
 )
-_LEFT = Words("the time of the night was over before {left} of {due} jobs; they are for the next night")
+_LEFT = Words(
+    "the time of the night was over before {number} of {due} jobs; it is for the next night",
+    plural="the time of the night was over before {number} of {due} jobs; they are for the next night",
+)
+_LEFT_ALONE = Words("the time of the night was over before its only job; it is for the next night")
 _DOCUMENTS = Words(
     "{numbers}: issued, gone or changed since, and made again by no job; put them back from a backup, or "
     "name them under retired"
@@ -98,7 +107,7 @@ def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotice] | 
     fleet = known.fleet
     new = _newly_gone(known, gone)
     if (gone and not known.jobs) or (len(new) > _FEW and len(new) > len(known.jobs)):
-        text = _MOST_GONE.given(gone=len(new or gone), before=len(known.jobs) + len(gone))
+        text = _MOST_GONE.given(gone=len(new or gone), number=len(known.jobs) + len(gone))
         return Place(str(fleet.path)), NightNotice(About.JOBS, text)
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
     if fleet.output.exists() and not fleet.output.is_dir():
@@ -121,7 +130,7 @@ def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotice] | 
 def left(number: int, due: int) -> Iterator[NightNotice]:
     """Yield how many jobs there was no time for."""
     if number:
-        yield NightNotice(About.LEFT, _LEFT.given(left=number, due=due))
+        yield NightNotice(About.LEFT, _LEFT.given(number=number, due=due) if due > 1 else _LEFT_ALONE)
 
 
 def documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterator[NightNotice]:

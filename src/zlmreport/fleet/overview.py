@@ -77,7 +77,7 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
 
 def _facts(state: FleetState, cells: CellWriter) -> Iterator[tuple[str, str]]:
     yield cells.say(words.LAST_RUN), cells.say(_run(state.night))
-    yield cells.say(words.JOBS), cells.say(words.JOBS_DONE.given(jobs=state.jobs, **state.counts))
+    yield cells.say(words.JOBS), cells.say(_jobs_done(state))
     yield cells.say(words.CERTIFICATES), str(len(state.certificates))
 
 
@@ -86,12 +86,19 @@ def _run(night: PastNight | None) -> Words:
         return words.NEVER
     began = night.began.strftime("%Y-%m-%d %H:%M UTC")
     if night.is_at_work:
-        return words.AT_WORK.given(began=began, done=night.done)
+        return words.AT_WORK.given(began=began, number=night.done)
     if night.seconds is None:
         return words.INTERRUPTED.given(began=began)
     minutes, seconds = divmod(round(night.seconds), _MINUTE)
     duration = words.MINUTES.given(minutes=minutes, seconds=seconds) if minutes else words.SECONDS
     return words.RAN.given(began=began, duration=duration.given(number=seconds))
+
+
+def _jobs_done(state: FleetState) -> Words:
+    """Return what became of the jobs of the last run."""
+    counts = state.counts
+    drafts = words.AS_DRAFTS.given(number=counts["draft"])
+    return words.JOBS_DONE.given(jobs=state.jobs, drafts=drafts, **counts)
 
 
 def _tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
@@ -361,7 +368,8 @@ def tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
             ("choice", cells.say(words.CHOICE), (("", cells.say(words.ALL_AXES)), *choices)),
             ("order", cells.say(words.ORDER), tuple((key, cells.say(label)) for key, label in orders)),
         ),
-        found=cells.say(words.FOUND),
+        # How many are shown the page says itself, whenever somebody searches.
+        found=cells.say(words.FOUND.given(shown="{shown}", number=len(by_axis(state.trends)))),
     )
 
 

@@ -12,12 +12,13 @@ TITLE = Words("Fleet overview")
 LAST_RUN = Words("Last run")
 NEVER = Words("not yet")
 INTERRUPTED = Words("{began}, interrupted")
-AT_WORK = Words("{began}, at work: {done} jobs so far")
+AT_WORK = Words("{began}, at work: {number} job so far", plural="{began}, at work: {number} jobs so far")
 RAN = Words("{began}, {duration}")
 SECONDS = Words("{number} s")
 MINUTES = Words("{minutes} min {seconds} s")
 JOBS = Words("Jobs")
-JOBS_DONE = Words("{jobs}: {made} made, {unchanged} unchanged, {draft} as drafts, {failed} failed")
+JOBS_DONE = Words("{jobs}: {made} made, {unchanged} unchanged, {drafts}, {failed} failed")
+AS_DRAFTS = Words("{number} as a draft", plural="{number} as drafts")
 CERTIFICATES = Words("Certificates")
 HEADLINE = Words("The fleet in numbers")
 AXES = Words("Axes")
@@ -95,7 +96,7 @@ BY_MACHINE = Words("machine and axis")
 BY_USE = Words("share of the limit, largest first")
 BY_DUE = Words("date by which it is due")
 BY_MEASURED = Words("last measurement, oldest first")
-FOUND = Words("{shown} of {all} axes")
+FOUND = Words("{shown} of {number} axis", plural="{shown} of {number} axes")
 
 # Columns
 
@@ -145,7 +146,7 @@ INSTRUMENT = Words("{after} in place of {before}")
 # Drift
 
 PER_YEAR = Words("{change}/year")
-CHANCE = Words("{p}; {number} calibrations")
+CHANCE = Words("{p}; {number} calibration", plural="{p}; {number} calibrations")
 ALSO = Words("also {symbols}, without a limit")
 WITHOUT_LIMIT = Words("no limit stated")
 BETWEEN = Words("95 %: {earliest} to {latest}")
@@ -184,7 +185,10 @@ FORECAST_METHOD = Words(
     "A limit is reached where the line meets it, within the 95 % interval. That holds as long as the axis "
     "goes on as it has done, and nobody adjusts it."
 )
-ALTERNATIVE = Words("{number} values of {symbol} from {first} to {last}, the last {value}.")
+ALTERNATIVE = Words(
+    "{number} value of {symbol}, of {last}: {value}.",
+    plural="{number} values of {symbol} from {first} to {last}, the last {value}.",
+)
 ALTERNATIVE_LIMIT = Words(" Limit {limit}.")
 ALTERNATIVE_DRIFT = Words(" Drift {change}/year.")
 SAMPLE = Words("An example of the small graphs, explained beside it.")

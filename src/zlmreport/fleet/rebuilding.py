@@ -18,6 +18,7 @@ from zlmreport.fleet.making import MARK
 from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State, Subject, parameters_of_model
 from zlmreport.job.fleet import FleetFile, job_files, number_of
 from zlmreport.job.loading import load
+from zlmreport.job.parse import counted
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification.attached import SCHEMA, stated_by
 from zlmreport.verification.carrier import opened, read_file
@@ -47,7 +48,8 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
         known = [each for each in ledger.certificates().values() if each.fleet == fleet.name]
         if known:
-            message = f"the ledger knows {len(known)} certificates of this fleet; move it away first"
+            certificates = counted(len(known), "certificate")
+            message = f"the ledger knows {certificates} of this fleet; move it away first"
             raise InputError.at(Place(str(fleet.ledger)), message)
         with ledger.night(now, str(fleet.path)) as night:
             for job in job_files(fleet):

@@ -17,6 +17,7 @@ from zlmreport.document.subjects.plan_values import plan_values
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
+from zlmreport.job.parse import counted
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.planning.planned_test import planned_test
@@ -103,7 +104,8 @@ class Plan:
 
     def __repr__(self) -> str:
         """Return how large the test is."""
-        return f"<Plan: {len(self.targets)} targets, {self.runs} runs, {self.method}, {self.minutes:.0f} min>"
+        targets, runs = counted(len(self.targets), "target"), counted(self.runs, "run")
+        return f"<Plan: {targets}, {runs}, {self.method}, {self.minutes:.0f} min>"
 
     def _repr_html_(self) -> str:
         return sections_html(self._sections)

@@ -18,7 +18,7 @@ from zlmreport.job.contradictions import validate
 from zlmreport.job.job import Job
 from zlmreport.job.loading import axis_in_si, load
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.parse import parse
+from zlmreport.job.parse import counted, parse
 from zlmreport.job.simulation import load_simulation
 from zlmreport.job.tree import Keys
 from zlmreport.measurement.approach import Approach
@@ -165,10 +165,10 @@ class Readings:
 
     def __repr__(self) -> str:
         """Return the axis and how many readings there are."""
-        targets, runs = len(self.targets), len(self.measurements.runs)
+        targets, runs = counted(len(self.targets), "target"), counted(len(self.measurements.runs), "run")
         missing = len(self.measurements.missing())
         left_out = f", {missing} missing" if missing else ""
-        return f"<Readings of axis {self.measurements.axis.name}: {targets} targets, {runs} runs{left_out}>"
+        return f"<Readings of axis {self.measurements.axis.name}: {targets}, {runs}{left_out}>"
 
     def _repr_html_(self) -> str:
         return table_html(self._columns)

@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Readings, Role
 from zlmreport.document.figures.prescribed import alternative_text
-from zlmreport.evaluation.checks import position_in_words, positions_in_words
+from zlmreport.evaluation.checks import position_in_words, positions_in_words, readings_in_words
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import read_only_floats
@@ -19,7 +19,7 @@ _TITLE = Words(
     "Position of the axis over its readings, in the order in which they are taken; ↑ and ↓ are the "
     "directions in which it comes to a target"
 )
-_SENTENCE = Words("{readings} readings, {runs} at each of {positions} from {first} to {last}.")
+_SENTENCE = Words("{readings}, {runs} at each of {positions} from {first} to {last}.")
 _TURNS = Words("The axis turns round {overrun} beyond.")
 _X_TITLE = Words("Number of the reading")
 _Y_TITLE = Words("Position")
@@ -75,7 +75,7 @@ def _alternative(motion: Motion) -> Words:
     readings = sum(stop.reading is not None for stop in motion.stops)
     return alternative_text(
         _SENTENCE.given(
-            readings=readings,
+            readings=readings_in_words(readings),
             runs=readings // len(motion.targets),
             positions=positions_in_words(len(motion.targets)),
             first=position_in_words(motion.axis, to_si(motion.targets[0])),

@@ -72,6 +72,7 @@ GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
         "asTable": Words("The readings in sight as a table"),
         "more": Words("{count} more: look closer to see them."),
         "chosen": Words("{count} readings chosen"),
+        "chosenOne": Words("1 reading chosen"),
         "slope": Words("Slope of its pass"),
     }
 )

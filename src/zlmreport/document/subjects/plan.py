@@ -17,7 +17,7 @@ from zlmreport.document.blocks import (
     Section,
     Table,
 )
-from zlmreport.evaluation.checks import position_in_words
+from zlmreport.evaluation.checks import position_in_words, readings_in_words
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import fixed_number, general_number, percentage
@@ -33,7 +33,8 @@ from zlmreport.model.planning.visibility import Remedy, SeenEffect, Sight
 
 _MINUTE = 60.0
 _MOST_STRETCHES = 6
-_COUNT = Words("{targets} targets, {readings} readings")
+_COUNT = Words("{targets}, {readings}")
+_COUNTED_TARGETS = Words("{number} target", plural="{number} targets")
 _TARGETS = Words("Targets")
 _FRACTIONS = Words("In {unit}, at random fractions, seed {seed}")
 _NO_FRACTIONS = Words("In {unit}, at no random fractions")
@@ -83,7 +84,8 @@ _RMS = Words("{size} rms")
 
 def size_of_plan(planned: PlannedTest) -> Words:
     """Return how many targets and readings a plan has."""
-    return _COUNT.given(targets=len(planned.proposal.plan.targets), readings=len(planned.visits))
+    targets = _COUNTED_TARGETS.given(number=len(planned.proposal.plan.targets))
+    return _COUNT.given(targets=targets, readings=readings_in_words(len(planned.visits)))
 
 
 def plan_sections(job: Job, planned: PlannedTest, language: Language) -> tuple[Section, ...]:

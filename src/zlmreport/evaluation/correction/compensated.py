@@ -23,8 +23,8 @@ _NOT = re.compile(
     re.IGNORECASE,
 )
 _THE_AIR = re.compile(
-    r"\bair\b|luft|refract|brech|edl[eé]n|ciddor|wave-?length|wellenl|weather|wetter|environment|umwelt|"
-    r"umgebung|ambient|atmos|\bindex\b",
+    r"\baire?\b|\baria\b|luft|r[eéi]fra[cz]|brech|edl[eé]n|ciddor|wave-?length|wellenl|weather|wetter|environment|umwelt|"
+    r"umgebung|ambient|atmos|\bindex\b|ind[ií]ce|m[eé]t[eé]o|\b(XC-?80|EC-?10)\b",
     re.IGNORECASE,
 )
 _ANYTHING_ELSE = re.compile(
@@ -70,6 +70,17 @@ def counts_wavelengths(name: str) -> bool:
     (True, False)
     """
     return bool(_INTERFEROMETER.search(name))
+
+
+def speaks_of_air(said: str) -> bool:
+    """Return whether words on an instrument's compensation say if the instrument looked at the air.
+
+    >>> speaks_of_air("refractive index of the air"), speaks_of_air("none"), speaks_of_air("material only")
+    (True, True, True)
+    >>> speaks_of_air("automatic"), speaks_of_air("on"), speaks_of_air("")
+    (False, False, False)
+    """
+    return bool(_THE_AIR.search(said)) or says_air_is_left(said)
 
 
 def says_air_is_left(said: str) -> bool:

@@ -14,6 +14,7 @@ from zlmreport.evaluation.correction.compensated import (
     compensated_by_instrument,
     counts_wavelengths,
     is_blind_to_air,
+    speaks_of_air,
 )
 from zlmreport.evaluation.correction.corrections import (
     condition_at_readings,
@@ -22,7 +23,6 @@ from zlmreport.evaluation.correction.corrections import (
 )
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Contribution, Distribution, KnownError, from_range
-from zlmreport.evaluation.uncertainty.reasons import says_something
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.language.numbers import number_words
@@ -59,15 +59,16 @@ _UNCOMPENSATED_SOURCE = Words(
 def is_silent_on_air(job: Job, measurements: MeasurementSet) -> bool:
     """Return whether lengths were counted in wavelengths and neither job nor file says in which air.
 
-    Silence is no word that the instrument looked at the air: one that did is told of by
-    ``instrument.compensates: {air: true}``, or in words under ``instrument.compensation``.
+    Neither silence nor "automatic" is a word that the instrument looked at the air: one that did is told of
+    by ``instrument.compensates: {air: true}``, or in words that name the air under
+    ``instrument.compensation``.
     """
     keys = job.keys
     instrument = keys.instrument
     if instrument is None or not job.axis.has_length or not counts_wavelengths(instrument.name):
         return False
     is_told = keys.corrections is not None and keys.corrections.air is not None
-    is_said = says_something(instrument.compensation or "")
+    is_said = speaks_of_air(instrument.compensation or "")
     return not (is_told or is_said or compensated_by_instrument(job, measurements).air is not None)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from zlmreport.errors import InputError, Problem
+from zlmreport.errors import InputError, Problem, quoted
 from zlmreport.evaluation.correction.compensated import compensated_by_instrument, is_blind_to_air
 from zlmreport.evaluation.correction.corrections import condition_at_readings
 from zlmreport.evaluation.uncertainty import wording
@@ -551,9 +551,11 @@ def _silence(name: str, job: Job) -> str:
     is_told = job.keys.corrections is not None and job.keys.corrections.air is not None
     if name not in STATE_OF_AIR or is_told or is_blind_to_air(job):
         return ""
+    said = (job.keys.instrument.compensation if job.keys.instrument else None) or ""
+    unclear = f" (instrument.compensation, {quoted(said)}, does not say)" if says_something(said) else ""
     return (
-        ", and instrument.compensates: {air: false}; if the instrument knew the refractive index of the air, "
-        "instrument.compensates: {air: true} is enough"
+        ", and instrument.compensates: {air: false}; if the instrument knew the refractive index of the air"
+        f"{unclear}, instrument.compensates: {{air: true}} is enough"
     )
 
 

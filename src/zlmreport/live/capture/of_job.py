@@ -13,6 +13,7 @@ from pydantic import Field
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.job.choices import Choice
 from zlmreport.job.job import Job
+from zlmreport.job.parse import counted
 from zlmreport.job.types import Finite, JobPath, LiveInstrumentKeys, Options, Positive
 from zlmreport.live.capture.journal import History
 from zlmreport.live.capture.records import Header
@@ -175,7 +176,7 @@ def _difference(header: Header, job: Job, assignment: Assignment) -> str:
         return f"is the journal of axis {header.axis}, and the job is on axis {job.axis.name}"
     if header.visits != assignment.visits:
         return (
-            f"holds another plan: {len(header.visits)} visits, {header.method}, and the job's is "
+            f"holds another plan: {counted(len(header.visits), 'visit')}, {header.method}, and the job's is "
             f"{len(assignment.visits)}, {assignment.plan.method}, or its targets are others"
         )
     if header.settings != assignment.settings or header.datum != assignment.datum:

@@ -15,6 +15,7 @@ from typing import Any, Self
 import numpy as np
 
 from zlmreport.job.evaluation_keys import NoiseKeys, PriorsKeys, SizeKeys, SourceName
+from zlmreport.job.parse import counted
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.fitting.contrasts import contrasts_of
@@ -192,7 +193,8 @@ def as_text(found: PriorsKeys, origin: str) -> str:
 
 def _lines(found: PriorsKeys, origin: str) -> Iterator[str]:
     unit = "µm" if found.kind == "linear" else "″"
-    yield f"# What {found.tests} tests in {origin} say of noise and sizes of effects: model.priors of a job."
+    tests, say = counted(found.tests, "test"), "says" if found.tests == 1 else "say"
+    yield f"# What {tests} in {origin} {say} of noise and sizes of effects: model.priors of a job."
     yield f"schema: {found.schema_}"
     yield f"kind: {found.kind}"
     yield f"tests: {found.tests}"

@@ -301,9 +301,10 @@ def heading(motion: Motion) -> Iterator[str]:
     included = {stop.reading.run for stop in motion.stops if stop.reading}
     if len(included) < motion.runs:
         runs = f"run {', '.join(map(str, sorted(included)))} of {motion.runs}"
-    readings = sum(stop.reading is not None for stop in motion.stops)
+    count = sum(stop.reading is not None for stop in motion.stops)
+    readings = "1 reading" if count == 1 else f"{count} readings"
     yield f"job {plain_name(motion.number)}"
-    yield f"axis {plain_name(motion.axis.name)}, {motion.method.value} method, {runs}, {readings} readings"
+    yield f"axis {plain_name(motion.axis.name)}, {motion.method.value} method, {runs}, {readings}"
     yield (
         f"feed {program_number(motion.feed)} {unit}/min, dwell {program_number(motion.dwell)} s, "
         f"overrun {motion.overrun:.12g} {unit}"

@@ -1,0 +1,116 @@
+"""A count of one is said in the singular."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from language.test_catalogues import OTHERS, tool
+from zlmreport.cli import verify
+from zlmreport.document.subjects.linked import GRAPH_TEXTS
+from zlmreport.evaluation.checks import positions_in_words, readings_in_words, runs_in_words
+from zlmreport.fleet import notices, overview_words
+from zlmreport.language import Language, Words
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
+
+#: Names of what is counted.
+_THINGS = (
+    "axes|calibrations|certificates|files|intervals|jobs|lines|machines|measurements|moments|pages|parts|"
+    "points|positions|readings|runs|targets|tests|turns|values|visits"
+)
+_COUNTED = re.compile(r"\{\w+\} (?:\w+ )?(?:" + _THINGS + r")\b")
+#: How phrases begin that are never said of one, or have another for one.
+_NEVER_OF_ONE = (
+    "At least {number} positions on each line",
+    "At least {number} readings on each line",
+    "Path of the probe over {faces} faces",
+    "The budget below was propagated",
+    "The model is held against {kept} of the {all}",
+    "The {count} readings that are evaluated are not printed",
+    "the ledger knows none of the certificates in {folder}",
+    "{column} stands still during the last {count} readings",
+    "{gone} of {before} jobs are gone since the last night; look whether that is meant",
+    "{missing} of {all} visits of the plan",
+    "{readings} readings were averaged",
+    "it needs at least {least} target positions; there are {found}",
+    "it needs at least {least} runs; there are {found}",
+    "take {count} targets with random fractions",
+    "measure {runs} runs",
+    "{value} readings",
+    "{n} positions per metre",
+    "all {total} readings",
+    "{count} readings chosen",
+    "{count} readings were set aside and did not enter the results",
+    "{count} measurements of {machine}",
+    "{count} turns of radius {radius} mm",
+    "{count} of {all} readings is missing; nothing was filled in",
+    "{count} of {all} readings are missing; nothing was filled in",
+    "line of {count} points",
+    "{duration} {unit}, read at {count} moments",
+    "{duration} {unit}, as averages over {count} intervals",
+    "{count}, averages of {readings} readings",
+)
+
+
+@pytest.mark.parametrize(
+    ("phrase", "one", "many"),
+    [
+        (runs_in_words, "1 run", "2 runs"),
+        (positions_in_words, "1 position", "2 positions"),
+        (readings_in_words, "1 reading", "2 readings"),
+    ],
+)
+def test_what_is_counted_is_in_the_singular_for_one(phrase: object, one: str, many: str) -> None:
+    assert callable(phrase)
+    assert [phrase(number).in_language(Language.ENGLISH) for number in (1, 2)] == [one, many]
+
+
+def _said(words: Words, number: int, language: Language = Language.ENGLISH, **values: str | int) -> str:
+    return words.given(number=number, **values).in_language(language)
+
+
+def test_an_overview_of_a_single_axis_says_axis() -> None:
+    assert _said(overview_words.FOUND, 1, shown=1) == "1 of 1 axis"
+    assert _said(overview_words.FOUND, 3, shown=1) == "1 of 3 axes"
+    assert _said(overview_words.FOUND, 1, Language.GERMAN, shown=1) == "1 von 1 Achse"
+    assert _said(overview_words.AT_WORK, 1, began="2026-11-20") == "2026-11-20, at work: 1 job so far"
+    assert _said(overview_words.AS_DRAFTS, 1) == "1 as a draft"
+    one = {"symbol": "A", "first": "2026-11-20", "last": "2026-11-20", "value": "4.2 µm"}
+    assert _said(overview_words.ALTERNATIVE, 1, **one) == "1 value of A, of 2026-11-20: 4.2 µm."
+
+
+@pytest.mark.parametrize(
+    ("left", "due", "said"),
+    [
+        (1, 1, "before its only job; it is for the next night"),
+        (1, 3, "before 1 of 3 jobs; it is for the next night"),
+        (2, 3, "before 2 of 3 jobs; they are for the next night"),
+    ],
+)
+def test_a_night_says_of_a_single_job_that_it_is_left(left: int, due: int, said: str) -> None:
+    (notice,) = notices.left(left, due)
+    assert notice.text.in_language(Language.ENGLISH).endswith(said)
+
+
+def test_a_single_attached_file_is_one_file() -> None:
+    file = CheckedStatement("x.csv", VerificationVerdict.HOLDS, Words("as stated"))
+    words = Words("{of} page as printed again", plural="{of} pages as printed again")
+    for language, said in ((Language.ENGLISH, "1 of 1 page as"), (Language.GERMAN, "1 von 1 Seite wie")):
+        ((_, found),) = verify._summary("", [file], words, lambda each, to=language: each.in_language(to))
+        assert found.startswith(said)
+
+
+def test_a_page_has_words_for_a_single_reading() -> None:
+    assert GRAPH_TEXTS["chosenOne"].in_language(Language.ENGLISH) == "1 reading chosen"
+
+
+def test_every_phrase_that_counts_has_words_for_one() -> None:
+    counted = {each.english for each in tool().phrases() if not each.plural and _COUNTED.search(each.english)}
+    assert {each for each in counted if not each.startswith(_NEVER_OF_ONE)} == set()
+
+
+@pytest.mark.parametrize("language", OTHERS)
+def test_a_counted_phrase_has_all_its_forms(language: Language) -> None:
+    of_one = _said(Words("{number} run", plural="{number} runs"), 1, language)
+    assert of_one != _said(Words("{number} run", plural="{number} runs"), 2, language)
