@@ -1,46 +1,29 @@
-"""The glossary has the words that certificates and pages print, and no others."""
+"""The glossary has the words that certificates and pages print: in German by the catalogue of the language."""
 
 from __future__ import annotations
 
-import ast
 import re
-from collections.abc import Iterator
 from functools import cache
-from pathlib import Path
+from gettext import GNUTranslations
 
 import pytest
 
 from documents.pages import DOCS
 
-_ROOT = DOCS.parent
+_TRANSLATIONS = DOCS.parent / "src/zlmreport/language/translations"
 _ROW = re.compile(r"^\| (?P<en>[^|]+) \| (?P<de>[^|]+) \| [^|]+ \|$", re.MULTILINE)
-_TERMS = [
-    (row["en"], row["de"])
-    for row in _ROW.finditer((DOCS / "reference" / "glossary.md").read_text(encoding="utf-8"))
-    if row["en"] != "English"
-]
+#: The first table; those of the other languages have terms of the field beside the words of the program.
+_GLOSSARY = (DOCS / "reference" / "glossary.md").read_text(encoding="utf-8").partition("\n## ")[0]
+_TERMS = [(row["en"], row["de"]) for row in _ROW.finditer(_GLOSSARY) if row["en"] != "English"]
 
 
 @cache
 def _printed() -> tuple[str, str]:
-    """Return the phrases that exist in both languages: all English ones, and all German ones."""
-    pairs = [
-        pair
-        for folder in ("src", "plugins")
-        for path in (_ROOT / folder).rglob("*.py")
-        for pair in _pairs(path)
-    ]
-    return tuple("\n".join(phrases).casefold() for phrases in zip(*pairs, strict=True))  # type: ignore[return-value]
-
-
-def _pairs(path: Path) -> Iterator[tuple[str, str]]:
-    for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(call, ast.Call) and getattr(call.func, "id", "") in {"Words", "fact"}:
-            named = {keyword.arg: keyword.value for keyword in call.keywords}
-            texts = [*call.args, *(named[name] for name in ("en", "de") if name in named)][:2]
-            values = [text.value for text in texts if isinstance(text, ast.Constant)]
-            if len(values) == 2:
-                yield str(values[0]), str(values[1])
+    """Return the phrases of the German catalogue: all English ones, and all German ones."""
+    with (_TRANSLATIONS / "de/LC_MESSAGES/zlmreport.mo").open("rb") as file:
+        catalogue: dict[object, str] = vars(GNUTranslations(file))["_catalog"]
+    english = (each[0] if isinstance(each, tuple) else str(each) for each in catalogue)
+    return "\n".join(english).casefold(), "\n".join(catalogue.values()).casefold()
 
 
 @pytest.mark.parametrize(("english", "german"), _TERMS)

@@ -36,6 +36,8 @@ class Ending:
 def endings(certificate: Certificate) -> tuple[Ending, ...]:
     """Return the ending of each section."""
     sections, page = certificate.sections, columns.PAGES[certificate.paper]
+    if not sections:
+        return ()
     found = [Ending()] * len(sections)
     ends = [*(after.new_page for _, after in pairwise(sections)), True]
     for last in (number for number, is_end in enumerate(ends) if is_end):

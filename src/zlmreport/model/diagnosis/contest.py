@@ -18,7 +18,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
+from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.diagnosis.families import Family, families_of, forms_by_effect, is_known
 from zlmreport.model.diagnosis.nameless import CovariancePart, irregular_factors, parts_of
@@ -59,7 +59,6 @@ class Reduced:
     root: FloatArray  #: R, of the parts: a·b − (R·Zᵀa)·(R·Zᵀb) is the product under V.
     crossed: FloatArray  #: R·ZᵀC.
     set_root: FloatArray  #: (r, p): S with S·(CᵀV⁻¹C)·Sᵀ the unit matrix.
-    information: FloatArray  #: (p, p): CᵀV⁻¹C.
     log_determinant: float  #: ln|V|.
 
     def coordinates(self, products: FloatArray) -> FloatArray:
@@ -78,45 +77,6 @@ class _Group:
     starts: IntArray  #: (f,) integer: The first block of each family.
     squares: FloatArray  #: (g,): Mean square that is expected of each over σ².
     log_weights: FloatArray  #: (g,)
-
-
-@dataclass(frozen=True, slots=True)
-class _Solved:
-    """Many blocks beside a set, in directions at right angles: what each sees and explains of B sets."""
-
-    information: FloatArray  #: (g, k): What of each direction is left, 0 to 1; 0 where it is imitated.
-    products: FloatArray  #: (g, k, B): Squares of its products with the deviations; 0 where it is imitated.
-
-    @classmethod
-    def of(cls, gram: FloatArray, products: FloatArray) -> _Solved:
-        """Return blocks from their Gram matrices (g, k, k) and products with the deviations (g, k, B)."""
-        if gram.shape[1] == 1:
-            values, turned = gram[:, 0], products
-        else:
-            values, vectors = np.linalg.eigh(gram)
-            turned = vectors.transpose(0, 2, 1) @ products
-        seen = values > _IMITATED
-        return cls(np.where(seen, values, 0.0), np.where(seen[:, :, np.newaxis], turned, 0.0) ** 2)
-
-    @property
-    def seen(self) -> BoolArray:
-        """Which of the blocks are no imitation entirely, (g,)."""
-        return np.asarray(np.any(self.information > 0, axis=1))
-
-    @property
-    def explained(self) -> FloatArray:
-        """What each explains of the squares, (g, B)."""
-        inverse = 1.0 / np.where(self.information > 0, self.information, 1.0)
-        return np.asarray(np.einsum("gk,gkb->gb", inverse, self.products))
-
-    def explained_under(self, prior: FloatArray | float) -> FloatArray:
-        """Return the same where the coefficients have a variance before any reading, (g, 1), in σ²."""
-        weights = prior / (1.0 + prior * self.information)
-        return np.asarray(np.einsum("gk,gkb->gb", weights, self.products))
-
-    def spread_under(self, prior: FloatArray | float) -> FloatArray:
-        """Return ln of how much the readings narrow such a variance down, (g, 1)."""
-        return np.asarray(np.log1p(prior * self.information).sum(axis=1, keepdims=True))
 
 
 @dataclass(frozen=True, slots=True)
@@ -327,14 +287,12 @@ class Contest:
         factor = np.linalg.cholesky(np.eye(count) + inner)
         own_root = np.linalg.inv(factor) * root
         crossed = own_root @ products[:count, count:]
-        information = products[count:, count:] - crossed.T @ crossed
         return Reduced(
             key,
             together,
             own_root,
             crossed,
-            _root_of(information),
-            information,
+            _root_of(products[count:, count:] - crossed.T @ crossed),
             self.columns.log_determinant(key) + 2.0 * float(np.log(np.diagonal(factor)).sum()),
         )
 
@@ -413,21 +371,21 @@ class Contest:
         own = self.columns.squares_of(reduced.ratios, blocks)
         products = self.columns.products_with(reduced.ratios, reduced.places, flat)
         response = self.columns.products_with(reduced.ratios, self.response, flat)[0]
-        return self._within(reduced, own, products, response, taken).explained[:, 0]
+        return self._explained(reduced, own, products, response, taken)[0][:, 0]
 
-    def _within(
+    def _explained(
         self,
         reduced: Reduced,
         own: FloatArray,
         products: FloatArray,
         response: FloatArray,
         taken: FloatArray,
-    ) -> _Solved:
+    ) -> tuple[FloatArray, FloatArray]:
         count, width = own.shape[:2]
         coordinates = reduced.coordinates(products)
         left = ((response - taken @ coordinates) * np.sqrt(self.squares)).reshape(count, width)
         inner = coordinates.reshape(-1, count, width)
-        return _Solved.of(own - np.einsum("rgi,rgj->gij", inner, inner), left[:, :, np.newaxis])
+        return _solved(own - np.einsum("rgi,rgj->gij", inner, inner), left[:, :, np.newaxis])
 
     def squares_beside(self, reduced: Reduced, contrasts: FloatArray) -> FloatArray:
         """Return what V and a set leave of the squares of contrasts (N, B) not in the table, (B,)."""
@@ -452,19 +410,19 @@ class Contest:
                     reduced.ratios, self.columns.values(flat).reshape(-1, *group.places.shape)
                 )
             )
-            solved = self._within(
+            explained, ranks = self._explained(
                 reduced,
                 own,
                 self.columns.products(reduced.ratios, reduced.places, flat),
                 self.columns.products(reduced.ratios, self.response, flat)[0],
                 taken,
             )
-            added = self._added(squares, solved, group.squares[:, np.newaxis])[:, 0]
+            added = self._added(squares, explained[:, 0], ranks, group.squares)
             sizes = np.diff([*group.starts, len(added)])
             least = np.minimum.reduceat(added, group.starts)
             likelihoods = np.exp(group.log_weights - 0.5 * (added - np.repeat(least, sizes)))
             spread = -2.0 * np.log(np.add.reduceat(likelihoods, group.starts))
-            seen = np.maximum.reduceat(solved.seen, group.starts)
+            seen = np.maximum.reduceat(ranks, group.starts) > 0
             prices = np.array([self.families[each].price for each in group.families])
             scan.criterion[group.families] = np.where(seen, least + spread + prices, np.inf)
             scan.spread[group.families] = spread
@@ -473,41 +431,26 @@ class Contest:
             scan.best[group.families[owner[::-1]]] = (first - group.starts[owner])[::-1]
         return scan
 
-    def _added(self, squares: FloatArray | float, solved: _Solved, square: FloatArray) -> FloatArray:
-        """Return the criterion of blocks against none, their coefficients averaged over, shape (g, B).
-
-        `square`, (g, 1): Mean square that is expected of each over σ².
-        """
+    def _added(
+        self, squares: FloatArray | float, explained: FloatArray, ranks: FloatArray, square: FloatArray
+    ) -> FloatArray:
+        """Return the criterion of blocks against none, their coefficients averaged over."""
         found = []
         for factor, weight in _WORTHS:
             prior = factor * float(self.space.degrees) * (square if factor == 1.0 else 1.0)
-            left = np.maximum(squares - solved.explained_under(prior), _ROUNDING * self.squares + self.known)
+            left = squares - explained * (prior / (1.0 + prior))
+            left = np.maximum(left, _ROUNDING * self.squares + self.known)
             gained = self._logarithm(left) - self._logarithm(squares)
-            found.append(gained + solved.spread_under(prior) - 2.0 * np.log(weight))
+            found.append(gained + ranks * np.log1p(prior) - 2.0 * np.log(weight))
         return _average(np.array(found), 0)
 
-    def worth(self, explained: FloatArray, information: FloatArray, square: float) -> float:
-        """Return what a block costs, its coefficients averaged over.
-
-        `explained`, (k,): In σ², along directions at right angles.
-        `information`, (k,): What of a column along each is left beside all else, 0 to 1.
-        """
+    def worth(self, explained: float, rank: int, square: float) -> float:
+        """Return what a block costs that explains so much, in σ², its coefficients averaged over."""
         found = []
         for factor, weight in _WORTHS:
             prior = factor * float(self.space.degrees) * (square if factor == 1.0 else 1.0)
-            spread = 1.0 + prior * information
-            found.append(float(np.sum(explained / spread + np.log(spread))) - 2.0 * float(np.log(weight)))
+            found.append(explained / (1.0 + prior) + rank * np.log1p(prior) - 2.0 * np.log(weight))
         return float(_average(np.array(found), 0))
-
-    def overlap(self, reduced: Reduced, information: Sequence[FloatArray]) -> float:
-        """Return what blocks together cost less or more than each beside all others.
-
-        `information`: Of each block of a set, what of its columns is left beside all else.
-        """
-        prior = float(self.space.degrees)
-        together = np.eye(len(reduced.information)) + prior * reduced.information
-        alone = sum(float(np.sum(np.log1p(prior * each))) for each in information)
-        return float(np.linalg.slogdet(together)[1]) - alone
 
     def trials(
         self,
@@ -539,12 +482,11 @@ class Contest:
             left = self.columns.products_with(reduced.ratios, flat, contrasts) - coordinates.T @ taken
             inner = coordinates.reshape(-1, *places.shape)
             gram = self.columns.squares(reduced.ratios, places.shape[1], places)
-            solved = _Solved.of(
+            explained, ranks = _solved(
                 gram - np.einsum("rgi,rgj->gij", inner, inner), left.reshape(*places.shape, sets)
             )
-            added = self._added(squares, solved, square[:, np.newaxis])
-            fitted = self._logarithm(np.maximum(squares - solved.explained, _NOTHING))
-            fitted -= self._logarithm(squares)
+            added = self._added(squares, explained, ranks[:, np.newaxis], square[:, np.newaxis])
+            fitted = self._logarithm(np.maximum(squares - explained, _NOTHING)) - self._logarithm(squares)
             ends = [*group.starts[1:], len(added)]
             for number, first, end in zip(group.families.tolist(), group.starts.tolist(), ends, strict=True):
                 fits[number] = fitted[first:end].min(axis=0)
@@ -612,6 +554,19 @@ def _root_of(gram: FloatArray) -> FloatArray:
     values, vectors = np.linalg.eigh(np.where(np.outer(seen, seen), gram, 0.0) / np.outer(lengths, lengths))
     kept = values > _DEPENDENT * max(float(values[-1]), _NOTHING)
     return np.asarray((vectors[:, kept] / np.sqrt(values[kept])).T * (seen / lengths))
+
+
+def _solved(gram: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return bᵀG⁻¹b and the rank of G for each of many blocks: gram (g, k, k), products (g, k, B)."""
+    if gram.shape[1] == 1:
+        seen = gram[:, 0, 0] > _IMITATED
+        inverse = np.where(seen, 1.0 / np.where(seen, gram[:, 0, 0], 1.0), 0.0)
+        return products[:, 0] ** 2 * inverse[:, np.newaxis], seen.astype(np.float64)
+    values, vectors = np.linalg.eigh(gram)
+    seen = values > _IMITATED
+    inverse = np.where(seen, 1.0 / np.where(seen, values, 1.0), 0.0)
+    turned = vectors.transpose(0, 2, 1) @ products
+    return np.einsum("gk,gkb->gb", inverse, turned**2), seen.sum(axis=1).astype(np.float64)
 
 
 def _average(criteria: FloatArray, axis: int | None = None) -> FloatArray:

@@ -261,46 +261,42 @@ class SetSearch:
         variance = squares / contest.space.degrees
         solved = reduced.set_root.T @ taken[len(reduced.root) :] * np.sqrt(contest.squares)
         inverse = reduced.set_root.T @ reduced.set_root
-        cost, first, seen = 0.0, 0, []
+        cost, first = 0.0, 0
         for each in members:
             own = slice(first, first + len(each.columns))
             first = own.stop
             information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
             square = contest.expected.square(each.identifier)
             cost += each.family.price + each.spread
-            for explained, shares in self._by_size(each, solved[own], np.asarray(information, np.float64)):
-                cost += contest.worth(explained / variance, shares, square)
-                seen.append(shares)
+            for explained, rank in self._by_size(
+                each, solved[own], np.asarray(information / variance, np.float64)
+            ):
+                cost += contest.worth(explained, rank, square)
             if each.family.is_named:
                 cost += self._unusual(each, solved[own], variance * inverse[own, own])
-        return cost + contest.overlap(reduced, seen)
+        return cost
 
     def _by_size(
         self, member: SetMember, solved: FloatArray, information: FloatArray
-    ) -> Iterator[tuple[FloatArray, FloatArray]]:
-        """Yield what a member explains beside the others of a set, and what of its columns they leave.
+    ) -> Iterator[tuple[float, int]]:
+        """Yield what a member explains beside the others of a set, in σ², and with how many columns.
 
         All its coefficients are of one size, but for an effect that contains others: a polynomial is a
         constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
         those before it leave.
         """
-        values, vectors = np.linalg.eigh(information)
-        values = np.maximum(values[-member.rank :], 0.0) if member.rank else values[:0]
-        vectors = vectors[:, len(vectors) - len(values) :]
         if not member.effect.contains:
-            yield values * (vectors.T @ solved) ** 2, values
+            yield float(solved @ information @ solved), member.rank
             return
         contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
         turned = self.contest.columns.values(member.columns).T @ contrasts
-        root = np.sqrt(values)[:, np.newaxis] * vectors.T
+        values, vectors = np.linalg.eigh(information)
+        root = np.sqrt(np.maximum(values, 0.0))[:, np.newaxis] * vectors.T
         powers = root @ turned
         lengths = np.linalg.norm(powers, axis=0)
-        is_seen = lengths > _SEEN * lengths.max(initial=0.0)
-        directions, left = np.linalg.qr(powers[:, is_seen])
-        whole = np.linalg.qr(turned[:, is_seen])[1]
-        shares = (np.diagonal(left) / np.diagonal(whole)) ** 2
-        parts = (directions.T @ (root @ solved)) ** 2
-        yield from ((parts[each : each + 1], shares[each : each + 1]) for each in range(len(values)))
+        powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
+        parts = np.linalg.qr(powers)[0].T @ (root @ solved)
+        yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
 
     def _unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
         """Return what it costs that values lie beyond what is usual."""
