@@ -322,7 +322,7 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     heights = [box["height"] for each in controls if (box := each.bounding_box())]
     assert min(heights) >= 40
     picture(page, "tablet")
-    page.get_by_role("link", name="English").click()
+    page.get_by_role("combobox", name="Sprache").select_option("en")
     expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible()
 
 
