@@ -61,7 +61,7 @@ def test_it_knows_what_they_state_and_the_next_night_finds_them_unchanged(
     with Ledger.open(str(ledger), "Hall") as before:
         (stated,) = before.entries()
     assert main(["fleet", "rebuild", str(fleet)]) == 2
-    assert "the ledger knows 1 certificates of this fleet" in capsys.readouterr().err
+    assert "the ledger knows 1 certificate of this fleet" in capsys.readouterr().err
     for file in fleet.parent.glob("hall.db*"):
         file.unlink()
     assert main(["fleet", "rebuild", str(fleet)]) == 0
