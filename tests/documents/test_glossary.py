@@ -1,4 +1,4 @@
-"""The glossary has the words that certificates and pages print: in German by the catalogue of the language."""
+"""The glossary has the words that certificates and pages print, in English and by the German catalogue."""
 
 from __future__ import annotations
 
