@@ -18,7 +18,7 @@ import numpy as np
 from measure import Measured, Sizes, median, that_count, timed
 from zlmreport.live.capture.events import Recorded
 from zlmreport.live.capture.follower import Follower
-from zlmreport.live.capture.journal import Journal, captured
+from zlmreport.live.capture.journal import Journal, capture
 from zlmreport.live.capture.records import Header
 from zlmreport.live.capture.visits import Settings, start_of, visit_list
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
@@ -28,7 +28,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.simulation.description import Description
-from zlmreport.model.simulation.simulate import emulated_machine
+from zlmreport.model.simulation.simulate import make_emulated_machine
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.instruments.text_readout import TextDecoder, TextReadoutOptions
 from zlmreport_plugins.instruments.umd import Setup, UmdDecoder
@@ -96,7 +96,7 @@ def _decoded(make: Callable[[], Decoder], sent: bytes) -> int:
 def _latency(runs: int) -> Iterator[Measured]:
     """Yield how soon after the dwell of an axis its reading is on the disk, in real time."""
     plan = Plan(np.linspace(0.0, 0.04, 5), runs=runs, overrun=4e-3, feed=0.1, dwell=0.4)
-    machine = emulated_machine(Description(Axis("X", travel=(0.0, 0.04)), plan, seed=1), 2.0)
+    machine = make_emulated_machine(Description(Axis("X", travel=(0.0, 0.04)), plan, seed=1), 2.0)
     settings = Settings(1e-3, 1e-6, 0.2, 0.04, 0.4)
     instrument = find_plugins().instrument("umd1")
     header = Header(
@@ -117,7 +117,7 @@ def _latency(runs: int) -> Iterator[Measured]:
         options = instrument.options.model_validate({"port": port})
         with instrument.open(options) as connection, Journal.begun(Path(folder) / "j", header) as journal:
             follower = Follower(journal.progress, settings)
-            for event in captured(connection.readings(), follower, journal, lambda moment: moment):
+            for event in capture(connection.readings(), follower, journal, lambda moment: moment):
                 if isinstance(event, Recorded):
                     still = began + float(machine.arrives[event.visit.number - 1]) + settings.dwell
                     late.append((time.monotonic() - still) * 1e3)

@@ -19,7 +19,12 @@ import numpy as np
 
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
-from zlmreport.evaluation.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
+from zlmreport.evaluation.uncertainty.drift import (
+    Drift,
+    compute_reading_times,
+    find_drift_range,
+    sample_drifts,
+)
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
 from zlmreport.language import same
@@ -123,7 +128,7 @@ def held_in(world: World, standard: Any, options: Any, trials: int, simulated: i
     """Return the share of trials in which y ± U holds the true value, by symbol."""
     budget, axis = budget_of(world), true_circle()
     generator = np.random.default_rng(20260304)
-    times = reading_times(axis)
+    times = compute_reading_times(axis)
     angles = axis.target_positions
     path = np.nanmean(axis.deviations(), axis=(0, 2)) / _MICROMETRE
     held: Counter[str] = Counter()
@@ -137,9 +142,9 @@ def held_in(world: World, standard: Any, options: Any, trials: int, simulated: i
             errors += _LENGTH * _MICROMETRE * generator.standard_normal()
         if world.drift:
             (stated,) = budget.acting(Acts.IN_TIME)
-            (drift,) = drawn_drifts(world.drift, times, 1, generator)
+            (drift,) = sample_drifts(world.drift, times, 1, generator)
             side = np.where(truth.approach == Approach.POSITIVE, 0, 1)
-            errors += drift_range(stated) * drift[side, truth.target, truth.run - 1]
+            errors += find_drift_range(stated) * drift[side, truth.target, truth.run - 1]
         step = _STEP * _MICROMETRE
         spoilt = np.round((truth.deviation + errors) / step) * step
         found = evaluate(standard, replace(truth, deviation=spoilt), options, {})

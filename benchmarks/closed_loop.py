@@ -20,8 +20,8 @@ from typing import Any
 from zlmreport.cli import main as zlmreport
 from zlmreport.job.simulation import load_simulation
 from zlmreport.live.emulation.emulator import Scene
-from zlmreport.model.simulation.files import description_of
-from zlmreport.model.simulation.simulate import EmulatedMachine, emulated_machine
+from zlmreport.model.simulation.files import read_description_of
+from zlmreport.model.simulation.simulate import EmulatedMachine, make_emulated_machine
 from zlmreport.plugin.registry import find_plugins
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
@@ -117,8 +117,8 @@ def _captured(job: Path, machine: str) -> None:
     path = job.with_name("machine.yaml")
     path.write_text(machine, encoding="utf-8")
     registry = find_plugins()
-    description = description_of(load_simulation(path, registry), registry.effect)
-    _capture(job, emulated_machine(description, _LEAD))
+    description = read_description_of(load_simulation(path, registry), registry.effect)
+    _capture(job, make_emulated_machine(description, _LEAD))
 
 
 def _capture(job: Path, moving: EmulatedMachine | on_linuxcnc.ScrewDriven) -> None:

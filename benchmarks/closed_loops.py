@@ -16,14 +16,19 @@ from zlmreport.errors import Place
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.compensation.basis import FittedModel, basis_of_means, basis_of_model, with_table
+from zlmreport.model.compensation.basis import (
+    FittedModel,
+    apply_table,
+    make_basis_of_means,
+    make_basis_of_model,
+)
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
-from zlmreport.model.compensation.curve import curve_of
-from zlmreport.model.compensation.forecast import figures
+from zlmreport.model.compensation.curve import make_error_curve
+from zlmreport.model.compensation.forecast import compute_figures
 from zlmreport.model.compensation.making import Made, make
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import fit
-from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.simulation.description import Description, SimulatedNoise
 from zlmreport.model.simulation.simulate import simulate
@@ -88,14 +93,14 @@ def drawn_axis(random: np.random.Generator, registry: Registry) -> Description:
 def table_from(source: str, before: MeasurementSet, terms: tuple[Term, ...], registry: Registry) -> Made:
     """Return the table of a test, by its means or by its model."""
     control = registry.controller("linuxcnc")
-    curve = curve_of(before, _PLACE)
+    curve = make_error_curve(before, _PLACE)
     if source == "means":
-        basis = basis_of_means(curve, before)
+        basis = make_basis_of_means(curve, before)
     else:
-        observed = observations_of(before)
+        observed = make_observations_of(before)
         model = AxisModel(tuple(Term(each.effect) for each in terms))
         fitted = fit(model, observed.design, observed.deviation)
-        basis = basis_of_model(curve, FittedModel(before, observed, fitted))
+        basis = make_basis_of_model(curve, FittedModel(before, observed, fitted))
     return make(basis, before.axis, "LOOP", _PLACE, control, control.options())
 
 
@@ -106,9 +111,9 @@ def loops(source: str, count: int, seed: int = 1) -> Loops:
         axis = drawn_axis(random, registry)
         made = table_from(source, simulate(axis).measurements, axis.effects, registry)
         second = again(axis, int(random.integers(1 << 30)))
-        second = with_table(second, made.decoded.at(second.target_positions))
-        curve = curve_of(second, _PLACE)
-        shown = figures(np.stack([curve.forward, curve.reverse]), curve).in_unit(1.0)
+        second = apply_table(second, made.decoded.at(second.target_positions))
+        curve = make_error_curve(second, _PLACE)
+        shown = compute_figures(np.stack([curve.forward, curve.reverse]), curve).in_unit(1.0)
         found.count += 1
         for symbol, value in shown.items():
             expected = made.forecast.second_test[symbol]

@@ -28,7 +28,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate.document import Certificate, PageWords
 from zlmreport.document.figures.figure import Figure, Panel
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import Span, plain, spans
+from zlmreport.language.formatting import Span, split_spans, write_plain
 
 Content = dict[str, Any]
 
@@ -136,7 +136,7 @@ def _panel(panel: Panel) -> Content:
         ],
         "bands": [
             {
-                "label": plain(band.notation),
+                "label": write_plain(band.notation),
                 "role": band.role.name,
                 "x": band.x.tolist(),
                 "lower": band.lower.tolist(),
@@ -146,7 +146,7 @@ def _panel(panel: Panel) -> Content:
         ],
         "curves": [
             {
-                "label": plain(curve.notation),
+                "label": write_plain(curve.notation),
                 "role": curve.role.name,
                 "x": curve.x.tolist(),
                 "y": curve.y.tolist(),
@@ -154,15 +154,16 @@ def _panel(panel: Panel) -> Content:
             for curve in panel.curves
         ],
         "levels": [
-            {"label": plain(level.notation), "role": level.role.name, "y": level.y} for level in panel.levels
+            {"label": write_plain(level.notation), "role": level.role.name, "y": level.y}
+            for level in panel.levels
         ],
         "arrows": [
-            {"label": plain(arrow.notation), "x": arrow.x, "low": arrow.low, "high": arrow.high}
+            {"label": write_plain(arrow.notation), "x": arrow.x, "low": arrow.low, "high": arrow.high}
             for arrow in panel.arrows
         ],
         "brackets": [
             {
-                "label": plain(bracket.notation),
+                "label": write_plain(bracket.notation),
                 "low": bracket.low,
                 "high": bracket.high,
                 "low_at": bracket.low_at,
@@ -176,7 +177,7 @@ def _panel(panel: Panel) -> Content:
 def _markup(cell: Cell) -> str:
     match cell:
         case Symbol(notation):
-            return "".join(map(_span, spans(notation)))
+            return "".join(map(_span, split_spans(notation)))
         case Verdict(word=word):
             return escape(word)
         case Explained(name, meaning):

@@ -17,10 +17,21 @@ from functools import partial
 import numpy as np
 
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.axis_interval import axis_intervals
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution, effect_along
-from zlmreport.evaluation.uncertainty.drift import Drift, drawn_drifts, drift_range, reading_times
-from zlmreport.evaluation.uncertainty.monte_carlo import propagate, single_draws
+from zlmreport.evaluation.uncertainty.axis_interval import compute_axis_intervals
+from zlmreport.evaluation.uncertainty.budget import (
+    Acts,
+    Budget,
+    Contribution,
+    Distribution,
+    compute_effect_along,
+)
+from zlmreport.evaluation.uncertainty.drift import (
+    Drift,
+    compute_reading_times,
+    find_drift_range,
+    sample_drifts,
+)
+from zlmreport.evaluation.uncertainty.monte_carlo import propagate, sample_singly
 from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.measurement.arrays import FloatArray
@@ -73,20 +84,20 @@ def of_this_test(
     """Return the share of trials in which y ± U holds the true value, by symbol."""
     budget, kind = world
     generator = np.random.default_rng(20260101)
-    times = reading_times(axis)
+    times = compute_reading_times(axis)
     held: Counter[str] = Counter()
     for _ in range(trials):
         truth = replace(axis, deviation=_scattered(axis, generator, np.ones_like(axis.deviation)))
-        errors = single_draws(budget.acting(Acts.AT_EACH_READING), truth.deviation.shape, generator)
-        along = single_draws(budget.acting(Acts.ALONG_THE_LENGTH), (), generator)
-        errors += along * effect_along(truth.target_positions)[truth.target]
+        errors = sample_singly(budget.acting(Acts.AT_EACH_READING), truth.deviation.shape, generator)
+        along = sample_singly(budget.acting(Acts.ALONG_THE_LENGTH), (), generator)
+        errors += along * compute_effect_along(truth.target_positions)[truth.target]
         at_position = budget.acting(Acts.AT_EACH_POSITION)
-        errors += single_draws(at_position, truth.target_positions.shape, generator)[truth.target]
+        errors += sample_singly(at_position, truth.target_positions.shape, generator)[truth.target]
         if kind:
-            (drift,) = drawn_drifts(kind, times, 1, generator)
+            (drift,) = sample_drifts(kind, times, 1, generator)
             (stated,) = budget.acting(Acts.IN_TIME)
             runs = np.searchsorted(truth.runs, truth.run)
-            errors += drift_range(stated) * drift[np.where(truth.approach > 0, 0, 1), truth.target, runs]
+            errors += find_drift_range(stated) * drift[np.where(truth.approach > 0, 0, 1), truth.target, runs]
         found = _evaluated(replace(truth, deviation=truth.deviation + errors), standard)
         true = _evaluated(truth, standard)
         (expanded,) = propagate(budget, [(found, partial(standard.arithmetic, options=Options()))], simulated)
@@ -135,7 +146,7 @@ def of_this_axis(scatter: str, axis: MeasurementSet, standard: Standard, trials:
             _evaluated(replace(axis, deviation=_scattered(axis, generator, sizes, of_runs)), standard)
             for _ in range(2)
         )
-        (intervals,) = axis_intervals([(first, partial(standard.arithmetic, options=Options()))])
+        (intervals,) = compute_axis_intervals([(first, partial(standard.arithmetic, options=Options()))])
         for symbol, (low, high) in intervals.items():
             held[symbol] += low <= (second.value(symbol) or 0.0) <= high
     return {symbol: count / trials for symbol, count in held.items()}

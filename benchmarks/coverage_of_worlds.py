@@ -23,11 +23,11 @@ import numpy as np
 import yaml
 
 from zlmreport import pipeline
-from zlmreport.evaluation.correction.corrections import corrected, corrections_of
+from zlmreport.evaluation.correction.corrections import correct, find_corrections_of
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.budget import Budget
-from zlmreport.evaluation.uncertainty.expanded import with_uncertainty
-from zlmreport.evaluation.uncertainty.job_budget import budget_of
+from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
+from zlmreport.evaluation.uncertainty.job_budget import make_budget_of
 from zlmreport.job.loading import load
 from zlmreport.job.types import Options
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -199,18 +199,18 @@ def measured(
         return evaluate(standard, measurements, Options(), {})
 
     def as_stated(shown: MeasurementSet) -> MeasurementSet:
-        corrections = corrections_of(job, shown)
-        return corrected(shown, corrections) if corrections else shown
+        corrections = find_corrections_of(job, shown)
+        return correct(shown, corrections) if corrections else shown
 
     for _ in range(tests):
         axis = Axis(world, frame, generator)
         truth, shown = axis.tested()
         stated = as_stated(shown)
-        budget = budget_of(job, stated)
+        budget = make_budget_of(job, stated)
         assert isinstance(budget, Budget)
         assert budget.is_complete, budget.missing
         arithmetic = partial(standard.arithmetic, options=Options())
-        (found,) = with_uncertainty([(evaluated(stated), arithmetic)], budget, simulated)
+        (found,) = add_uncertainty([(evaluated(stated), arithmetic)], budget, simulated)
         true, again = evaluated(truth), evaluated(as_stated(axis.tested()[1]))
         for each in found.parameters:
             symbol = each.quantity.symbol

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import date, timedelta
 
-from zlmreport.fleet.drifts import Trend, trends
+from zlmreport.fleet.drifts import Trend, judge_trends
 from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State
 from zlmreport.fleet.trend import Calibration, Series
 
@@ -74,7 +74,7 @@ def histories(
 def nights(values: Sequence[Sequence[float]]) -> Iterator[tuple[int, tuple[Trend, ...]]]:
     """Yield what is named after each test, with the number of the test, counted from zero."""
     for test in range(1, len(values[0])):
-        yield test, trends(series(axis, each[: test + 1]) for axis, each in enumerate(values))
+        yield test, judge_trends(series(axis, each[: test + 1]) for axis, each in enumerate(values))
 
 
 def is_alarm(trend: Trend) -> bool:
@@ -132,10 +132,10 @@ def night(name: str, before: int, fleets: int, axes: int, seed: int) -> Night:
     for _ in range(fleets):
         scatters = [SCATTERS[name](rng) for _ in range(axes)]
         values = histories(rng, scatters, before + 1)
-        calm = trends(series(axis, each) for axis, each in enumerate(values))
+        calm = judge_trends(series(axis, each) for axis, each in enumerate(values))
         named.append(sum(map(is_alarm, calm)))
         most = max(each for each in scatters if each <= _SCATTER_AT_MOST)
-        printed = trends(series(axis, each[:-1]) for axis, each in enumerate(values))
+        printed = judge_trends(series(axis, each[:-1]) for axis, each in enumerate(values))
         third = _stepped(values, [_THIRD] * axes)
         seen += [
             third[axis] for axis in range(0, axes, _STEPPING) if _NEARLY * most <= scatters[axis] <= most
@@ -168,7 +168,10 @@ def _stepped(values: Sequence[Sequence[float]], steps: Sequence[float]) -> list[
         [*each[:-1], each[-1] + (0.0 if axis % _STEPPING else step)]
         for axis, (each, step) in enumerate(zip(values, steps, strict=True))
     ]
-    return [each.step is not None for each in trends(series(axis, each) for axis, each in enumerate(changed))]
+    return [
+        each.step is not None
+        for each in judge_trends(series(axis, each) for axis, each in enumerate(changed))
+    ]
 
 
 @dataclass(slots=True)
@@ -240,7 +243,7 @@ def found(drift: float, tests: int, fleets: int, seed: int) -> float:
         ]
         drifting = histories(rng, [0.02], tests, lambda test: 0.02 * drift * test)[0]
         fleet[1] = series(0, drifting, "P1", limited=False)
-        named += trends(fleet)[1].drifts
+        named += judge_trends(fleet)[1].drifts
     return named / fleets
 
 

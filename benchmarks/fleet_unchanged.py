@@ -25,7 +25,7 @@ from sqlalchemy.engine import Engine
 
 import report
 from measure import Measured
-from zlmreport.fleet.basis import FileStamp, KnownFile, path_in, sha256_of
+from zlmreport.fleet.basis import FileStamp, KnownFile, compute_sha256, write_path_in
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.job.fleet import load_fleet
 
@@ -119,7 +119,7 @@ def _seed(folder: Path, numbers: Iterable[int]) -> None:
                 path.write_bytes(content)
                 own = KnownFile(".csv", "", "")
                 entry = replace(
-                    first, job=path_in(folder, job), number=number, machine=f"HMC 500 {each // 3}"
+                    first, job=write_path_in(folder, job), number=number, machine=f"HMC 500 {each // 3}"
                 )
                 night.issue(
                     replace(entry, files=(str(path.relative_to(fleet.output)),)),
@@ -130,7 +130,7 @@ def _seed(folder: Path, numbers: Iterable[int]) -> None:
 
 
 def _known(file: KnownFile, path: Path, folder: Path) -> KnownFile:
-    return KnownFile(file.role, path_in(folder, path), sha256_of(path), FileStamp.at(path))
+    return KnownFile(file.role, write_path_in(folder, path), compute_sha256(path), FileStamp.at(path))
 
 
 def _not_durable(connection: Any, _record: Any) -> None:

@@ -32,10 +32,10 @@ from machines.simulated import (
     with_lost_motion,
     with_play,
 )
-from zlmreport.machines.choosing import study_of
+from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import diagnose
-from zlmreport.machines.residual import centred, root_mean_square
+from zlmreport.machines.residual import centre, compute_root_mean_square
 from zlmreport.plugin.registry import find_plugins
 
 NOISE = 0.7e-6  # m, root mean square of what scatters
@@ -181,7 +181,7 @@ def _sized(
     only = circle(move, seed=seed, senses=senses, noise=0.0, first=first)
     none = circle(nothing, seed=seed, senses=senses, noise=0.0, first=first)
     shape = only.deviation - none.deviation
-    size = rho * NOISE / root_mean_square(centred(plain, shape))
+    size = rho * NOISE / compute_root_mean_square(centre(plain, shape))
     return size * shape, size, plain
 
 
@@ -198,7 +198,7 @@ def run(case: Case) -> Case:
         seen = replace(seen, angle=seen.angle + np.where(seen.sense > 0, 1.0, -1.0) * np.radians(2.0))
     registry = find_plugins()
     base = [registry.circle_effect(name) for name in BASE]
-    found = diagnose(study_of(bare_machine(), [seen], base), registry.circle_effects)
+    found = diagnose(study_circles(bare_machine(), [seen], base), registry.circle_effects)
     case.verdict, case.named = found.verdict.value, list(found.found)
     if found.candidates:
         case.first = found.candidates[0].effect.identifier

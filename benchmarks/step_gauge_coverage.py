@@ -21,25 +21,25 @@ from zlmreport.evaluation.uncertainty.budget import (
     Budget,
     Contribution,
     Distribution,
+    compute_temperature_range,
     from_range,
-    temperature_range,
 )
-from zlmreport.evaluation.uncertainty.expanded import mean_uncertainty
+from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.measurement.arrays import BoolArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_step_gauge.calibration import read_calibration, section
-from zlmreport_step_gauge.deviations import deviations_of
+from zlmreport_step_gauge.calibration import cut_section, read_calibration
+from zlmreport_step_gauge.deviations import compute_deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import locate
-from zlmreport_step_gauge.measurements import Targets, measurement_set
-from zlmreport_step_gauge.probed import ProbedPoint, gridded
+from zlmreport_step_gauge.measurements import Targets, make_measurement_set
+from zlmreport_step_gauge.probed import ProbedPoint, arrange_on_grid
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
-from zlmreport_step_gauge.uncertainty import gauge_contributions
+from zlmreport_step_gauge.uncertainty import list_gauge_contributions
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 from step_gauge.simulated_cmm import MachineErrors, Simulated, SimulatedTest, simulate
@@ -59,7 +59,7 @@ RADIUS, TOUCH, POINT = 0.2e-6, 0.3e-6, 2e-6
 DIFFERENCE, RANGE = 0.4, 0.2
 
 _STANDARD = find_plugins().standard("step-gauge")
-_GAUGE = section(read_calibration(GAUGE).gauge, 2, 13, HERE)
+_GAUGE = cut_section(read_calibration(GAUGE).gauge, 2, 13, HERE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,9 +108,9 @@ def _trial(generator: np.random.Generator, radius_is_determined: bool) -> BoolAr
         stated = StatedRadius(test.effective_radius + generator.normal(0.0, RADIUS), RADIUS)
     set_up = _set_up(test, simulated, stated)
     measurements = _measured(simulated, set_up)
-    budget = Budget((*gauge_contributions(set_up, measurements), _temperature(_GAUGE)))
+    budget = Budget((*list_gauge_contributions(set_up, measurements), _temperature(_GAUGE)))
     evaluation = evaluate(_STANDARD, measurements, Options(), {})
-    expanded = np.nanmax(mean_uncertainty(evaluation, budget).by_approach, axis=0)
+    expanded = np.nanmax(compute_mean_uncertainty(evaluation, budget).by_approach, axis=0)
     found = np.nansum(evaluation.statistics.mean, axis=0)
     held: BoolArray = np.abs(found - simulated.truth)[1:] <= expanded[1:]
     return held
@@ -138,10 +138,10 @@ def _measured(simulated: Simulated, set_up: GaugeSetUp) -> MeasurementSet:
         for face, of_face in zip(set_up.gauge.faces, simulated.coordinates, strict=True)
         for cycle, point in enumerate(of_face)
     ]
-    probed = gridded(points, set_up.gauge, tuple(Side), place=HERE)
-    return measurement_set(
+    probed = arrange_on_grid(points, set_up.gauge, tuple(Side), place=HERE)
+    return make_measurement_set(
         probed,
-        deviations_of(probed, set_up, HERE, is_corrected=False),
+        compute_deviations_of(probed, set_up, HERE, is_corrected=False),
         set_up,
         Axis("line"),
         targets=Targets.FACES,
@@ -155,7 +155,7 @@ def _measured(simulated: Simulated, set_up: GaugeSetUp) -> MeasurementSet:
 def _temperature(gauge: StepGauge) -> Contribution:
     """Return the contribution that a job states as uncertainty.device_temperature."""
     length = gauge.faces[-1].nominal - gauge.faces[0].nominal
-    full_range = temperature_range(gauge.expansion_coefficient or 0.0, length, RANGE)
+    full_range = compute_temperature_range(gauge.expansion_coefficient or 0.0, length, RANGE)
     size = from_range(full_range, Distribution.RECTANGULAR)
     return Contribution(
         same("temperature"), size, Acts.ALONG_THE_LENGTH, Distribution.RECTANGULAR, same(""), same("")

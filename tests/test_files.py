@@ -10,7 +10,7 @@ import pytest
 
 from environments import ROOT
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.files import Document, rewrite, sync_folder, write, write_new
+from zlmreport.files import Document, push_folder, rewrite, write, write_new
 
 #: Where a file is opened for writing beside `files.py`, and why it may be.
 EXCEPTIONS = {
@@ -130,7 +130,7 @@ def test_a_disk_that_pushes_no_folders_is_good_enough(tmp_path, monkeypatch):
         raise OSError(errno.EINVAL, "Invalid argument")
 
     monkeypatch.setattr(os, "fsync", unknown)
-    sync_folder(tmp_path)
+    push_folder(tmp_path)
 
 
 def test_no_other_module_opens_a_file_to_write_it():

@@ -14,7 +14,7 @@ from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.measurement.units import ZERO_CELSIUS
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
-from zlmreport.model.planning.targets import target_positions
+from zlmreport.model.planning.targets import compute_target_positions
 from zlmreport.model.simulation.description import ConditionCourse, Description
 
 _TABLE_ROWS = 21
@@ -49,7 +49,7 @@ def drawn_linear_test(
         angular_errors=_smooth_table(random, travel, 20e-6),
     )
     plan = Plan(
-        target_positions(travel, targets, pitch, random),
+        compute_target_positions(travel, targets, pitch, random),
         method,
         runs,
         overrun=float(random.uniform(*_OVERRUN)),
@@ -77,7 +77,7 @@ def drawn_rotary_test(
     pitch = travel[1] / int(random.integers(36, 181))
     axis = Axis("C", AxisKind.ROTARY, travel, screw_pitch=pitch, signal_period=travel[1] / 18_000)
     plan = Plan(
-        target_positions(travel, targets, pitch, random),
+        compute_target_positions(travel, targets, pitch, random),
         method,
         runs,
         overrun=float(random.uniform(0.5, 3.0)) * _DEGREE,

@@ -23,12 +23,12 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import observations_of
-from zlmreport.model.fitting.sessions import held_together, with_zeros
-from zlmreport.model.planning.deciding import question_of_tie
-from zlmreport.model.planning.experiment import Experiment, next_experiment
+from zlmreport.model.fitting.observations import make_observations_of
+from zlmreport.model.fitting.sessions import add_zeros, hold_together
+from zlmreport.model.planning.deciding import find_question_of_tie
+from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
 from zlmreport.model.planning.plan import ExpectedTest, Plan
-from zlmreport.model.simulation.description import SimulatedNoise, noise_of
+from zlmreport.model.simulation.description import SimulatedNoise, sample_noise_of
 
 #: Targets and runs of tests that leave ties.
 _TARGETS, _RUNS = (7, 9, 11, 15), (2, 3, 4)
@@ -59,17 +59,17 @@ def judged(case: Case) -> Record:
     started = time.process_time()
     try:
         first = diagnose(
-            trial.model, observations_of(trial.first.measurements, overrun=plan.overrun), INSTALLED
+            trial.model, make_observations_of(trial.first.measurements, overrun=plan.overrun), INSTALLED
         )
     except ModelError as error:
         return named(case) | {"outcome": "refused", "message": str(error)}
     diagnosed = time.process_time()
-    question = question_of_tie(first)
+    question = find_question_of_tie(first)
     if question is None or first.verdict is not Verdict.MISSING or case.hidden[0] not in question.names:
         return named(case) | {"outcome": "no tie with the truth in it"}
     rise = float(np.ptp(first.fit.design.conditions["axis_temperature"]))
     expected = ExpectedTest(question.sigma, rise)
-    advice = next_experiment(question, plan, expected, INSTALLED, trial.description.seed)
+    advice = plan_next_experiment(question, plan, expected, INSTALLED, trial.description.seed)
     found = named(case) | {"outcome": "judged", "tied": list(question.names), "decides": advice.decides}
     found |= {"diagnosis": diagnosed - started, "experiment": time.process_time() - diagnosed}
     if advice.plan is None:
@@ -87,12 +87,12 @@ def _followed(trial: Trial, advice: Experiment, plan: Plan, expected: Design) ->
         [term.columns(design, term.grid(design)[0])[0] for term in trial.model.terms], axis=1
     )
     again = _measured_again(trial, plan, design, base @ trial.coefficients)
-    observed = observations_of(again.measurements, overrun=plan.overrun)
+    observed = make_observations_of(again.measurements, overrun=plan.overrun)
     try:
         if plan.after:
-            first = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
-            observed = held_together(observed, [("the first", first)])
-        said = diagnose(with_zeros(trial.model, observed.design), observed, INSTALLED)
+            first = make_observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
+            observed = hold_together(observed, [("the first", first)])
+        said = diagnose(add_zeros(trial.model, observed.design), observed, INSTALLED)
     except ModelError as error:
         return {"decision": "refused", "message": str(error)}
     leading = said.candidates[:1] if said.verdict is Verdict.MISSING else ()
@@ -111,7 +111,7 @@ def _measured_again(trial: Trial, plan: Plan, design: Design, known: FloatArray)
     geometry = SimulatedNoise(
         0.0, position=noise.position, position_and_direction=noise.position_and_direction
     )
-    irregular = noise_of(geometry, design, first.seed if stays else seed)
+    irregular = sample_noise_of(geometry, design, first.seed if stays else seed)
     description = replace(
         first,
         plan=plan,

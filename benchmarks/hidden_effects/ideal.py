@@ -20,7 +20,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.simulation.simulate import deviation_by
+from zlmreport.model.simulation.simulate import compute_deviation_by
 
 #: Standard deviations of noise that the difference of two criteria must have at least, and the difference
 #: that it must have where both describe the readings alike: then the one with fewer parameters is told.
@@ -76,7 +76,7 @@ def _is_told_apart(
 
     What they explain differs by d on the average and by 2·√d at random, in units of σ².
     """
-    deviation = deviation_by(cause.effect, design, cause.fixed)
+    deviation = compute_deviation_by(cause.effect, design, cause.fixed)
     squares = float(np.sum(beyond(base, deviation[:, np.newaxis]) ** 2)) / sigma**2
     linear = _linear(cause, design)
     rank = int(np.linalg.matrix_rank(beyond(base, linear), tol=_SEEN * float(np.linalg.norm(linear))))

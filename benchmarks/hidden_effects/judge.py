@@ -12,7 +12,7 @@ from hidden_effects.trial import EFFECTS, Trial, drawn_trial
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
-from zlmreport.model.fitting.observations import Observations, observations_of
+from zlmreport.model.fitting.observations import Observations, make_observations_of
 
 INSTALLED = tuple(EFFECTS.values())
 #: Effects that a user who believes the first candidate would add to find a pair, and one more.
@@ -37,7 +37,7 @@ def judged(
     if trial is None:
         return record | {"outcome": "not visible"}
     started = time.process_time()
-    observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
+    observed = make_observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
     try:
         diagnosis = diagnose(trial.model, observed, INSTALLED)
     except ModelError as error:

@@ -19,8 +19,8 @@ from hidden_effects.trial import ROTARY, drawn_trial
 from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.fitting.fit import Fit, fit
-from zlmreport.model.fitting.observations import observations_of
-from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learned
+from zlmreport.model.fitting.observations import make_observations_of
+from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learn_priors
 from zlmreport.model.planning.methods import Method
 
 _EARLIER, _MACHINES = 10, 20
@@ -42,7 +42,7 @@ def judged(case: Case) -> Record:
     trial = drawn_trial(case)
     if trial is None:
         return named(case) | {"outcome": "not visible"}
-    observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
+    observed = make_observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
     machine = int(case.random().integers(_MACHINES))
     expected = _taught(machine, is_rotary=bool(ROTARY.intersection(case.hidden)))
     found = named(case) | {"outcome": "judged", "twins": sorted(trial.twins)}
@@ -68,7 +68,8 @@ def _taught(machine: int, *, is_rotary: bool) -> PriorExpectation:
         _earlier(_FIRST_EARLIER + _EARLIER * machine + each, is_rotary=is_rotary) for each in range(_EARLIER)
     ]
     return PriorExpectation.of(
-        learned([Lesson.of(each) for each in fits]).model_copy(update={"effects": {}}), fits[0].design.axis
+        learn_priors([Lesson.of(each) for each in fits]).model_copy(update={"effects": {}}),
+        fits[0].design.axis,
     )
 
 
@@ -81,7 +82,7 @@ def _earlier(draw: int, *, is_rotary: bool) -> Fit:
     model = trial.model
     for term in trial.effects:
         model = model.with_effect(term.effect)
-    observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
+    observed = make_observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
     return fit(model, observed.design, observed.deviation)
 
 

@@ -18,7 +18,7 @@ from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import Fit, fit
-from zlmreport.model.fitting.observations import Observations, observations_of
+from zlmreport.model.fitting.observations import Observations, make_observations_of
 
 
 def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
@@ -47,7 +47,7 @@ def errors(trial: Trial, diagnosis: Diagnosis) -> dict[str, float]:
 
 def seen_again(trial: Trial, again: Measured) -> Observations:
     """Return the second test as a model is asked about it: with the travel of the first."""
-    seen = observations_of(again.measurements, overrun=trial.description.plan.overrun)
+    seen = make_observations_of(again.measurements, overrun=trial.description.plan.overrun)
     return replace(seen, design=replace(seen.design, span=trial.first.design.span))
 
 

@@ -28,10 +28,10 @@ from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import Observations, observations_of
+from zlmreport.model.fitting.observations import Observations, make_observations_of
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import SimulatedNoise
-from zlmreport.model.simulation.simulate import design_of
+from zlmreport.model.simulation.simulate import make_design_of
 
 _SIGMAS = (0.05, 0.3, 0.8, 3.0)  # µm; on a rotary axis as many µm at a radius of one metre
 _SIZES = (1.5, 4.0)  # in σ
@@ -104,7 +104,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
     description = draw(random, method, 21, int(random.choice(_RUNS)))
     sigma = float(MICROMETRE.to_si(_SIGMAS[number % len(_SIGMAS)]))
     description = replace(description, noise=SimulatedNoise(reading=sigma))
-    design = wandering(design_of(description), random)
+    design = wandering(make_design_of(description), random)
     base = base_columns([EFFECTS["offset"]], design)
     causes: list[Term] = []
     for name in random.permutation(sorted(EFFECTS.keys() - _NOT_DRAWN)).tolist():
@@ -123,7 +123,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
                 stranger, deviation = name, deviation + drawn[1]
                 break
     readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
-    observed = observations_of(readings, overrun=description.plan.overrun)
+    observed = make_observations_of(readings, overrun=description.plan.overrun)
     return Drawn(
         tuple(sorted(each.effect.identifier for each in causes)),
         frozenset(_told_apart(causes, stranger, design, sigma)),

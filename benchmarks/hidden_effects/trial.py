@@ -22,9 +22,9 @@ from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.targets import target_positions
+from zlmreport.model.planning.targets import compute_target_positions
 from zlmreport.model.simulation.description import Description, SimulatedNoise
-from zlmreport.model.simulation.simulate import design_of, deviation_by, observed
+from zlmreport.model.simulation.simulate import compute_deviation_by, make_design_of, observe
 from zlmreport_plugins.effects import zlmreport_effects
 
 #: σ, the repeatability of a single reading, µm or ″.
@@ -161,7 +161,7 @@ class Trial:
         first, last = self.first.design.span
         plan, axis = self.description.plan, self.description.axis
         assert axis.travel is not None  # every drawn axis has one
-        targets = target_positions(axis.travel, len(plan.targets), axis.screw_pitch or 0.0, random)
+        targets = compute_target_positions(axis.travel, len(plan.targets), axis.screw_pitch or 0.0, random)
         plan = replace(plan, targets=read_only_floats(np.clip(targets, first, last)))
         another = _drawn_test(self.case, random)
         description = replace(self.description, plan=plan, seed=another.seed, conditions=another.conditions)
@@ -247,7 +247,7 @@ def _model(case: Case) -> AxisModel:
 
 
 def _design(case: Case, description: Description, random: np.random.Generator) -> Design:
-    design = wandering(design_of(description), random)
+    design = wandering(make_design_of(description), random)
     if not OF_A_GAUGE.intersection(case.hidden):
         return design
     # In both directions the probe touches the face that it meets; in one it reaches over every second block.
@@ -258,7 +258,7 @@ def _design(case: Case, description: Description, random: np.random.Generator) -
 
 def measured(description: Description, design: Design, known: FloatArray, hidden: FloatArray) -> Measured:
     """Return what an instrument gives of two deviations, with the face that a probe touched."""
-    measurements = observed(description, design, known + hidden)
+    measurements = observe(description, design, known + hidden)
     if "face" in design.conditions:
         logged = {**measurements.conditions, "face": design.conditions["face"]}
         measurements = replace(measurements, conditions=logged)
@@ -267,7 +267,7 @@ def measured(description: Description, design: Design, known: FloatArray, hidden
 
 def sum_of(effects: Sequence[Term], design: Design) -> FloatArray:
     """Return the deviation that effects with their values make, shape (N,), m or rad."""
-    deviations = [deviation_by(each.effect, design, each.fixed) for each in effects]
+    deviations = [compute_deviation_by(each.effect, design, each.fixed) for each in effects]
     return np.sum(deviations, axis=0) if deviations else np.zeros(len(design.position))
 
 

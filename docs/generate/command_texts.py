@@ -15,7 +15,7 @@ from zlmreport.cli import arguments
 
 def text() -> str:
     """Return a section for each command."""
-    return "\n\n".join(part for parser in arguments.parsers() for part in _section(parser))
+    return "\n\n".join(part for parser in arguments.make_parsers() for part in _section(parser))
 
 
 def arguments_of(parser: argparse.ArgumentParser) -> list[tuple[str, str]]:

@@ -9,13 +9,13 @@ from dataclasses import replace
 import numpy as np
 from markdown import code, symbol, table
 
-from zlmreport.job.types import keys_in
+from zlmreport.job.types import list_keys_in
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect, Parameter, Shape, unit_of
-from zlmreport.model.effects.sizes import usual_range
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.effects.effect import Effect, Parameter, Shape, find_unit_of
+from zlmreport.model.effects.sizes import find_usual_range
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport.plugin.kinds import EFFECT
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import full_designs
@@ -70,7 +70,7 @@ def _section(effect: Effect) -> Iterator[str]:
         yield f"**Known.** {effect.source.in_language(_EN)}."
     if effect.several:
         yield f"A model may hold several: the second is {code(f'{effect.identifier}-2')}."
-    keys = keys_in(effect.options)
+    keys = list_keys_in(effect.options)
     if keys:
         yield "Its key in a job:"
         yield "\n".join(f"- {code(name)}: {field.description}" for name, field in keys.items())
@@ -111,7 +111,7 @@ def _parameters(effect: Effect) -> Iterator[tuple[str, ...]]:
 
 def _described(effect: Effect, parameter: Parameter) -> tuple[str, ...]:
     usual = "; ".join(
-        dict.fromkeys(_range(parameter, kind, *usual_range(parameter, kind)) for kind in _kinds(effect))
+        dict.fromkeys(_range(parameter, kind, *find_usual_range(parameter, kind)) for kind in _kinds(effect))
         if parameter.usual
         else ()
     )
@@ -131,7 +131,7 @@ def _sizes(effect: Effect) -> Iterator[str]:
     """Yield the names that values have, what is asked of others, and what physics excludes."""
     kind = _kinds(effect)[0]
     for each in _all(effect):
-        unit = unit_of(each.dimension, kind)
+        unit = find_unit_of(each.dimension, kind)
         for named in each.named:
             ends = " to ".join(_number(end * unit.per_si) for end in (named.low, named.high))
             said = named.says.in_language(_EN)
@@ -146,7 +146,7 @@ def _sizes(effect: Effect) -> Iterator[str]:
 
 
 def _range(parameter: Parameter, kind: AxisKind, smallest: float | None, largest: float | None) -> str:
-    unit = unit_of(parameter.dimension, kind)
+    unit = find_unit_of(parameter.dimension, kind)
     low, high = (None if bound is None else _number(bound * unit.per_si) for bound in (smallest, largest))
     if low is None and high is None:
         return f"any, {unit.symbol}" if unit.symbol else "any"
@@ -209,7 +209,7 @@ def _poorer(full: Design) -> Iterator[Design]:
         full.run == full.run[0],
         full.target == full.target[0],
     ):
-        yield of_readings(full, np.flatnonzero(kept))
+        yield select_readings(full, np.flatnonzero(kept))
     yield replace(full, time=np.zeros_like(full.time))
     first = float(full.position.min())
     yield replace(full, span=(first, first + _MICROMETRE))
@@ -232,7 +232,7 @@ def _without_keys(full: Design) -> Iterator[Design]:
 
 def _settings(effect: Effect) -> str:
     settings = effect.settings
-    return ", ".join(f"{name}: {_listed(getattr(settings, name))}" for name in keys_in(effect.options))
+    return ", ".join(f"{name}: {_listed(getattr(settings, name))}" for name in list_keys_in(effect.options))
 
 
 def _listed(value: object) -> str:

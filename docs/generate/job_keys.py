@@ -23,8 +23,8 @@ from zlmreport.job.formula_keys import (
     Possible,
 )
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.schema import job_schema
-from zlmreport.job.types import Options, field_at
+from zlmreport.job.schema import make_job_schema
+from zlmreport.job.types import Options, find_field_at
 from zlmreport.language import Language
 from zlmreport.machines.keys import MachineKeys
 from zlmreport.plugin.protocols import PartProgram
@@ -44,7 +44,7 @@ def job_text() -> str:
 
 def schema_text() -> str:
     """Return the JSON Schema of the job file with the keys of all plugins that come with the program."""
-    return f"{json.dumps(job_schema(find_plugins()), indent=1, ensure_ascii=False)}\n"
+    return f"{json.dumps(make_job_schema(find_plugins()), indent=1, ensure_ascii=False)}\n"
 
 
 def fleet_text() -> str:
@@ -157,7 +157,7 @@ def _rows(
     """Yield a row for each key of a group, and the rows of the groups in it."""
     for key, described in group.get("properties", {}).items():
         here = (*path, key)
-        field = field_at(model, here)
+        field = find_field_at(model, here)
         assert field, f"{here} is in the schema and not in the model"  # noqa: S101 - of this script itself
         inner = _group_in(described, definitions)
         meaning = field.description or (inner or {}).get("description", "")

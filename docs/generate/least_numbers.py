@@ -8,7 +8,7 @@ from markdown import table
 
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurand import measurands_of
+from zlmreport.measurement.measurand import list_measurands_of
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard
 from zlmreport.plugin.registry import find_plugins
@@ -27,7 +27,7 @@ def text() -> str:
     """Return a row for each standard; editions that ask the same share one."""
     rows: dict[tuple[str, ...], list[str]] = {}
     for standard in find_plugins().standards:
-        if all(each.is_continuous for each in measurands_of(standard)):
+        if all(each.is_continuous for each in list_measurands_of(standard)):
             continue
         asked = [_targets(standard, _linear(length), length) for length in _LENGTHS]
         asked.append(_targets(standard, Axis("C", AxisKind.ROTARY, travel=(0.0, 2 * math.pi)), _WHOLE_TURN))

@@ -13,7 +13,7 @@ from zlmreport.cli import arguments
 
 def text() -> str:
     """Return the manual page as groff reads it."""
-    main, *commands = arguments.parsers()
+    main, *commands = arguments.make_parsers()
     return "\n".join(
         (
             '.TH ZLMREPORT 1 "" zlmreport',

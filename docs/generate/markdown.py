@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from zlmreport.language.formatting import spans
+from zlmreport.language.formatting import split_spans
 
 
 def table(heading: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
@@ -19,7 +19,7 @@ def symbol(notation: str) -> str:
         f"<sub>{_set(span.text, italic=span.italic)}</sub>"
         if span.subscript
         else _set(span.text, italic=span.italic)
-        for span in spans(notation)
+        for span in split_spans(notation)
     )
 
 

@@ -11,12 +11,12 @@ from markdown import code, table
 from zlmreport import pipeline
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.job.loading import load
-from zlmreport.language.formatting import fixed_number
+from zlmreport.language.formatting import write_fixed_number
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.planned_test import PlannedTest, planned_test
+from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
 from zlmreport.plugin.registry import find_plugins
 
 _JOB = """\
@@ -59,14 +59,14 @@ def _drift_row(method: Method) -> list[str]:
     values = _parameters_of_drift(planned)
     return [
         method.value,
-        fixed_number(planned.travelled, 1),
-        fixed_number(planned.duration / 60, 0),
+        write_fixed_number(planned.travelled, 1),
+        write_fixed_number(planned.duration / 60, 0),
         *(_micrometres(values.get(symbol, values.get(f"{symbol}_fwd"))) for symbol in _PARAMETERS),
     ]
 
 
 def _micrometres(value: float | None) -> str:
-    return _NOT_DEFINED if value is None else fixed_number(value * 1e6, 1)
+    return _NOT_DEFINED if value is None else write_fixed_number(value * 1e6, 1)
 
 
 def _parameters_of_drift(planned: PlannedTest) -> dict[str, float]:
@@ -87,7 +87,7 @@ def _parameters_of_drift(planned: PlannedTest) -> dict[str, float]:
 def _share(method: Method, effect: str) -> str:
     for seen in _foreseen(method).seen_effects:
         if seen.effect.identifier == effect and seen.visibility.reason is None:
-            return f"{fixed_number(100 * seen.visibility.share, 0)} %"
+            return f"{write_fixed_number(100 * seen.visibility.share, 0)} %"
     return _NOT_DEFINED
 
 
@@ -95,4 +95,4 @@ def _share(method: Method, effect: str) -> str:
 def _foreseen(method: Method) -> PlannedTest:
     registry = find_plugins()
     job = load(Path("job.yaml"), registry, content=_JOB.format(method=method.value).encode())
-    return planned_test(job, pipeline.standards(job, registry), registry.effects)
+    return describe_planned_test(job, pipeline.choose_standards(job, registry), registry.effects)

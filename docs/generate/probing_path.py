@@ -8,8 +8,8 @@ from pathlib import Path
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_step_gauge.paths.foretold import path_svg
-from zlmreport_step_gauge.paths.plan import path_of_job
+from zlmreport_step_gauge.paths.foretold import draw_path
+from zlmreport_step_gauge.paths.plan import plan_path_of_job
 
 _JOB = Path(__file__).parents[2] / "configs" / "step-gauge" / "job.yaml"
 
@@ -17,5 +17,5 @@ _JOB = Path(__file__).parents[2] / "configs" / "step-gauge" / "job.yaml"
 def pictures() -> Mapping[str, str]:
     """Return the picture by the name of its file."""
     job = load(_JOB, find_plugins())
-    planned = path_of_job(job, job.own_keys("step_gauge"))
-    return {"probing-path.svg": path_svg(planned, Language.ENGLISH)}
+    planned = plan_path_of_job(job, job.own_keys("step_gauge"))
+    return {"probing-path.svg": draw_path(planned, Language.ENGLISH)}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from zlmreport.document.figures.draw import to_svg
-from zlmreport.document.figures.sequence import sequence
+from zlmreport.document.figures.sequence import draw_sequence
 from zlmreport.language import Language
 from zlmreport.model.planning.methods import Method
 from zlmreport.testing import sample_motion
@@ -19,7 +19,8 @@ def pictures() -> Mapping[str, str]:
     """Return the picture of each method by the name of its file."""
     return {
         f"sequence-{method.value}.svg": to_svg(
-            sequence(sample_motion(method, targets=_TARGETS, runs=_RUNS, overrun=_OVERRUN)), Language.ENGLISH
+            draw_sequence(sample_motion(method, targets=_TARGETS, runs=_RUNS, overrun=_OVERRUN)),
+            Language.ENGLISH,
         )
         for method in Method
     }

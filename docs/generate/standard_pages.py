@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from markdown import code, symbol, table
 
 from zlmreport.evaluation.evaluation import Basis, Group
-from zlmreport.job.installed import adoptions_of
+from zlmreport.job.installed import list_adoptions_of
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.plugin.kinds import STANDARD
@@ -50,7 +50,7 @@ def text() -> str:
 def _section(standard: Standard) -> Iterator[str]:
     yield f"### {standard.designation}"
     title = standard.title
-    names = " or ".join(code(each) for each in (standard.identifier, *adoptions_of(standard)))
+    names = " or ".join(code(each) for each in (standard.identifier, *list_adoptions_of(standard)))
     yield f"In jobs: {names}. {title.in_language(_EN)} ({title.in_language(_DE)})."
     yield table(
         ("Result", "Printed", "English", "German", "Kind", "Formula"),

@@ -65,18 +65,18 @@ class Mail:
         mail["Subject"], mail["From"], mail["To"] = message.title, options.sender, self.receiver(options)
         mail.set_content(message.text)
         try:
-            with _opened(options) as server:
+            with _open_line(options) as server:
                 if options.security == "starttls":
                     server.starttls(context=ssl.create_default_context())
                 if options.user:
-                    server.login(options.user, _secret(options.secret))
+                    server.login(options.user, _read_secret(options.secret))
                 server.send_message(mail)
         except (OSError, smtplib.SMTPException) as error:
             where = Place(f"mail by {options.server}")
             raise AccessError.at(where, str(error) or type(error).__name__) from error
 
 
-def _opened(options: MailOptions) -> smtplib.SMTP:
+def _open_line(options: MailOptions) -> smtplib.SMTP:
     """Return the line to the server; without a context the library takes any server's certificate."""
     if options.security == "tls":
         return smtplib.SMTP_SSL(
@@ -114,13 +114,13 @@ class Apprise:
         except ImportError as error:
             raise AccessError.at(where, "is not installed: pip install 'zlmreport[notify]'") from error
         sender = Sender()
-        if not sender.add(_secret(options.secret)):
+        if not sender.add(_read_secret(options.secret)):
             raise AccessError.at(where, f"{options.secret} holds no address that it knows")
         if not sender.notify(body=message.text, title=message.title):
             raise AccessError.at(where, f"nobody took it at the address in {options.secret}")
 
 
-def _secret(variable: str) -> str:
+def _read_secret(variable: str) -> str:
     if not os.environ.get(variable):
         raise AccessError.at(Place("environment"), f"the variable {variable} is not set")
     return os.environ[variable]

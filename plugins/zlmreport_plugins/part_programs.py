@@ -201,19 +201,19 @@ class FanucProgram(_Dialect):
         axis = axis_address(motion, options)
         yield "%"
         yield f"O{options.number:04d}"
-        yield from (_remark(text) for text in program_heading(motion))
-        yield _remark("G codes of milling, on lathes those of system B or C")
-        yield _remark(f"{options.work_offset} of {axis} must be zero")
+        yield from (_write_remark(text) for text in program_heading(motion))
+        yield _write_remark("G codes of milling, on lathes those of system B or C")
+        yield _write_remark(f"{options.work_offset} of {axis} must be zero")
         yield f"G21 G90 G94 G40 G49 G80 {options.work_offset}"
         yield "G61 (EXACT STOP)"
-        feed, dwell = (_pointed(program_number(value)) for value in (motion.feed, motion.dwell))
+        feed, dwell = (_write_pointed(program_number(value)) for value in (motion.feed, motion.dwell))
         yield f"F{feed}"
         for stop in motion.in_decimals(options.decimals).stops:
             yield f"G01 {axis}{stop.position:.{options.decimals}f}"
             if options.waits_at(stop):
                 yield "M00"
             if stop.reading:
-                yield f"N{stop.reading.number} G04 X{dwell} {_remark(reading_remark(stop.reading))}"
+                yield f"N{stop.reading.number} G04 X{dwell} {_write_remark(reading_remark(stop.reading))}"
         yield "M30"
         yield "%"
 
@@ -221,12 +221,14 @@ class FanucProgram(_Dialect):
         """Yield the lines."""
         yield "%"
         yield f"O{options.number:04d}"
-        yield from (_remark(text) for text in circle_heading(path, options))
-        yield _remark("G codes of milling, on lathes those of system B or C")
+        yield from (_write_remark(text) for text in circle_heading(path, options))
+        yield _write_remark("G codes of milling, on lathes those of system B or C")
         yield f"G21 G90 G94 G40 G49 G80 {options.work_offset} {_PLANES[path.circle.plane]}"
-        yield f"F{_pointed(program_number(path.feed))}"
-        rest = f"G04 X{_pointed(program_number(path.rest))}"
-        words = _Iso("G61 (EXACT STOP)", "G64 (NO STOP)", "M00", (rest,), _remark, digits=2, omits_end=True)
+        yield f"F{_write_pointed(program_number(path.feed))}"
+        rest = f"G04 X{_write_pointed(program_number(path.rest))}"
+        words = _Iso(
+            "G61 (EXACT STOP)", "G64 (NO STOP)", "M00", (rest,), _write_remark, digits=2, omits_end=True
+        )
         yield from words.blocks(path, options)
         yield "M30"
         yield "%"
@@ -336,7 +338,7 @@ class HeidenhainProgram(_Dialect):
                 if options.wait == "runs":
                     yield "STOP"
                 elif path.rest:
-                    yield from _dwell(path.rest)
+                    yield from _write_dwell(path.rest)
             ends = zip(path.circle.axes, block.end, strict=True)
             words = " ".join(f"{axis}{value:+.{options.decimals}f}" for axis, value in ends)
             if block.sense is None:
@@ -359,23 +361,23 @@ class HeidenhainProgram(_Dialect):
                 yield "STOP"
             if stop.reading:
                 yield f"; reading {stop.reading.number}, {reading_remark(stop.reading)}"
-                yield from _dwell(motion.dwell)
+                yield from _write_dwell(motion.dwell)
         yield f"END PGM {name} MM"
 
 
-def _dwell(seconds: float) -> Iterator[str]:
+def _write_dwell(seconds: float) -> Iterator[str]:
     """Yield the two blocks of cycle 9."""
     text = program_number(seconds)
     yield "CYCL DEF 9.0 DWELL TIME"
     yield f"CYCL DEF 9.1 DWELL {text if '.' in text else f'{text}.0'}"
 
 
-def _remark(text: str) -> str:
+def _write_remark(text: str) -> str:
     """Return a remark in capitals, without the underscore that not every control knows."""
     return f"({text.upper().replace('_', '-')})"
 
 
-def _pointed(number: str) -> str:
+def _write_pointed(number: str) -> str:
     return number if "." in number else f"{number}."
 
 

@@ -32,7 +32,7 @@ LINES = (*DIAGONALS, *EDGES, *CENTRE_LINES)
 _Line = TypeVar("_Line")
 
 
-def reversed_name(name: str) -> str:
+def reverse_name(name: str) -> str:
     """Return what a line is called that is measured the other way.
 
     >>> reversed_name("NW-SE")
@@ -42,7 +42,7 @@ def reversed_name(name: str) -> str:
     return f"{last}-{first}"
 
 
-def in_one_order(lines: Mapping[str, _Line]) -> dict[str, tuple[str, _Line]]:
+def put_in_one_order(lines: Mapping[str, _Line]) -> dict[str, tuple[str, _Line]]:
     """Return the lines by the eight names, each with the name by which it was measured.
 
     A line that was measured both ways counts by its usual name.
@@ -50,15 +50,15 @@ def in_one_order(lines: Mapping[str, _Line]) -> dict[str, tuple[str, _Line]]:
     return {
         name: (called, lines[called])
         for name in LINES
-        for called in (reversed_name(name), name)
+        for called in (reverse_name(name), name)
         if called in lines
     }
 
 
-def lacking(lines: Iterable[str]) -> list[str]:
+def list_lacking(lines: Iterable[str]) -> list[str]:
     """Return which of the eight lines are not among some."""
     there = set(lines)
-    return [name for name in LINES if not {name, reversed_name(name)} & there]
+    return [name for name in LINES if not {name, reverse_name(name)} & there]
 
 
 #: Of one line: the slope of the surface under the carriage, and no height yet.
@@ -80,7 +80,7 @@ FLATNESS = Measurand(
     sign=Words("heights, positive upwards"),
     joins_tests=True,
     of_lines=LINE,
-    test_names=tuple(called for name in LINES for called in (name, reversed_name(name))),
+    test_names=tuple(called for name in LINES for called in (name, reverse_name(name))),
     subject=Words("{name}"),
     bearer=Words("Lines {axis}"),
 )

@@ -35,25 +35,25 @@ class Block:
     height: FloatArray
 
 
-def block_of(points: FloatArray, radius: float) -> Block:
+def fit_block(points: FloatArray, radius: float) -> Block:
     """Return the block that eight points lie on; of points that define none, values are NaN or nonsense.
 
     `points`, (..., 8, 3): P1 to P8, centres of the tip, m.
     `radius`: Of the tip, m; 0 where the points are those of the surface.
     """
     p1, p2, p3, *_, p8 = np.moveaxis(points, -2, 0)
-    normal = _unit(np.cross(p2 - p1, p3 - p1))
+    normal = _normalise(np.cross(p2 - p1, p3 - p1))
     front = (p1 + p2 + p3) / 3
-    return block_along(points, radius, normal * _sign(_dot(front - p8, normal)))
+    return fit_block_along(points, radius, normal * _sign(_dot(front - p8, normal)))
 
 
-def block_along(points: FloatArray, radius: float, normal: FloatArray) -> Block:
+def fit_block_along(points: FloatArray, radius: float, normal: FloatArray) -> Block:
     """Return the block that eight points lie on, its front face square to a direction that is known.
 
     Parameters
     ----------
     points, radius
-        As of `block_of`.
+        As of `fit_block`.
     normal : (..., 3) array
         Outward normal of the front face.
 
@@ -66,7 +66,7 @@ def block_along(points: FloatArray, radius: float, normal: FloatArray) -> Block:
     p1, p2, p3, p4, p5, p6, p7, p8 = np.moveaxis(points, -2, 0)
     front = (p1 + p2 + p3) / 3
     across = p4 - p5
-    sideward = _unit(across - _dot(across, normal) * normal)
+    sideward = _normalise(across - _dot(across, normal) * normal)
     upward = np.cross(normal, sideward)
     upward = upward * _sign(_dot(p6 - p7, upward))
     along = _dot(front + p8, normal) / 2
@@ -83,7 +83,7 @@ def block_along(points: FloatArray, radius: float, normal: FloatArray) -> Block:
     )
 
 
-def altitude(points: FloatArray) -> FloatArray:
+def compute_altitude(points: FloatArray) -> FloatArray:
     """Return the smallest height of the triangle P1, P2, P3, m, shape (...): 0 where they lie on a line."""
     p1, p2, p3 = np.moveaxis(points[..., :3, :], -2, 0)
     doubled_area = np.linalg.norm(np.cross(p2 - p1, p3 - p1), axis=-1)
@@ -99,7 +99,7 @@ def _dot(a: FloatArray, b: FloatArray) -> FloatArray:
     return product
 
 
-def _unit(vector: FloatArray) -> FloatArray:
+def _normalise(vector: FloatArray) -> FloatArray:
     with np.errstate(invalid="ignore", divide="ignore"):
         unit: FloatArray = vector / np.linalg.norm(vector, axis=-1, keepdims=True)
     return unit
@@ -119,17 +119,17 @@ _SIZE = (0.05, 0.5e-3)
 _MOST_ASKEW = math.radians(10)
 
 
-def angle_between(a: FloatArray, b: FloatArray) -> float:
+def compute_angle_between(a: FloatArray, b: FloatArray) -> float:
     """Return the angle between two unit vectors, rad."""
     return float(np.arctan2(np.linalg.norm(np.cross(a, b)), np.dot(a, b)))
 
 
-def no_blocks(
+def find_no_blocks(
     points: InitialPoints, coordinates: FloatArray, blocks: tuple[Block, Block], gauge: StepGauge
 ) -> Iterator[Problem]:
     """Yield why points do not lie on a block of the gauge: on a line, not on its sides, of another size."""
     for name, of_block, block, altitude_of in zip(
-        BLOCKS, coordinates, blocks, altitude(coordinates), strict=True
+        BLOCKS, coordinates, blocks, compute_altitude(coordinates), strict=True
     ):
         if altitude_of < _LEAST_ALTITUDE:
             yield Problem(
@@ -152,7 +152,7 @@ def no_blocks(
                 "P7 the foot",
             )
         else:
-            yield from _another_size(points, name, block, gauge)
+            yield from _find_another_size(points, name, block, gauge)
 
 
 def _is_askew(vector: FloatArray, direction: FloatArray) -> bool:
@@ -161,10 +161,15 @@ def _is_askew(vector: FloatArray, direction: FloatArray) -> bool:
     return not abs(float(vector @ direction)) > length * math.sqrt(0.5) > 0
 
 
-def _another_size(points: InitialPoints, name: str, block: Block, gauge: StepGauge) -> Iterator[Problem]:
+def _find_another_size(points: InitialPoints, name: str, block: Block, gauge: StepGauge) -> Iterator[Problem]:
     expected = gauge.faces[0:2] if name == BLOCKS[0] else gauge.faces[-2:]
     for what, found, stated, hint in (
-        ("length", float(block.length), _distance(*expected), "P1 to P3 belong on the front, P8 on the back"),
+        (
+            "length",
+            float(block.length),
+            _measure_distance(*expected),
+            "P1 to P3 belong on the front, P8 on the back",
+        ),
         ("width", float(block.width), gauge.block_width, "P4 and P5 belong on its sides"),
         ("height", float(block.height), gauge.block_height, "P6 belongs on its top, P7 at its foot"),
     ):
@@ -179,11 +184,13 @@ def _another_size(points: InitialPoints, name: str, block: Block, gauge: StepGau
             )
 
 
-def _distance(front: Face, back: Face) -> float:
+def _measure_distance(front: Face, back: Face) -> float:
     return back.nominal - front.nominal
 
 
-def askew(points: InitialPoints, blocks: tuple[Block, Block], direction: FloatArray) -> Iterator[Problem]:
+def find_askew(
+    points: InitialPoints, blocks: tuple[Block, Block], direction: FloatArray
+) -> Iterator[Problem]:
     """Yield that front faces do not look away from the other end: ends exchanged, or another face touched."""
     against = [float(block.normal @ direction) for block in blocks]
     if all(each > 0 for each in against):
@@ -194,7 +201,7 @@ def askew(points: InitialPoints, blocks: tuple[Block, Block], direction: FloatAr
         )
         return
     for name, block in zip(BLOCKS, blocks, strict=True):
-        angle = angle_between(-block.normal, direction)
+        angle = compute_angle_between(-block.normal, direction)
         if angle > _MOST_ASKEW:
             yield Problem(
                 points.place,
@@ -203,12 +210,12 @@ def askew(points: InitialPoints, blocks: tuple[Block, Block], direction: FloatAr
             )
 
 
-def another_section(
+def find_another_section(
     points: InitialPoints, blocks: tuple[Block, Block], gauge: StepGauge
 ) -> Iterator[Problem]:
     """Yield that the two blocks are not as far apart as the section's first and last block."""
     found = float(np.linalg.norm(blocks[1].centre - blocks[0].centre))
-    centres = {block: _centre(gauge, block) for block in gauge.blocks}
+    centres = {block: _find_centre(gauge, block) for block in gauge.blocks}
     first, *later = centres
     pitch = min(centres[b] - centres[a] for a, b in zip(centres, later, strict=False))
     distance = centres[later[-1]] - centres[first]
@@ -224,6 +231,6 @@ def another_section(
     )
 
 
-def _centre(gauge: StepGauge, block: int) -> float:
+def _find_centre(gauge: StepGauge, block: int) -> float:
     faces = [face.nominal for face in gauge.faces if face.block == block]
     return sum(faces) / len(faces)

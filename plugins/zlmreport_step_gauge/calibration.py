@@ -119,26 +119,26 @@ def read_calibration(path: Path) -> CalibratedGauge:
     order, a face that is missing or stands on the wrong side, distances that do not rise or lie far from
     their nominal place.
     """
-    if not _holds_all_facts(path):
-        return _of_table(path)
+    if not _is_file_of_keys(path):
+        return _read_table(path)
     file = read_keys_file(path, StepGaugeFileKeys, FORMAT)
     keys = file.keys
     gauge = StepGauge(
         name=keys.name,
         serial=keys.serial or "",
         certificate=keys.certificate or "",
-        faces=_checked(list(_stated(file)), file.place_of("faces")),
-        expansion_coefficient=_per_kelvin(keys.expansion_coefficient),
-        expansion_uncertainty=_per_kelvin(keys.expansion_coefficient_uncertainty),
+        faces=_check_faces(list(_read_stated(file)), file.place_of("faces")),
+        expansion_coefficient=_read_per_kelvin(keys.expansion_coefficient),
+        expansion_uncertainty=_read_per_kelvin(keys.expansion_coefficient_uncertainty),
         reference_temperature=CELSIUS.to_si(keys.reference_temperature),
-        block_width=_metres(keys.block.width),
-        block_height=_metres(keys.block.height),
+        block_width=_read_metres(keys.block.width),
+        block_height=_read_metres(keys.block.height),
         place=Place(str(path)),
     )
     return CalibratedGauge(gauge, file.file)
 
 
-def section(gauge: StepGauge, first_block: int | None, last_block: int | None, place: Place) -> StepGauge:
+def cut_section(gauge: StepGauge, first_block: int | None, last_block: int | None, place: Place) -> StepGauge:
     """Return the part of a gauge from one block to another, both included.
 
     `first_block`, `last_block`: Numbers of blocks; None for the first and the last of the gauge.
@@ -162,15 +162,15 @@ def section(gauge: StepGauge, first_block: int | None, last_block: int | None, p
     return replace(gauge, faces=tuple(face for face in gauge.faces if first <= face.block <= last))
 
 
-def _per_kelvin(value: float | None) -> float | None:
+def _read_per_kelvin(value: float | None) -> float | None:
     return None if value is None else value * MICROMETRE_PER_METRE_KELVIN
 
 
-def _metres(value: float | None) -> float | None:
+def _read_metres(value: float | None) -> float | None:
     return None if value is None else MILLIMETRE.to_si(value)
 
 
-def _stated(file: KeysFile[StepGaugeFileKeys]) -> Iterator[_Listed]:
+def _read_stated(file: KeysFile[StepGaugeFileKeys]) -> Iterator[_Listed]:
     for index, each in enumerate(file.keys.faces):
         face = Face(
             each.face,
@@ -182,18 +182,18 @@ def _stated(file: KeysFile[StepGaugeFileKeys]) -> Iterator[_Listed]:
         yield _Listed(face, file.place_of("faces", index, "face"))
 
 
-def _of_table(path: Path) -> CalibratedGauge:
+def _read_table(path: Path) -> CalibratedGauge:
     """Return the gauge of a table: of its material it says nothing."""
     table = read_named_columns(path, _COLUMNS)
     problems = table.problems
-    listed = [each for row in table.rows if (each := _face(row, problems))]
+    listed = [each for row in table.rows if (each := _read_face(row, problems))]
     if problems:
         raise InputError(sorted(problems))
     gauge = StepGauge(
         name=path.name,
         serial="",
         certificate="",
-        faces=_checked(listed, _end(table)),
+        faces=_check_faces(listed, _end(table)),
         expansion_coefficient=None,
         expansion_uncertainty=None,
         reference_temperature=CELSIUS.to_si(_REFERENCE_CELSIUS),
@@ -208,7 +208,7 @@ def _end(table: NamedColumns) -> Place:
     return table.rows[-1].place if table.rows else table.text.place()
 
 
-def _face(row: Row, problems: list[Problem]) -> _Listed | None:
+def _read_face(row: Row, problems: list[Problem]) -> _Listed | None:
     number = row.integer("face", problems)
     nominal, calibrated, expanded = (row.number(column, problems) for column in _COLUMNS[2:])
     side = _SIDES.get(row.text("side").casefold())
@@ -228,11 +228,11 @@ def _face(row: Row, problems: list[Problem]) -> _Listed | None:
     return _Listed(face, row.cells["face"].place)
 
 
-def _checked(listed: Sequence[_Listed], end: Place) -> tuple[Face, ...]:
+def _check_faces(listed: Sequence[_Listed], end: Place) -> tuple[Face, ...]:
     """Return the faces of whole blocks in their order, or raise InputError."""
-    problems = list(_out_of_order(listed))
+    problems = list(_find_out_of_order(listed))
     if not problems:
-        problems = list(_unlike_a_gauge(listed))
+        problems = list(_find_unlike_a_gauge(listed))
     if not problems and (len(listed) < 4 or len(listed) % 2):
         problems.append(
             Problem(
@@ -246,7 +246,7 @@ def _checked(listed: Sequence[_Listed], end: Place) -> tuple[Face, ...]:
     return tuple(each.face for each in listed)
 
 
-def _out_of_order(listed: Sequence[_Listed]) -> Iterator[Problem]:
+def _find_out_of_order(listed: Sequence[_Listed]) -> Iterator[Problem]:
     """Yield the faces that do not follow the one before them, or are on the wrong side for their number."""
     for index, each in enumerate(listed):
         number = each.face.number
@@ -264,7 +264,7 @@ def _out_of_order(listed: Sequence[_Listed]) -> Iterator[Problem]:
             )
 
 
-def _unlike_a_gauge(listed: Sequence[_Listed]) -> Iterator[Problem]:
+def _find_unlike_a_gauge(listed: Sequence[_Listed]) -> Iterator[Problem]:
     for earlier, each in itertools.pairwise(listed):
         if each.face.nominal <= earlier.face.nominal:
             yield Problem(
@@ -286,12 +286,12 @@ def _unlike_a_gauge(listed: Sequence[_Listed]) -> Iterator[Problem]:
             )
 
 
-def _holds_all_facts(path: Path) -> bool:
+def _is_file_of_keys(path: Path) -> bool:
     """Whether a calibration is a file of keys, and no bare table of faces."""
     return path.suffix.lower() in _SUFFIXES
 
 
-def with_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
+def name_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
     """Return the keys of a job whose step gauge is its measuring instrument, unless it names another.
 
     The gauge's uncertainty as an instrument is that of the face whose distance is known worst; the budget
@@ -299,7 +299,7 @@ def with_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
 
     Raises `InputError` with every mistake of the calibration file; `AccessError` if it cannot be read.
     """
-    if keys.instrument or not _holds_all_facts(calibration):
+    if keys.instrument or not _is_file_of_keys(calibration):
         return keys
     gauge = read_keys_file(calibration, StepGaugeFileKeys, FORMAT).keys
     instrument = JobInstrument(

@@ -33,20 +33,22 @@ class Deviations:
     compensated: FloatArray  #: (face,): What the compensation of temperatures changed, m.
 
 
-def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_corrected: bool) -> Deviations:
+def compute_deviations_of(
+    probed: Probed, set_up: GaugeSetUp, place: Place, *, is_corrected: bool
+) -> Deviations:
     """Return the deviations of a test.
 
     Raises `InputError` if the points do not fit the section: another one was probed, the gauge lies the other
     way round, or the radius cannot be.
     """
-    direction = _direction(probed, set_up)
+    direction = _find_direction(probed, set_up)
     along = probed.coordinates @ np.array(direction) if direction else probed.coordinates[..., 0]
-    problems = list(_not_rising(probed, along, place))
+    problems = list(_find_not_rising(probed, along, place))
     if problems:
         raise InputError(problems)
-    actual, growth = _distances(probed, set_up)
+    actual, growth = _compute_distances(probed, set_up)
     radius = (
-        radius_of(probed, set_up, along, actual, place)
+        compute_radius_of(probed, set_up, along, actual, place)
         if not is_corrected
         else EffectiveRadius(RadiusSource.MACHINE)
     )
@@ -54,9 +56,9 @@ def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_correc
     expanded = surface * set_up.scale_expansion.factor if set_up.scale_expansion else surface
     reference = float(np.nanmean(expanded[0]))
     values = equations.error(expanded, np.array(reference), actual[:, np.newaxis], np.array(actual[0]))
-    problems = list(_another_section(probed, values, place))
+    problems = list(_find_another_section(probed, values, place))
     if not problems and direction is not None:
-        problems = list(_reversed(probed, values, place))
+        problems = list(_find_reversed(probed, values, place))
     if problems:
         raise InputError(problems)
     means = np.nanmean(surface, axis=-1)
@@ -69,7 +71,7 @@ def deviations_of(probed: Probed, set_up: GaugeSetUp, place: Place, *, is_correc
     )
 
 
-def _direction(probed: Probed, set_up: GaugeSetUp) -> tuple[float, float, float] | None:
+def _find_direction(probed: Probed, set_up: GaugeSetUp) -> tuple[float, float, float] | None:
     """Return C1C2; without initial points, the line through the probed points of one side."""
     if probed.coordinates.shape[-1] == 1:
         return None
@@ -83,7 +85,7 @@ def _direction(probed: Probed, set_up: GaugeSetUp) -> tuple[float, float, float]
     return x, y, z
 
 
-def _distances(probed: Probed, set_up: GaugeSetUp) -> tuple[FloatArray, FloatArray]:
+def _compute_distances(probed: Probed, set_up: GaugeSetUp) -> tuple[FloatArray, FloatArray]:
     """Return the actual distances S of the faces, m, and how much of them is expansion."""
     calibrated = np.array([face.distance for face in probed.faces])
     expansion = set_up.gauge_expansion
@@ -91,7 +93,7 @@ def _distances(probed: Probed, set_up: GaugeSetUp) -> tuple[FloatArray, FloatArr
     return calibrated + growth, growth
 
 
-def _not_rising(probed: Probed, along: FloatArray, place: Place) -> Iterator[Problem]:
+def _find_not_rising(probed: Probed, along: FloatArray, place: Place) -> Iterator[Problem]:
     """Yield that positions fall along C1C2 while the numbers of the faces rise."""
     means = np.nanmean(along, axis=-1)
     for side in np.unique(probed.sides):
@@ -112,7 +114,7 @@ def _not_rising(probed: Probed, along: FloatArray, place: Place) -> Iterator[Pro
             )
 
 
-def _another_section(probed: Probed, values: FloatArray, place: Place) -> Iterator[Problem]:
+def _find_another_section(probed: Probed, values: FloatArray, place: Place) -> Iterator[Problem]:
     nominal = np.array([face.nominal for face in probed.faces])
     largest = _OF_A_STEP * float(np.min(np.diff(nominal)))
     by_point = {(point.face, point.cycle): point.place for point in probed.points}
@@ -128,7 +130,7 @@ def _another_section(probed: Probed, values: FloatArray, place: Place) -> Iterat
         )
 
 
-def _reversed(probed: Probed, values: FloatArray, place: Place) -> Iterator[Problem]:
+def _find_reversed(probed: Probed, values: FloatArray, place: Place) -> Iterator[Problem]:
     """Yield that the calibration fits far better when it is read from the other end."""
     whole = len(probed.faces) % 2 == 0 and len(set(probed.sides.tolist())) == 2
     if not whole or len(probed.faces) < _FEWEST_FACES:
@@ -137,7 +139,7 @@ def _reversed(probed: Probed, values: FloatArray, place: Place) -> Iterator[Prob
     departure = np.array([face.distance - face.nominal for face in probed.faces])
     turned = -(departure[::-1] - departure[-1])
     from_the_end = means + (departure - departure[0]) - turned
-    as_it_is, from_end = (_left_over(each, probed) for each in (means, from_the_end))
+    as_it_is, from_end = (_compute_left_over(each, probed) for each in (means, from_the_end))
     if as_it_is > _REVERSED * from_end:
         yield Problem(
             place,
@@ -148,7 +150,7 @@ def _reversed(probed: Probed, values: FloatArray, place: Place) -> Iterator[Prob
         )
 
 
-def _left_over(values: FloatArray, probed: Probed) -> float:
+def _compute_left_over(values: FloatArray, probed: Probed) -> float:
     """Return the standard deviation about a straight line with a step between the two sides, m."""
     nominal = np.array([face.nominal for face in probed.faces])
     columns = np.stack([np.ones_like(nominal), nominal - nominal.mean(), probed.sides], axis=-1)
@@ -182,12 +184,12 @@ class EffectiveRadius:
     #: (block,): R_eff of each block by itself, m; empty where it was not determined from the gauge.
     by_block: FloatArray = field(default_factory=lambda: read_only_floats([]))
     scatter: float = math.nan  #: Standard deviation of these, m; NaN of fewer than two blocks.
-    #: Standard uncertainty of R_eff, m: as stated, or `radius_uncertainty`. What the machine's reversal, or
-    #: its error within a block, adds is not in it.
+    #: Standard uncertainty of R_eff, m: as stated, or `compute_radius_uncertainty`. What the machine's
+    #: reversal, or its error within a block, adds is not in it.
     uncertainty: float = 0.0
 
 
-def radius_of(
+def compute_radius_of(
     probed: Probed, set_up: GaugeSetUp, along: FloatArray, actual: FloatArray, place: Place
 ) -> EffectiveRadius:
     """Return the effective radius of the probe in a test of centres of the tip.
@@ -236,11 +238,11 @@ def _from_blocks(probed: Probed, along: FloatArray, actual: FloatArray) -> Effec
         float(by_block.mean()),
         read_only_floats(by_block),
         scatter,
-        radius_uncertainty(by_block, probed.faces),
+        compute_radius_uncertainty(by_block, probed.faces),
     )
 
 
-def radius_uncertainty(by_block: FloatArray, faces: Sequence[Face]) -> float:
+def compute_radius_uncertainty(by_block: FloatArray, faces: Sequence[Face]) -> float:
     """Return the standard uncertainty of the mean of the radii of single blocks, m.
 
     Parameters

@@ -22,31 +22,31 @@ from zlmreport.plugin.extension import Contribution, Extension, ExtensionPlan, J
 from zlmreport.plugin.renderer import Described, Fact, Graph, Writer
 from zlmreport.plugin.source import DataSource
 from zlmreport.plugin.standard import Band, Curve, Panel, Role, Standard
-from zlmreport_step_gauge.calibration import FORMAT, with_gauge_as_instrument
+from zlmreport_step_gauge.calibration import FORMAT, name_gauge_as_instrument
 from zlmreport_step_gauge.gauge import Side, StepGauge
-from zlmreport_step_gauge.keys import StepGaugeKeys, contradictions
+from zlmreport_step_gauge.keys import StepGaugeKeys, find_contradictions
 from zlmreport_step_gauge.location import Located
-from zlmreport_step_gauge.machines.live import EMULATE, live_run
-from zlmreport_step_gauge.machines.run import live_probing
-from zlmreport_step_gauge.paths.foretold import foretold
+from zlmreport_step_gauge.machines.live import EMULATE, make_live_run
+from zlmreport_step_gauge.machines.run import find_live_probing
+from zlmreport_step_gauge.paths.foretold import foretell
 from zlmreport_step_gauge.paths.path import ProbingPath
-from zlmreport_step_gauge.set_up import GaugeSetUp, gauge_set_up
+from zlmreport_step_gauge.set_up import GaugeSetUp, make_gauge_set_up
 from zlmreport_step_gauge.source import StepGaugeSource
 from zlmreport_step_gauge.standard import StepGaugeEvaluation
-from zlmreport_step_gauge.uncertainty import gauge_contributions
+from zlmreport_step_gauge.uncertainty import list_gauge_contributions
 
 #: Heads what a certificate says of a gauge.
 TITLE = Words("Step gauge")
 _SECTION = Words("blocks {first} to {last}")
 
 
-def described(set_up: GaugeSetUp, writer: Writer) -> Described:
+def describe(set_up: GaugeSetUp, writer: Writer) -> Described:
     """Return which section of the gauge was used, where it lay, and the graph of its calibration."""
-    facts = tuple(_facts(set_up, writer))
-    return Described(TITLE, facts, (Graph(gauge_calibration(set_up.gauge)),))
+    facts = tuple(_list_facts(set_up, writer))
+    return Described(TITLE, facts, (Graph(draw_gauge_calibration(set_up.gauge)),))
 
 
-def _facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
+def _list_facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
     numbers = set_up.gauge.blocks
     yield Fact(
         Words("Section used"),
@@ -54,17 +54,17 @@ def _facts(set_up: GaugeSetUp, writer: Writer) -> Iterator[Fact]:
         ("step_gauge.first_block", "step_gauge.last_block"),
     )
     if set_up.located:
-        yield from _location(set_up.located, writer)
+        yield from _list_location_facts(set_up.located, writer)
 
 
-def _location(located: Located, writer: Writer) -> Iterator[Fact]:
+def _list_location_facts(located: Located, writer: Writer) -> Iterator[Fact]:
     key = ("step_gauge.initial_points",)
     location = located.location
     yield Fact(Words("Begins at C1"), _point(location.begin, writer), key)
     yield Fact(Words("Ends at C2"), _point(location.end, writer), key)
     yield Fact(
         Words("Direction C1C2"),
-        f"u = {_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
+        f"u = {_write_two_digits(MICRORADIAN.from_si(location.direction_uncertainty), writer)} µrad",
         key,
     )
 
@@ -75,7 +75,7 @@ def _point(coordinates: tuple[float, float, float], writer: Writer) -> str:
     return " / ".join(fixed_number(MILLIMETRE.from_si(each), 3, sign) for each in coordinates) + " mm"
 
 
-def _two_digits(value: float, writer: Writer) -> str:
+def _write_two_digits(value: float, writer: Writer) -> str:
     return writer.number(float(f"{value:.2g}"))
 
 
@@ -97,11 +97,11 @@ _LOOKS = {
 }
 
 
-def gauge_calibration(gauge: StepGauge) -> Figure:
+def draw_gauge_calibration(gauge: StepGauge) -> Figure:
     """Return the graph of a gauge, or of a section of it: front faces, touched in ↑, and back faces, in ↓."""
-    curves, bands = zip(*(_of_side(gauge, side) for side in Side), strict=True)
+    curves, bands = zip(*(_draw_side(gauge, side) for side in Side), strict=True)
     nominal = [MILLIMETRE.from_si(face.nominal) for face in gauge.faces]
-    front, back = (_range(curve, side) for curve, side in zip(curves, Side, strict=True))
+    front, back = (_write_range(curve, side) for curve, side in zip(curves, Side, strict=True))
     return Figure(
         key="gauge-calibration",
         title=_TITLE.given(first=gauge.blocks[0], last=gauge.blocks[-1]),
@@ -114,7 +114,7 @@ def gauge_calibration(gauge: StepGauge) -> Figure:
     )
 
 
-def _of_side(gauge: StepGauge, side: Side) -> tuple[Curve, Band]:
+def _draw_side(gauge: StepGauge, side: Side) -> tuple[Curve, Band]:
     faces = [face for face in gauge.faces if face.side is side]
     x = read_only_floats([MILLIMETRE.from_si(face.nominal) for face in faces])
     y = np.array([MICROMETRE.from_si(face.distance - face.nominal) for face in faces])
@@ -126,7 +126,7 @@ def _of_side(gauge: StepGauge, side: Side) -> tuple[Curve, Band]:
     )
 
 
-def _range(curve: Curve, side: Side) -> Words:
+def _write_range(curve: Curve, side: Side) -> Words:
     return _RANGE.given(
         side=_SIDES[side],
         low=float(round(float(curve.y.min()), 3)),
@@ -156,38 +156,38 @@ class StepGaugeExtension(Extension):
                 ("step_gauge",),
                 "a step gauge has lengths, and the axis is rotary (axis.kind); take one out",
             )
-        for key, message in contradictions(options):
+        for key, message in find_contradictions(options):
             yield ("step_gauge", key), message
 
     def completed(self, keys: JobKeys, options: StepGaugeKeys) -> JobKeys:
         """Return the keys of a job whose step gauge is its measuring instrument, unless it names another."""
-        return with_gauge_as_instrument(keys, options.calibration)
+        return name_gauge_as_instrument(keys, options.calibration)
 
     def set_up(self, job: Job, options: StepGaugeKeys) -> GaugeSetUp:
         """Return the gauge, where it lies, and what is known of the probe and of the temperatures."""
-        return gauge_set_up(job, options)
+        return make_gauge_set_up(job, options)
 
     def contributions(
         self, job: Job, options: StepGaugeKeys, measurements: MeasurementSet
     ) -> tuple[Contribution, ...]:
         """Return what the gauge contributes to the uncertainty, instead of an instrument."""
         stated_as_range = job.keys.uncertainty.device_expansion_coefficient is not None
-        return gauge_contributions(
-            gauge_set_up(job, options), measurements, expansion_is_stated=stated_as_range
+        return list_gauge_contributions(
+            make_gauge_set_up(job, options), measurements, expansion_is_stated=stated_as_range
         )
 
     def described(self, job: Job, options: StepGaugeKeys, writer: Writer) -> Described:
         """Return which section of the gauge was used, where it lay, and the graph of its calibration."""
-        return described(gauge_set_up(job, options), writer)
+        return describe(make_gauge_set_up(job, options), writer)
 
     def plan(self, job: Job, options: StepGaugeKeys) -> ExtensionPlan:
         """Return the plan of the path over the gauge."""
-        return foretold(job, options)
+        return foretell(job, options)
 
     def live(self, job: Job, options: StepGaugeKeys) -> LiveRun | None:
         """Return the run of the machine that the data source names."""
-        probing = live_probing(job, options)
-        return live_run(probing) if probing else None
+        probing = find_live_probing(job, options)
+        return make_live_run(probing) if probing else None
 
 
 @hookimpl

@@ -136,7 +136,7 @@ class StepGaugeKeys(Options):
     )
 
 
-def contradictions(keys: StepGaugeKeys) -> Iterator[tuple[str, str]]:
+def find_contradictions(keys: StepGaugeKeys) -> Iterator[tuple[str, str]]:
     """Yield what no single key shows to be wrong: the key, and a sentence."""
     first, last = keys.first_block, keys.last_block
     if first is not None and last is not None and first >= last:

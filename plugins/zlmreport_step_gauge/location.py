@@ -10,12 +10,12 @@ import numpy as np
 from zlmreport.plugin import FloatArray, InputError
 from zlmreport_step_gauge.blocks import (
     Block,
-    angle_between,
-    another_section,
-    askew,
-    block_along,
-    block_of,
-    no_blocks,
+    compute_angle_between,
+    find_another_section,
+    find_askew,
+    find_no_blocks,
+    fit_block,
+    fit_block_along,
 )
 from zlmreport_step_gauge.gauge import Location, StepGauge
 from zlmreport_step_gauge.initial_points import BLOCKS, InitialPoints
@@ -58,22 +58,22 @@ class Located:
     end_misalignment: Misalignment
 
 
-def direction_of(coordinates: FloatArray, radius: float) -> FloatArray:
+def compute_direction_of(coordinates: FloatArray, radius: float) -> FloatArray:
     """Return the unit vector from C1 to C2, shape (..., 3), of points of shape (..., block, point, 3).
 
     The centres are taken twice: with the normals of the faces, and then with the direction that these give.
     So the small face, of which three points know the normal badly, tilts no centre out of its place.
     """
-    direction = _between(block_of(coordinates, radius))
-    return _between(_squared(coordinates, radius, direction))
+    direction = _find_between(fit_block(coordinates, radius))
+    return _find_between(_square_blocks(coordinates, radius, direction))
 
 
-def _squared(coordinates: FloatArray, radius: float, direction: FloatArray) -> Block:
+def _square_blocks(coordinates: FloatArray, radius: float, direction: FloatArray) -> Block:
     """Return both blocks with their faces square to a direction."""
-    return block_along(coordinates, radius, -direction[..., np.newaxis, :])
+    return fit_block_along(coordinates, radius, -direction[..., np.newaxis, :])
 
 
-def _between(blocks: Block) -> FloatArray:
+def _find_between(blocks: Block) -> FloatArray:
     """Return the unit vector between the centres of two blocks."""
     between = np.diff(blocks.centre, axis=-2)[..., 0, :]
     unit: FloatArray = between / np.linalg.norm(between, axis=-1, keepdims=True)
@@ -100,46 +100,46 @@ def locate(points: InitialPoints, gauge: StepGauge, radius: float, uncertainty: 
     The uncertainty of the direction is that of the 48 coordinates by the law of propagation (JCGM 100,
     5.1.2), its sensitivities found by moving each of them.
     """
-    coordinates = _top_first(points.coordinates)
-    blocks = block_of(coordinates, radius)
-    begin, end = (_of(blocks, index) for index in range(len(BLOCKS)))
-    problems = list(no_blocks(points, coordinates, (begin, end), gauge))
+    coordinates = _put_top_first(points.coordinates)
+    blocks = fit_block(coordinates, radius)
+    begin, end = (_take_from_stack(blocks, index) for index in range(len(BLOCKS)))
+    problems = list(find_no_blocks(points, coordinates, (begin, end), gauge))
     if problems:
         raise InputError(problems)
-    direction = direction_of(coordinates, radius)
+    direction = compute_direction_of(coordinates, radius)
     problems = [
-        *askew(points, (begin, end), direction),
-        *another_section(points, (begin, end), gauge),
+        *find_askew(points, (begin, end), direction),
+        *find_another_section(points, (begin, end), gauge),
     ]
     if problems:
         raise InputError(problems)
     taken = max(uncertainty, _spread(blocks))
-    of_direction, of_normals = _propagated(coordinates, radius, taken)
+    of_direction, of_normals = _propagate(coordinates, radius, taken)
     begin_misalignment, end_misalignment = (
-        Misalignment(angle_between(-block.normal, direction), math.hypot(of_normal, of_direction))
+        Misalignment(compute_angle_between(-block.normal, direction), math.hypot(of_normal, of_direction))
         for block, of_normal in zip((begin, end), of_normals, strict=True)
     )
-    squared = _squared(coordinates, radius, direction)
+    squared = _square_blocks(coordinates, radius, direction)
     upward = squared.upward.sum(axis=0)
     upward = upward - np.dot(upward, direction) * direction
     location = Location(
-        begin=_triple(squared.centre[0]),
-        end=_triple(squared.centre[1]),
-        direction=_triple(direction),
-        upward=_triple(upward / np.linalg.norm(upward)),
-        begin_normal=_triple(begin.normal),
-        end_normal=_triple(end.normal),
+        begin=_take_triple(squared.centre[0]),
+        end=_take_triple(squared.centre[1]),
+        direction=_take_triple(direction),
+        upward=_take_triple(upward / np.linalg.norm(upward)),
+        begin_normal=_take_triple(begin.normal),
+        end_normal=_take_triple(end.normal),
         direction_uncertainty=of_direction,
     )
     return Located(location, begin, end, taken, begin_misalignment, end_misalignment)
 
 
-def _triple(vector: FloatArray) -> tuple[float, float, float]:
+def _take_triple(vector: FloatArray) -> tuple[float, float, float]:
     x, y, z = vector.tolist()
     return x, y, z
 
 
-def _of(blocks: Block, index: int) -> Block:
+def _take_from_stack(blocks: Block, index: int) -> Block:
     """Return one block of a stack."""
     return Block(
         *(
@@ -157,7 +157,7 @@ def _of(blocks: Block, index: int) -> Block:
     )
 
 
-def _top_first(coordinates: FloatArray) -> FloatArray:
+def _put_top_first(coordinates: FloatArray) -> FloatArray:
     """Return the points with P6 above P7 where they were exchanged and the top of the gauge looks up."""
     ordered = coordinates.copy()
     for points in ordered:
@@ -177,19 +177,19 @@ def _spread(blocks: Block) -> float:
     return float(np.sqrt(np.sum(np.diff(sizes, axis=-1) ** 2) / (4 * len(sizes))))
 
 
-def _propagated(coordinates: FloatArray, radius: float, uncertainty: float) -> tuple[float, list[float]]:
+def _propagate(coordinates: FloatArray, radius: float, uncertainty: float) -> tuple[float, list[float]]:
     """Return the standard uncertainties of the direction and of the two normals, across each of them, rad."""
     moves = np.eye(coordinates.size).reshape(-1, *coordinates.shape) * _MOVED
     moved = coordinates + moves
     per_metre = uncertainty / _MOVED
-    of_direction = direction_of(moved, radius) - direction_of(coordinates, radius)
-    of_normals = block_of(moved, radius).normal - block_of(coordinates, radius).normal
+    of_direction = compute_direction_of(moved, radius) - compute_direction_of(coordinates, radius)
+    of_normals = fit_block(moved, radius).normal - fit_block(coordinates, radius).normal
     return (
-        _across(of_direction * per_metre),
-        [_across(of_normals[:, index] * per_metre) for index in range(len(BLOCKS))],
+        _compute_across(of_direction * per_metre),
+        [_compute_across(of_normals[:, index] * per_metre) for index in range(len(BLOCKS))],
     )
 
 
-def _across(parts: FloatArray) -> float:
+def _compute_across(parts: FloatArray) -> float:
     """Return the root of the mean variance in the two directions across, of the parts of shape (part, 3)."""
     return float(np.sqrt(np.sum(parts**2) / 2))

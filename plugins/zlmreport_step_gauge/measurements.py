@@ -93,24 +93,24 @@ _GAUGE = Words("gauge")
 _SCALE = Words("scale")
 
 
-def remarks(deviations: Deviations, set_up: GaugeSetUp, *, targets_are_blocks: bool) -> Iterator[Words]:
+def list_remarks(deviations: Deviations, set_up: GaugeSetUp, *, targets_are_blocks: bool) -> Iterator[Words]:
     """Yield what a reader of the readings must know."""
     yield _DIRECTION
-    yield from _line(deviations, set_up)
-    yield _radius(deviations.radius)
+    yield from _say_line(deviations, set_up)
+    yield _say_radius(deviations.radius)
     yield _BLOCKS if targets_are_blocks else _FACES
     if not set_up.gauge_expansion:
         yield _NOT_COMPENSATED
 
 
-def corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correction]:
+def list_corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correction]:
     """Yield the compensation of temperatures, if there is one."""
     gauge, scale = set_up.gauge_expansion, set_up.scale_expansion
     if gauge is None:
         return
-    inputs = _expansion(_GAUGE, gauge)
+    inputs = _say_expansion(_GAUGE, gauge)
     if scale:
-        inputs = _BOTH_EXPANSIONS.given(gauge=inputs, scale=_expansion(_SCALE, scale))
+        inputs = _BOTH_EXPANSIONS.given(gauge=inputs, scale=_say_expansion(_SCALE, scale))
     changed = deviations.compensated
     yield Correction(
         _TEMPERATURE,
@@ -120,7 +120,7 @@ def corrections(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Correcti
     )
 
 
-def _expansion(which: Words, expansion: Expansion) -> Words:
+def _say_expansion(which: Words, expansion: Expansion) -> Words:
     return _ONE_EXPANSION.given(
         which=which,
         alpha=expansion.coefficient / MICROMETRE_PER_METRE_KELVIN,
@@ -128,7 +128,7 @@ def _expansion(which: Words, expansion: Expansion) -> Words:
     )
 
 
-def _line(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Words]:
+def _say_line(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Words]:
     if deviations.direction is None:
         yield _DISTANCES
         return
@@ -140,36 +140,36 @@ def _line(deviations: Deviations, set_up: GaugeSetUp) -> Iterator[Words]:
         (_BEGIN, set_up.located.begin_misalignment),
         (_END, set_up.located.end_misalignment),
     ):
-        yield _misalignment(which, found)
+        yield _say_misalignment(which, found)
 
 
-def _misalignment(which: Words, found: Misalignment) -> Words:
+def _say_misalignment(which: Words, found: Misalignment) -> Words:
     return _ASKEW.given(
         which=which,
-        angle=_two_digits(MICRORADIAN.from_si(found.angle)),
-        uncertainty=_two_digits(MICRORADIAN.from_si(found.uncertainty)),
+        angle=_round_to_two_digits(MICRORADIAN.from_si(found.angle)),
+        uncertainty=_round_to_two_digits(MICRORADIAN.from_si(found.uncertainty)),
         verdict=_SIGNIFICANT if found.is_significant else _INSIGNIFICANT,
     )
 
 
-def _radius(found: EffectiveRadius) -> Words:
+def _say_radius(found: EffectiveRadius) -> Words:
     if found.source is RadiusSource.MACHINE:
         return _OF_MACHINE
     if found.source is RadiusSource.NOWHERE:
         return _CANCELS
     radius = float(round(MILLIMETRE.from_si(found.radius), 6))
-    uncertainty = _two_digits(MICROMETRE.from_si(found.uncertainty))
+    uncertainty = _round_to_two_digits(MICROMETRE.from_si(found.uncertainty))
     if found.source is RadiusSource.STATED:
         return _STATED.given(radius=radius, uncertainty=uncertainty)
     return _DETERMINED.given(
         radius=radius,
         number=len(found.by_block),
-        scatter=_two_digits(MICROMETRE.from_si(found.scatter)),
+        scatter=_round_to_two_digits(MICROMETRE.from_si(found.scatter)),
         uncertainty=uncertainty,
     )
 
 
-def _two_digits(value: float) -> float:
+def _round_to_two_digits(value: float) -> float:
     return value if not value or math.isnan(value) else float(f"{value:.2g}")
 
 
@@ -207,7 +207,7 @@ class Sign(Enum):
         return 1 if self is Sign.INDICATION else -1
 
 
-def measurement_set(  # noqa: PLR0913 - what a set is made of
+def make_measurement_set(  # noqa: PLR0913 - what a set is made of
     probed: Probed,
     deviations: Deviations,
     set_up: GaugeSetUp,
@@ -228,7 +228,7 @@ def measurement_set(  # noqa: PLR0913 - what a set is made of
     """
     face_index = {face.number: index for index, face in enumerate(probed.faces)}
     cycle_index = {cycle: index for index, cycle in enumerate(probed.cycles)}
-    middles = _middles(probed.faces)
+    middles = _find_middles(probed.faces)
 
     def reading_of(face: Face, cycle: int, at: Place) -> Reading:
         nominal = middles[face.block] if targets is Targets.BLOCKS else face.nominal
@@ -251,9 +251,11 @@ def measurement_set(  # noqa: PLR0913 - what a set is made of
         (*files, *set_up.files),
         (
             INDICATION if sign is Sign.INDICATION else POSITION,
-            *remarks(deviations, set_up, targets_are_blocks=targets is Targets.BLOCKS),
+            *list_remarks(deviations, set_up, targets_are_blocks=targets is Targets.BLOCKS),
         ),
-        tuple(replace(each, largest=sign.factor * each.largest) for each in corrections(deviations, set_up)),
+        tuple(
+            replace(each, largest=sign.factor * each.largest) for each in list_corrections(deviations, set_up)
+        ),
     )
     found = collect_readings(readings, axis, provenance, place=place)
     return replace(
@@ -272,7 +274,7 @@ def _is_one_sided(measurements: MeasurementSet) -> bool:
     return bool(measurements.is_bidirectional and np.all(present.sum(axis=0) == 1))
 
 
-def _middles(faces: tuple[Face, ...]) -> dict[int, float]:
+def _find_middles(faces: tuple[Face, ...]) -> dict[int, float]:
     """Return the middle of each block, m."""
     by_block: dict[int, list[float]] = {}
     for face in faces:

@@ -59,7 +59,7 @@ class Probed:
         return np.array([float(face.side) for face in self.faces])
 
 
-def gridded(
+def arrange_on_grid(
     points: Sequence[ProbedPoint],
     gauge: StepGauge,
     sides: Sequence[Side],
@@ -79,7 +79,7 @@ def gridded(
     taken: dict[tuple[int, int], ProbedPoint] = {}
     for point in points:
         if point.face not in known:
-            found.append(Problem(point.place, _off_the_section(point, gauge)))
+            found.append(Problem(point.place, _say_off_the_section(point, gauge)))
         elif (earlier := taken.setdefault((point.face, point.cycle), point)) is not point:
             found.append(
                 Problem(
@@ -92,7 +92,7 @@ def gridded(
         found.append(Problem(place, "holds no probed point"))
     faces = tuple(face for face in gauge.faces if face.side in sides)
     if not found:
-        found.extend(_missed(faces, taken, place))
+        found.extend(_find_missed(faces, taken, place))
     if found:
         ordered = sorted(set(found))
         raise InputError(
@@ -117,7 +117,7 @@ def gridded(
     return Probed(faces, cycles, read_only_floats(coordinates), kept)
 
 
-def _off_the_section(point: ProbedPoint, gauge: StepGauge) -> str:
+def _say_off_the_section(point: ProbedPoint, gauge: StepGauge) -> str:
     first, last = gauge.faces[0].number, gauge.faces[-1].number
     return (
         f"face {point.face} is not on the section, which has the faces {first} to {last} (blocks "
@@ -125,7 +125,7 @@ def _off_the_section(point: ProbedPoint, gauge: StepGauge) -> str:
     )
 
 
-def _missed(
+def _find_missed(
     faces: Sequence[Face], taken: dict[tuple[int, int], ProbedPoint], place: Place
 ) -> Iterator[Problem]:
     """Yield the faces of which there is no point at all."""
@@ -140,7 +140,7 @@ def _missed(
             )
 
 
-def face_of(name: str, mapping: dict[str, int], place: Place) -> int:
+def find_face_of(name: str, mapping: dict[str, int], place: Place) -> int:
     """Return the number of the face that a file calls by a name; a mapping of the job comes first.
 
     Without it, the digits at the end of the name are the number: ``F01``, ``Face 12``.
@@ -182,7 +182,7 @@ class Unnumbered:
     normal: tuple[float, float, float] | None = None
 
 
-def wrong_side(normal: Sequence[float], face: Face | None, direction: Direction | None) -> str | None:
+def say_wrong_side(normal: Sequence[float], face: Face | None, direction: Direction | None) -> str | None:
     """Return what is wrong with an outward normal for a face; None if nothing is, or nothing is known."""
     if face is None or direction is None:
         return None
@@ -197,7 +197,7 @@ def wrong_side(normal: Sequence[float], face: Face | None, direction: Direction 
     )
 
 
-def numbered(
+def number_points(
     points: Sequence[Unnumbered],
     gauge: StepGauge,
     origin: Sequence[float],
@@ -220,7 +220,7 @@ def numbered(
     visits: dict[int, int] = {}
     found = []
     for point, at in zip(points, position.tolist(), strict=True):
-        face = _nearest(at, point, gauge, direction, radius)
+        face = _find_nearest(at, point, gauge, direction, radius)
         if face is None:
             shown = MILLIMETRE.from_si(at - middle)
             problems.append(
@@ -236,7 +236,7 @@ def numbered(
     return found
 
 
-def _nearest(
+def _find_nearest(
     position: float, point: Unnumbered, gauge: StepGauge, direction: Direction, radius: float
 ) -> Face | None:
     """Return the face that the tip touched; None if it is near none."""
@@ -251,7 +251,7 @@ def _nearest(
     return faces[best] if abs(float(distances[best])) <= _OF_A_STEP * step else None
 
 
-def by_order(points: Sequence[Unnumbered], faces: Sequence[Face], place: Place) -> list[ProbedPoint]:
+def number_by_order(points: Sequence[Unnumbered], faces: Sequence[Face], place: Place) -> list[ProbedPoint]:
     """Return points with faces by where they lie in their cycle, the beginning being where it began.
 
     Raises `InputError` if they do not come to whole cycles.
@@ -266,7 +266,7 @@ def by_order(points: Sequence[Unnumbered], faces: Sequence[Face], place: Place) 
     found = []
     for cycle in range(len(points) // size):
         of_cycle = points[cycle * size : (cycle + 1) * size]
-        ranks = _ranks(np.array([point.coordinates for point in of_cycle]))
+        ranks = _rank_points(np.array([point.coordinates for point in of_cycle]))
         found += [
             ProbedPoint(point.place, faces[rank].number, cycle + 1, point.coordinates)
             for point, rank in zip(of_cycle, ranks, strict=True)
@@ -274,7 +274,7 @@ def by_order(points: Sequence[Unnumbered], faces: Sequence[Face], place: Place) 
     return found
 
 
-def _ranks(coordinates: FloatArray) -> list[int]:
+def _rank_points(coordinates: FloatArray) -> list[int]:
     """Return the place of each point in the order along their line, counted from the first one's end."""
     centred = coordinates - coordinates.mean(axis=0)
     along = centred @ np.linalg.svd(centred)[2][0]

@@ -15,7 +15,7 @@ from zlmreport.plugin import (
 )
 from zlmreport.plugin.extension import Job
 from zlmreport.plugin.source import SourceFile
-from zlmreport_step_gauge.calibration import CalibratedGauge, read_calibration, section
+from zlmreport_step_gauge.calibration import CalibratedGauge, cut_section, read_calibration
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import read_initial_points
 from zlmreport_step_gauge.keys import StepGaugeKeys
@@ -60,7 +60,7 @@ class GaugeSetUp:
     place: Place  #: Where the job describes it.
 
 
-def gauge_set_up(job: Job, keys: StepGaugeKeys) -> GaugeSetUp:
+def make_gauge_set_up(job: Job, keys: StepGaugeKeys) -> GaugeSetUp:
     """Return the set-up that a job describes.
 
     Raises `AccessError` if a file cannot be read; `InputError` with every defect of these files, and with
@@ -68,8 +68,10 @@ def gauge_set_up(job: Job, keys: StepGaugeKeys) -> GaugeSetUp:
     """
     calibrated = read_calibration(keys.calibration)
     named = next((key for key in ("last_block", "first_block") if getattr(keys, key)), "calibration")
-    gauge = section(calibrated.gauge, keys.first_block, keys.last_block, job.place_of(f"step_gauge.{named}"))
-    located, files = _located(keys, gauge, calibrated, job)
+    gauge = cut_section(
+        calibrated.gauge, keys.first_block, keys.last_block, job.place_of(f"step_gauge.{named}")
+    )
+    located, files = _locate(keys, gauge, calibrated, job)
     stated = None
     if keys.effective_radius is not None:
         stated = StatedRadius(
@@ -82,14 +84,14 @@ def gauge_set_up(job: Job, keys: StepGaugeKeys) -> GaugeSetUp:
         radius_is_corrected=keys.radius_correction,
         effective_radius=stated,
         probing_uncertainty=MICROMETRE.to_si(keys.probing_uncertainty),
-        gauge_expansion=_of_gauge(keys, gauge, job),
-        scale_expansion=_of_scale(keys, job),
+        gauge_expansion=_make_expansion_of_gauge(keys, gauge, job),
+        scale_expansion=_make_expansion_of_scale(keys, job),
         files=files,
         place=job.place_of("step_gauge"),
     )
 
 
-def _located(
+def _locate(
     keys: StepGaugeKeys, gauge: StepGauge, calibrated: CalibratedGauge, job: Job
 ) -> tuple[Located | None, tuple[SourceFile, ...]]:
     if keys.initial_points is None:
@@ -106,7 +108,7 @@ def _located(
     return located, (calibrated.file, *([points.source] if points.source else []))
 
 
-def _of_gauge(keys: StepGaugeKeys, gauge: StepGauge, job: Job) -> Expansion | None:
+def _make_expansion_of_gauge(keys: StepGaugeKeys, gauge: StepGauge, job: Job) -> Expansion | None:
     if keys.compensate == "nothing" or keys.gauge_temperature is None:
         return None
     coefficient = gauge.expansion_coefficient
@@ -122,7 +124,7 @@ def _of_gauge(keys: StepGaugeKeys, gauge: StepGauge, job: Job) -> Expansion | No
     return Expansion(coefficient, CELSIUS.to_si(keys.gauge_temperature) - gauge.reference_temperature)
 
 
-def _of_scale(keys: StepGaugeKeys, job: Job) -> Expansion | None:
+def _make_expansion_of_scale(keys: StepGaugeKeys, job: Job) -> Expansion | None:
     if keys.compensate != "gauge-and-scale":
         return None
     environment = job.keys.environment

@@ -24,23 +24,23 @@ from zlmreport.plugin import (
     unit_named,
 )
 from zlmreport.plugin.source import SourceContext, TextFile, read_text
-from zlmreport_step_gauge.deviations import deviations_of
+from zlmreport_step_gauge.deviations import compute_deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge
 from zlmreport_step_gauge.keys import MachineKeys
-from zlmreport_step_gauge.measurements import Sign, Targets, measurement_set
+from zlmreport_step_gauge.measurements import Sign, Targets, make_measurement_set
 from zlmreport_step_gauge.probed import (
     Direction,
     Points,
     ProbedPoint,
     Unnumbered,
-    by_order,
-    face_of,
-    gridded,
-    numbered,
-    wrong_side,
+    arrange_on_grid,
+    find_face_of,
+    number_by_order,
+    number_points,
+    say_wrong_side,
 )
 from zlmreport_step_gauge.set_up import GaugeSetUp
-from zlmreport_step_gauge.tables import Row, measured, read_named_columns
+from zlmreport_step_gauge.tables import Row, read_measured, read_named_columns
 
 _TABLE = ("face", "cycle", "x", "y", "z")
 _NORMAL = ("i", "j", "k")
@@ -53,11 +53,13 @@ def read_table(path: Path, gauge: StepGauge, direction: Direction | None) -> Poi
     """
     table = read_named_columns(path, _TABLE, _NORMAL)
     problems = table.problems
-    points = [found for row in table.rows if (found := _row(row, gauge, direction, problems)) is not None]
+    points = [
+        found for row in table.rows if (found := _read_row(row, gauge, direction, problems)) is not None
+    ]
     return Points(tuple(points), table.source, table.text.place(), tuple(problems))
 
 
-def _row(
+def _read_row(
     row: Row, gauge: StepGauge, direction: Direction | None, problems: list[Problem]
 ) -> ProbedPoint | None:
     face, cycle = row.integer("face", problems), row.integer("cycle", problems)
@@ -70,7 +72,7 @@ def _row(
     if all(row.text(column) for column in _NORMAL):
         normal = [row.number(column, problems) for column in _NORMAL]
         if None not in normal:
-            message = wrong_side([each or 0.0 for each in normal], gauge.face(face), direction)
+            message = say_wrong_side([each or 0.0 for each in normal], gauge.face(face), direction)
             if message:
                 problems.append(Problem(row.place, message))
     x, y, z = (MILLIMETRE.to_si(each) for each in coordinates if each is not None)
@@ -95,7 +97,7 @@ def read_sequence(path: Path) -> tuple[TextFile, list[Unnumbered]]:
             problems.append(Problem(place, f"three numbers are expected, x y z: {quoted(written)}"))
             continue
         try:
-            x, y, z = (MILLIMETRE.to_si(measured(cell)) for cell in cells)
+            x, y, z = (MILLIMETRE.to_si(read_measured(cell)) for cell in cells)
         except ValueError as error:
             problems.append(Problem(place, str(error)))
             continue
@@ -132,13 +134,13 @@ def read_calypso(path: Path, mapping: dict[str, int]) -> Points:
     points = []
     for number, line in enumerate(text.lines[1:], 2):
         if line.strip() and line.strip() != _END:
-            point = _characteristic(text, number, line.split("\t"), indices, mapping, cycles, problems)
+            point = _read_characteristic(text, number, line.split("\t"), indices, mapping, cycles, problems)
             if point:
                 points.append(point)
     return Points(tuple(points), text.source, text.place(), tuple(problems), is_corrected=True)
 
 
-def _characteristic(  # noqa: PLR0913, PLR0917 - a row with what it is read by
+def _read_characteristic(  # noqa: PLR0913, PLR0917 - a row with what it is read by
     text: TextFile,
     line: int,
     cells: list[str],
@@ -155,8 +157,8 @@ def _characteristic(  # noqa: PLR0913, PLR0917 - a row with what it is read by
         return None
     part, name, actual, unit = (cells[indices[each]].strip() for each in _CALYPSO)
     try:
-        face = face_of(name, mapping, text.place(line, column("id")))
-        value = unit_named(unit, LENGTH_UNITS).to_si(measured(actual))
+        face = find_face_of(name, mapping, text.place(line, column("id")))
+        value = unit_named(unit, LENGTH_UNITS).to_si(read_measured(actual))
     except InputError as error:
         problems.extend(error.problems)
         return None
@@ -192,7 +194,7 @@ def read_log(path: Path) -> tuple[TextFile, list[Unnumbered]]:
             )
         data = _DATA.fullmatch(line)
         if data and _COORDINATE.search(data["data"]):
-            point = _measured(data["data"], place, problems)
+            point = _read_measured(data["data"], place, problems)
             if point:
                 points.append(point)
     if problems:
@@ -200,17 +202,17 @@ def read_log(path: Path) -> tuple[TextFile, list[Unnumbered]]:
     return text, points
 
 
-def _measured(data: str, place: Place, problems: list[Problem]) -> Unnumbered | None:
+def _read_measured(data: str, place: Place, problems: list[Problem]) -> Unnumbered | None:
     written = dict(_COORDINATE.findall(data))
     normal = _IJK.search(data)
     if set(written) != {"X", "Y", "Z"}:
         problems.append(Problem(place, "a measured point has X, Y and Z; ask for them by OnPtMeasReport"))
         return None
     try:
-        x, y, z = (MILLIMETRE.to_si(measured(written[name])) for name in "XYZ")
+        x, y, z = (MILLIMETRE.to_si(read_measured(written[name])) for name in "XYZ")
         if normal is None:
             return Unnumbered(place, (x, y, z))
-        i, j, k = (measured(each) for each in normal.groups())
+        i, j, k = (read_measured(each) for each in normal.groups())
     except ValueError as error:
         problems.append(Problem(place, str(error)))
         return None
@@ -288,12 +290,14 @@ class StepGaugeSource:
                 f"on {what}; read it by the source of the instrument that measured it",
             )
         sides = _SIDES[options.side]
-        found = _points(options, set_up, sides)
-        probed = gridded(found.points, set_up.gauge, sides, place=found.place, problems=found.problems)
-        deviations = deviations_of(
+        found = _read_points(options, set_up, sides)
+        probed = arrange_on_grid(
+            found.points, set_up.gauge, sides, place=found.place, problems=found.problems
+        )
+        deviations = compute_deviations_of(
             probed, set_up, found.place, is_corrected=found.is_corrected or set_up.radius_is_corrected
         )
-        return measurement_set(
+        return make_measurement_set(
             probed,
             deviations,
             set_up,
@@ -307,32 +311,32 @@ class StepGaugeSource:
         )
 
 
-def _points(options: StepGaugeOptions, set_up: GaugeSetUp, sides: tuple[Side, ...]) -> Points:
-    layout = options.layout or _layout(read_text(options.file))
+def _read_points(options: StepGaugeOptions, set_up: GaugeSetUp, sides: tuple[Side, ...]) -> Points:
+    layout = options.layout or _find_layout(read_text(options.file))
     direction = set_up.located.location.direction if set_up.located else None
     if layout == "table":
         return read_table(options.file, set_up.gauge, direction)
     if layout == "calypso":
         return read_calypso(options.file, options.faces)
     text, unnumbered = (read_log if layout == "ipp-dme" else read_sequence)(options.file)
-    return _with_faces(text, unnumbered, set_up, sides)
+    return _add_faces(text, unnumbered, set_up, sides)
 
 
-def _with_faces(
+def _add_faces(
     text: TextFile, unnumbered: list[Unnumbered], set_up: GaugeSetUp, sides: tuple[Side, ...]
 ) -> Points:
     """Return points with their faces: by where they lie, or without a location by their order."""
     if set_up.located and unnumbered:
         location = set_up.located.location
         radius = 0.0 if set_up.radius_is_corrected else set_up.tip_radius or 0.0
-        points = numbered(unnumbered, set_up.gauge, location.begin, location.direction, radius)
+        points = number_points(unnumbered, set_up.gauge, location.begin, location.direction, radius)
     else:
         faces = [face for face in set_up.gauge.faces if face.side in sides]
-        points = by_order(unnumbered, faces, text.place())
+        points = number_by_order(unnumbered, faces, text.place())
     return Points(tuple(points), text.source, text.place())
 
 
-def _layout(text: TextFile) -> str:
+def _find_layout(text: TextFile) -> str:
     """Tell the layout by the first line that is no comment."""
     first = next((line for line in text.lines if line.strip() and not line.lstrip().startswith("#")), "")
     if is_calypso(first):

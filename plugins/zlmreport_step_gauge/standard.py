@@ -179,7 +179,7 @@ class StepGaugeEvaluation:
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold what the formulas need against the test."""
-        return _findings(measurements)
+        return _list_findings(measurements)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the parameters, and errors and reversal by position."""
@@ -187,17 +187,17 @@ class StepGaugeEvaluation:
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the graphs of errors and of the reversal."""
-        return graphs(evaluation)
+        return draw_graphs(evaluation)
 
 
-def _findings(measurements: MeasurementSet) -> Iterator[Finding]:
+def _list_findings(measurements: MeasurementSet) -> Iterator[Finding]:
     yield number_of_runs(measurements, _RUNS_FOR_A_SCATTER, Basis.APPLIED)
     yield no_missing_readings(measurements)
     if measurements.is_bidirectional:
-        yield _radius_from_elsewhere(measurements)
+        yield _check_radius_from_elsewhere(measurements)
 
 
-def _radius_from_elsewhere(measurements: MeasurementSet) -> Finding:
+def _check_radius_from_elsewhere(measurements: MeasurementSet) -> Finding:
     """Ask that what parts the directions is the machine and not what was taken for the probe's radius."""
     requirement = Words(
         "An effective radius of the probe that is known from elsewhere, for the reversal error"
@@ -233,10 +233,10 @@ def arithmetic(statistics: PositionStatistics) -> Arithmetic:
         "XR": reversal,
         "B": -reversal,
     }
-    return Arithmetic(_parameters(statistics, reversal), columns)
+    return Arithmetic(_compute_parameters(statistics, reversal), columns)
 
 
-def _parameters(statistics: PositionStatistics, reversal: FloatArray) -> dict[str, FloatArray]:
+def _compute_parameters(statistics: PositionStatistics, reversal: FloatArray) -> dict[str, FloatArray]:
     """Return the parameters of the axis; of what was measured, but for the reversal error."""
     forward, backward = statistics.mean_positive, statistics.mean_negative
     twice = 2 * statistics.standard_deviation
@@ -261,7 +261,7 @@ _MEAN = {
 _SYMBOLS = {Approach.POSITIVE: "F", Approach.NEGATIVE: "B"}
 
 
-def graphs(evaluation: Evaluation) -> Iterator[Figure]:
+def draw_graphs(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield the graphs, as far as the test defines what they show."""
     drawn = _Graphs(evaluation)
     yield drawn.errors()

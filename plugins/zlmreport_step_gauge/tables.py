@@ -13,7 +13,7 @@ from zlmreport.plugin.source import SourceFile, TextCell, TextFile, parse_number
 _LARGEST = 1e9
 
 
-def measured(text: str) -> float:
+def read_measured(text: str) -> float:
     """Return a number as a machine writes it; raise ValueError for what is none, or beyond all machines."""
     value = parse_number(text)
     if abs(value) > _LARGEST:
@@ -36,7 +36,7 @@ class Row:
         """Return the number in a cell; None, and a problem, where it holds none."""
         cell = self.cells[column]
         try:
-            return measured(cell.text)
+            return read_measured(cell.text)
         except ValueError as error:
             message = str(error) if cell.text else "a number is missing"
             problems.append(Problem(cell.place, f"column {column}: {message}"))
@@ -102,7 +102,7 @@ def _refuse_other_columns(
 ) -> None:
     known = {name.casefold(): name for name in (*needed, *optional)}
     problems = [
-        Problem(cell.place, f"{quoted(cell.text)} is no column of this table; {_nearest(cell, known)}")
+        Problem(cell.place, f"{quoted(cell.text)} is no column of this table; {_find_nearest(cell, known)}")
         for cell, name in zip(header, names, strict=True)
         if name not in known
     ]
@@ -120,5 +120,5 @@ def _refuse_other_columns(
         raise InputError(problems)
 
 
-def _nearest(cell: TextCell, known: dict[str, str]) -> str:
+def _find_nearest(cell: TextCell, known: dict[str, str]) -> str:
     return did_you_mean(cell.text[:40], list(known.values()))

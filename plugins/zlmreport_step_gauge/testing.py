@@ -62,17 +62,17 @@ def leads_along_the_path(program: PartProgram, recogniser: Recogniser, keys: Map
     """Check for both kinds of paths that the program has their moves, in their order, and no other."""
     for kind in PathKind:
         path = sample_path(kind)
-        stated = list(recogniser(_written(program, path, keys)))
+        stated = list(recogniser(_write_program(program, path, keys)))
         where = f"{program.identifier}, {kind.value} path"
         expect(len(stated) == len(path.moves), f"{where}: {len(stated)} moves; expected {len(path.moves)}")
-        for number, (is_so, should) in enumerate(zip(stated, _planned(path), strict=True), start=1):
+        for number, (is_so, should) in enumerate(zip(stated, _read_planned(path), strict=True), start=1):
             expect(
-                is_so.is_measuring == should.is_measuring and _near(is_so.point, should.point, _NEAR),
-                f"{where}: move {number} is {_said(is_so)}; expected {_said(should)}",
+                is_so.is_measuring == should.is_measuring and _is_near(is_so.point, should.point, _NEAR),
+                f"{where}: move {number} is {_say_stated(is_so)}; expected {_say_stated(should)}",
             )
             if is_so.normal is not None and should.normal is not None:
                 expect(
-                    _near(is_so.normal, should.normal, _PARALLEL),
+                    _is_near(is_so.normal, should.normal, _PARALLEL),
                     f"{where}: move {number} has the normal {is_so.normal}; expected {should.normal}",
                 )
 
@@ -80,13 +80,13 @@ def leads_along_the_path(program: PartProgram, recogniser: Recogniser, keys: Map
 @check
 def is_plain_text(program: PartProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check that the program is ASCII in lines that a machine can hold, and ends with a line."""
-    expect_plain_text(_written(program, sample_path(), keys), program.identifier)
+    expect_plain_text(_write_program(program, sample_path(), keys), program.identifier)
 
 
 @check
 def writes_the_same_again(program: PartProgram, _recogniser: Recogniser, keys: Mapping[str, Any]) -> None:
     """Check that the same path gives the same program."""
-    first, second = (_written(program, sample_path(PathKind.HORIZONTAL), keys) for _ in range(2))
+    first, second = (_write_program(program, sample_path(PathKind.HORIZONTAL), keys) for _ in range(2))
     expect(first == second, f"{program.identifier}: writing the same path again gives another program")
 
 
@@ -95,9 +95,9 @@ def takes_no_name_for_a_statement(
     program: PartProgram, recogniser: Recogniser, keys: Mapping[str, Any]
 ) -> None:
     """Check that a user's names of job and gauge change nothing of what the program does."""
-    plain = list(recogniser(_written(program, sample_path(), keys)))
+    plain = list(recogniser(_write_program(program, sample_path(), keys)))
     for name in _HOSTILE:
-        text = _written(program, sample_path(number=name, gauge=name), keys)
+        text = _write_program(program, sample_path(number=name, gauge=name), keys)
         where = f"{program.identifier}: with a gauge called {name[:20]!r}"
         expect_same_deeds(text, recogniser, plain, where, "read")
 
@@ -109,7 +109,7 @@ def minds_the_radius(program: PartProgram, _recogniser: Recogniser, keys: Mappin
     A language that cannot say it at all writes the same: then it is set on the machine.
     """
     try:
-        text = _written(program, sample_path(radius_correction=True), keys)
+        text = _write_program(program, sample_path(radius_correction=True), keys)
     except InputError as error:
         expect(
             [problem.place for problem in error.problems] == [PLACE],
@@ -122,29 +122,29 @@ def minds_the_radius(program: PartProgram, _recogniser: Recogniser, keys: Mappin
     )
 
 
-def _written(program: PartProgram, path: ProbingPath, keys: Mapping[str, Any]) -> str:
+def _write_program(program: PartProgram, path: ProbingPath, keys: Mapping[str, Any]) -> str:
     return program.write(path, program.options.model_validate(dict(keys)))
 
 
-def _planned(path: ProbingPath) -> list[Stated]:
+def _read_planned(path: ProbingPath) -> list[Stated]:
     return [
-        Stated(is_measuring=True, point=_mm(move.target), normal=move.normal)
+        Stated(is_measuring=True, point=_take_mm(move.target), normal=move.normal)
         if isinstance(move, Probing)
-        else Stated(is_measuring=False, point=_mm(move.to))
+        else Stated(is_measuring=False, point=_take_mm(move.to))
         for move in path.moves
     ]
 
 
-def _mm(point: tuple[float, float, float]) -> tuple[float, float, float]:
+def _take_mm(point: tuple[float, float, float]) -> tuple[float, float, float]:
     x, y, z = (MILLIMETRE.from_si(at) for at in point)
     return x, y, z
 
 
-def _near(one: Sequence[float], other: Sequence[float], tolerance: float) -> bool:
+def _is_near(one: Sequence[float], other: Sequence[float], tolerance: float) -> bool:
     return all(abs(mine - its) <= tolerance for mine, its in zip(one, other, strict=True))
 
 
-def _said(stated: Stated) -> str:
+def _say_stated(stated: Stated) -> str:
     where = ", ".join(f"{each:.4f}" for each in stated.point)
     return f"{'measuring' if stated.is_measuring else 'going'} to ({where})"
 

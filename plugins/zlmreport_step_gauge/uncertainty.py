@@ -28,7 +28,7 @@ from zlmreport.plugin.extension import (
     calibration_in_words,
 )
 from zlmreport.plugin.standard import position_statistics
-from zlmreport_step_gauge.deviations import radius_uncertainty
+from zlmreport_step_gauge.deviations import compute_radius_uncertainty
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.set_up import GaugeSetUp
 
@@ -49,7 +49,7 @@ _EXPANSION_SOURCE = Words("L·ΔT·u(α), ΔT = {difference} K; calibration of t
 _EXPANSION_STATED = Words("u(α) = {value} µm/(m·K)")
 
 
-def gauge_contributions(
+def list_gauge_contributions(
     set_up: GaugeSetUp, measurements: MeasurementSet, *, expansion_is_stated: bool = False
 ) -> tuple[Contribution, ...]:
     """Return the contributions of a step gauge.
@@ -62,16 +62,16 @@ def gauge_contributions(
     targets = measurements.target_positions
     length = float(targets[-1] - targets[0])
     return (
-        *_of_faces(set_up.gauge),
-        *_of_reference(set_up, measurements),
-        *_of_radius(set_up, measurements),
-        *_of_touches(set_up),
-        *_of_direction(set_up, length),
-        *(() if expansion_is_stated else _of_expansion(set_up, length)),
+        *_list_of_faces(set_up.gauge),
+        *_list_of_reference(set_up, measurements),
+        *_list_of_radius(set_up, measurements),
+        *_list_of_touches(set_up),
+        *_list_of_direction(set_up, length),
+        *(() if expansion_is_stated else _list_of_expansion(set_up, length)),
     )
 
 
-def parted(distance: FloatArray, uncertainty: FloatArray) -> tuple[float, float]:
+def part_uncertainty(distance: FloatArray, uncertainty: FloatArray) -> tuple[float, float]:
     """Return u at each face by itself, and u along the length, that together are nowhere less than stated.
 
     Parameters
@@ -94,11 +94,11 @@ def parted(distance: FloatArray, uncertainty: FloatArray) -> tuple[float, float]
     return math.sqrt(at_each), math.sqrt(along)
 
 
-def _of_faces(gauge: StepGauge) -> Iterator[Contribution]:
+def _list_of_faces(gauge: StepGauge) -> Iterator[Contribution]:
     nominal = np.array([face.nominal for face in gauge.faces])
     expanded = np.array([face.expanded_uncertainty for face in gauge.faces])
     distance = (nominal - nominal[0]) / (nominal[-1] - nominal[0])
-    at_each, along = parted(distance, expanded / _COVERAGE_FACTOR)
+    at_each, along = part_uncertainty(distance, expanded / _COVERAGE_FACTOR)
     stated = _OF_FACES.given(
         low=MICROMETRE.from_si(float(expanded.min())),
         high=MICROMETRE.from_si(float(expanded.max())),
@@ -113,7 +113,7 @@ def _of_faces(gauge: StepGauge) -> Iterator[Contribution]:
             yield Contribution(name, size, acts, Distribution.NORMAL, stated, source)
 
 
-def _of_reference(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[Contribution]:
+def _list_of_reference(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[Contribution]:
     """Yield u of the face that all deviations are relative to: its calibration, and its touches.
 
     A face whose distance is zero is the one that the gauge's calibration is relative to, and is exact.
@@ -129,7 +129,7 @@ def _of_reference(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[
         )
 
 
-def _of_touches(set_up: GaugeSetUp) -> Iterator[Contribution]:
+def _list_of_touches(set_up: GaugeSetUp) -> Iterator[Contribution]:
     size = set_up.probing_uncertainty
     if size:
         yield Contribution(
@@ -137,7 +137,7 @@ def _of_touches(set_up: GaugeSetUp) -> Iterator[Contribution]:
         )
 
 
-def _of_radius(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[Contribution]:
+def _list_of_radius(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[Contribution]:
     """Yield 2·u(R_eff), by which the back faces lie off the front faces, among which the reference face is.
 
     u(R_eff) is as stated, or by the scatter of the blocks about their mean: their radii scatter by half of
@@ -146,7 +146,7 @@ def _of_radius(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[Con
     if set_up.radius_is_corrected or not measurements.is_bidirectional:
         return
     stated = set_up.effective_radius
-    size = stated.uncertainty if stated else _by_scatter(set_up, measurements)
+    size = stated.uncertainty if stated else _estimate_by_scatter(set_up, measurements)
     source = STATED_IN_THE_JOB if stated else _RADIUS_SOURCE
     if size:
         yield Contribution(
@@ -154,15 +154,15 @@ def _of_radius(set_up: GaugeSetUp, measurements: MeasurementSet) -> Iterator[Con
         )
 
 
-def _by_scatter(set_up: GaugeSetUp, measurements: MeasurementSet) -> float:
+def _estimate_by_scatter(set_up: GaugeSetUp, measurements: MeasurementSet) -> float:
     statistics = position_statistics(measurements.deviations())
     forward = statistics.mean_positive[np.isfinite(statistics.mean_positive)]
     backward = statistics.mean_negative[np.isfinite(statistics.mean_negative)]
     number = min(len(forward), len(backward))
-    return radius_uncertainty((backward[:number] - forward[:number]) / 2, set_up.gauge.faces)
+    return compute_radius_uncertainty((backward[:number] - forward[:number]) / 2, set_up.gauge.faces)
 
 
-def _of_direction(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
+def _list_of_direction(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
     """Yield the cosine error of a direction that is uncertain by u both ways across.
 
     θ² is then u²·χ² with two degrees of freedom, so that the error L·θ²/2 has the root mean square √2·L·u².
@@ -175,13 +175,13 @@ def _of_direction(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
         math.sqrt(2) * length * uncertainty**2,
         Acts.ALONG_THE_LENGTH,
         Distribution.ONE_SIDED,
-        _STANDARD.given(value=_two_digits(MICRORADIAN.from_si(uncertainty)), unit="µrad"),
+        _STANDARD.given(value=_round_to_two_digits(MICRORADIAN.from_si(uncertainty)), unit="µrad"),
         _DIRECTION_SOURCE,
         "misalignment",
     )
 
 
-def _of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
+def _list_of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
     """Yield u(α) of the gauge where its expansion is compensated."""
     expansion, known = set_up.gauge_expansion, set_up.gauge.expansion_uncertainty
     if expansion is None or not known:
@@ -198,8 +198,8 @@ def _of_expansion(set_up: GaugeSetUp, length: float) -> Iterator[Contribution]:
 
 
 def _standard(value: float) -> Words:
-    return _STANDARD.given(value=_two_digits(MICROMETRE.from_si(value)), unit="µm")
+    return _STANDARD.given(value=_round_to_two_digits(MICROMETRE.from_si(value)), unit="µm")
 
 
-def _two_digits(value: float) -> float:
+def _round_to_two_digits(value: float) -> float:
     return float(f"{value:.2g}")

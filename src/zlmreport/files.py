@@ -35,7 +35,7 @@ _confinement: Path | None = None
 
 
 @contextlib.contextmanager
-def confined(folder: Path | None) -> Iterator[None]:
+def confine(folder: Path | None) -> Iterator[None]:
     """Read and write only in a folder, instead of in the one until now; as until now for None.
 
     What a link leads to counts, and not where the link lies. Plug-ins that open files by themselves are
@@ -50,12 +50,12 @@ def confined(folder: Path | None) -> Iterator[None]:
         _confinement = before
 
 
-def confinement() -> Path | None:
+def find_confinement() -> Path | None:
     """Return the folder to which the program is confined."""
     return _confinement
 
 
-def outside(path: Path) -> str:
+def say_outside(path: Path) -> str:
     """Return why a path must not be touched while the program is confined; empty if it may be."""
     if _confinement is None or Path(os.path.realpath(path)).is_relative_to(_confinement):
         return ""
@@ -68,7 +68,7 @@ def read(path: Path, most: int) -> bytes:
     Raises `OSError` if it cannot be read, is no file but a folder, a device or a pipe, or lies outside of the
     folder to which the program is confined.
     """
-    with _naming(path):
+    with _name_in_errors(path):
         _demand_inside(path)
         try:
             handle = os.open(path, os.O_RDONLY | _WITHOUT_WAITING)
@@ -82,7 +82,7 @@ def read(path: Path, most: int) -> bytes:
             os.close(handle)
 
 
-def demanded(path: Path, most: int, named_at: Place | None = None) -> bytes:
+def demand(path: Path, most: int, named_at: Place | None = None) -> bytes:
     """Return what a file holds, as `read` does; raise `AccessError` if it cannot be read.
 
     `named_at`: Where somebody names the file; it is told of there.
@@ -91,8 +91,8 @@ def demanded(path: Path, most: int, named_at: Place | None = None) -> bytes:
         return read(path, most)
     except OSError as error:
         if named_at:
-            raise AccessError.at(named_at, f"{path} cannot be read: {reason(error)}") from error
-        raise unreadable(path, error) from error
+            raise AccessError.at(named_at, f"{path} cannot be read: {say_reason(error)}") from error
+        raise make_unreadable(path, error) from error
 
 
 def _demand_a_file(mode: int) -> None:
@@ -103,7 +103,7 @@ def _demand_a_file(mode: int) -> None:
 
 
 def _demand_inside(path: Path) -> None:
-    reason = outside(path)
+    reason = say_outside(path)
     if reason:
         raise OSError(errno.EACCES, reason)
 
@@ -124,13 +124,13 @@ def write(documents: Iterable[Document]) -> tuple[Path, ...]:
     contents = {document.path: document.content for document in documents}
     try:
         for path in contents:
-            with _naming(path):
+            with _name_in_errors(path):
                 if path.is_dir():
                     raise IsADirectoryError(errno.EISDIR, "a folder of this name is in the way")
-        with beside(contents, _hidden) as names:
+        with write_beside(contents, _hide_path) as names:
             _take_places(names)
     except OSError as error:
-        raise unwritable(Path(error.filename), error) from error
+        raise make_unwritable(Path(error.filename), error) from error
     return tuple(contents)
 
 
@@ -143,15 +143,15 @@ def rewrite(path: Path, content: bytes, check: Callable[[bytes], None]) -> None:
     """
     try:
         real = path.resolve(strict=True)
-        with beside({real: content}, _hidden) as names:
+        with write_beside({real: content}, _hide_path) as names:
             shutil.copymode(real, names[real])
             check(real.read_bytes())
             take_names(names)
     except OSError as error:
-        raise unwritable(path, error) from error
+        raise make_unwritable(path, error) from error
 
 
-def cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
+def find_cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
     """Return the folder of this program among those that the user's system keeps for what can be made again.
 
     None where the user has no such folder.
@@ -161,7 +161,9 @@ def cache_folder(environment: Mapping[str, str] = os.environ) -> Path | None:
 
 
 @contextlib.contextmanager
-def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> Iterator[Mapping[Path, Path]]:
+def write_beside(
+    contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]
+) -> Iterator[Mapping[Path, Path]]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
 
     Raises `OSError` if one cannot be written, with the name that it should have got.
@@ -175,7 +177,7 @@ def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> It
     touched: set[Path] = set()
     try:
         for path, content in contents.items():
-            with _naming(path):
+            with _name_in_errors(path):
                 _demand_inside(path.parent)
                 touched |= _made(path.parent)
                 names[path] = hidden(path)
@@ -184,7 +186,7 @@ def beside(contents: Mapping[Path, bytes], hidden: Callable[[Path], Path]) -> It
                     file.flush()
                     os.fsync(file.fileno())
         for folder in touched:
-            sync_folder(folder)
+            push_folder(folder)
         yield names
     finally:  # an interrupt, too, leaves nothing behind
         _remove(names.values())
@@ -199,10 +201,10 @@ def take_names(names: Mapping[Path, Path]) -> None:
         If one cannot have it, with that name; those before it have theirs.
     """
     for path, aside in names.items():
-        with _naming(path):
+        with _name_in_errors(path):
             aside.replace(path)
     for folder in {path.parent for path in names}:
-        sync_folder(folder)
+        push_folder(folder)
 
 
 def _take_places(names: Mapping[Path, Path]) -> None:
@@ -252,13 +254,13 @@ class Appended(Closable):
 
     def __init__(self, path: Path) -> None:
         self._path = path
-        with _naming(path):
+        with _name_in_errors(path):
             _demand_inside(path)
             folders = _made(path.parent)
             self._handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_APPEND | _WITHOUT_WAITING, 0o666)
         try:
             for folder in folders:
-                sync_folder(folder)
+                push_folder(folder)
         except OSError:
             self.close()
             raise
@@ -280,7 +282,7 @@ class Appended(Closable):
 
         Raises `OSError` if the disk does not take it; then nothing of it is there.
         """
-        with _naming(self._path):
+        with _name_in_errors(self._path):
             before = os.fstat(self._handle).st_size
             try:
                 while record:
@@ -293,7 +295,7 @@ class Appended(Closable):
 
     def cut(self, length: int) -> None:
         """Cut away what stands behind so many bytes."""
-        with _naming(self._path):
+        with _name_in_errors(self._path):
             os.ftruncate(self._handle, length)
             os.fsync(self._handle)
 
@@ -321,7 +323,7 @@ class JournalFile(Appended):
         try:
             super().__init__(path)
         except OSError as error:
-            raise unwritable(path, error) from error
+            raise make_unwritable(path, error) from error
         try:
             self.lock()
         except OSError as error:
@@ -333,7 +335,7 @@ class JournalFile(Appended):
         try:
             super().append(record)
         except OSError as error:
-            raise unwritable(self._path, error, self._after) from error
+            raise make_unwritable(self._path, error, self._after) from error
 
 
 def write_new(documents: Sequence[Document]) -> tuple[Path, ...]:
@@ -351,23 +353,23 @@ def write_new(documents: Sequence[Document]) -> tuple[Path, ...]:
     return write(documents)
 
 
-def unwritable(path: Path, error: OSError, remedy: str = "") -> AccessError:
+def make_unwritable(path: Path, error: OSError, remedy: str = "") -> AccessError:
     """Return the error of a file that cannot be written, for the reason that the system gave."""
-    return AccessError([Problem(Place(str(path)), f"cannot be written: {reason(error)}{remedy}")])
+    return AccessError([Problem(Place(str(path)), f"cannot be written: {say_reason(error)}{remedy}")])
 
 
-def unreadable(path: Path, error: OSError) -> AccessError:
+def make_unreadable(path: Path, error: OSError) -> AccessError:
     """Return the error of a file that cannot be read, for the reason that the system gave."""
-    return AccessError([Problem(Place(str(path)), f"cannot be read: {reason(error)}")])
+    return AccessError([Problem(Place(str(path)), f"cannot be read: {say_reason(error)}")])
 
 
-def reason(error: OSError) -> str:
+def say_reason(error: OSError) -> str:
     """Return why the system could not: ``no space left on device``."""
     said = error.strerror or str(error)
     return said[:1].lower() + said[1:]
 
 
-def sync_folder(folder: Path) -> None:
+def push_folder(folder: Path) -> None:
     """Push the names in a folder to the disk, where the system has such a thing.
 
     Raises `OSError` if the disk refuses, with the folder.
@@ -377,7 +379,7 @@ def sync_folder(folder: Path) -> None:
     except PermissionError:  # Windows opens no folders, and one may be for writing only
         return
     try:
-        with _naming(folder):
+        with _name_in_errors(folder):
             os.fsync(handle)
     except OSError as error:
         if error.errno not in _NO_FOLDERS:
@@ -387,7 +389,7 @@ def sync_folder(folder: Path) -> None:
 
 
 @contextlib.contextmanager
-def _naming(path: Path) -> Iterator[None]:
+def _name_in_errors(path: Path) -> Iterator[None]:
     """Let an error name the file that somebody asked for, and no hidden one."""
     try:
         yield
@@ -395,7 +397,7 @@ def _naming(path: Path) -> Iterator[None]:
         raise OSError(error.errno, error.strerror or str(error), str(path)) from error
 
 
-def _hidden(path: Path) -> Path:
+def _hide_path(path: Path) -> Path:
     return path.with_name(f".{path.name[:_REPEATED]}.{os.urandom(4).hex()}")
 
 

@@ -14,8 +14,8 @@ from pydantic import ValidationError
 
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.measurand import CIRCLE, measurands_of
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.measurand import CIRCLE, list_measurands_of
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.plugin.protocols import DataSource, SourceContext, SourceProposal
 from zlmreport.plugin.registry import Registry
 
@@ -44,13 +44,15 @@ class Looked:
         keys = {"plugin": self.source.identifier, "file": file, **self.proposal.keys}
         if self.proposal.tests:
             yield f"{indent}tests:"
-            yield from (f"{indent}  {name}: {_in_yaml({'source': keys})}" for name in self.proposal.tests)
+            yield from (
+                f"{indent}  {name}: {_write_in_yaml({'source': keys})}" for name in self.proposal.tests
+            )
             return
         yield f"{indent}source:"
-        yield from (f"{indent}  {name}: {_in_yaml(value)}" for name, value in keys.items())
+        yield from (f"{indent}  {name}: {_write_in_yaml(value)}" for name, value in keys.items())
 
 
-def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
+def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     """Return how a file can be read.
 
     `sheet`: Of a workbook, the sheet that holds the readings; without it the likeliest one.
@@ -64,7 +66,7 @@ def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     for source in sources:
         if "file" in source.options.model_fields:
             try:
-                ways += ((source, proposal) for proposal in _proposals(source, path, sheet))
+                ways += ((source, proposal) for proposal in _propose_readings(source, path, sheet))
             except AccessError:
                 raise  # no other source could open it
             except ZlmreportError as error:
@@ -72,10 +74,10 @@ def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     # A table of senses, or of channels, would pass as one of directions.
     ways.sort(key=lambda way: way[1].circle is None and way[1].quantity is None)
     for source, proposal in ways:
-        for axis in _axes(proposal):
+        for axis in _propose_axes(proposal):
             try:
                 read = _read(source, proposal, path, axis)
-                return Looked(source, proposal, read, _standard_for(proposal, registry))
+                return Looked(source, proposal, read, _choose_standard_for(proposal, registry))
             except AccessError:
                 raise
             except ZlmreportError as error:
@@ -85,7 +87,7 @@ def looked_at(path: Path, registry: Registry, sheet: str = "") -> Looked:
     raise next(iter(errors), InputError.at(Place(str(path)), "no installed data source reads such a file"))
 
 
-def _proposals(source: DataSource, path: Path, sheet: str) -> Iterator[SourceProposal]:
+def _propose_readings(source: DataSource, path: Path, sheet: str) -> Iterator[SourceProposal]:
     """Yield the ways in which a source may read a file, or a sheet of it; the last is without other keys."""
     proposals = getattr(source, "proposals", None)
     if proposals:
@@ -95,7 +97,7 @@ def _proposals(source: DataSource, path: Path, sheet: str) -> Iterator[SourcePro
         yield SourceProposal({"sheet": sheet} if sheet else {})
 
 
-def _axes(proposal: SourceProposal) -> Iterator[Axis]:
+def _propose_axes(proposal: SourceProposal) -> Iterator[Axis]:
     """Yield the axes that a file may be of: of the kind first that its letter tells; a circle has its own."""
     if proposal.circle:
         return iter([Axis(proposal.circle.plane, quantity=CIRCLE, circle=proposal.circle)])
@@ -116,11 +118,11 @@ def _read(source: DataSource, proposal: SourceProposal, path: Path, axis: Axis) 
             name: source.read(options, SourceContext(replace(axis, name=name), Place(str(path))))
             for name in proposal.tests
         }
-        return joined(axis, lines)
+        return join_lines(axis, lines)
     return source.read(options, SourceContext(axis, Place(str(path))))
 
 
-def _standard_for(proposal: SourceProposal, registry: Registry) -> str:
+def _choose_standard_for(proposal: SourceProposal, registry: Registry) -> str:
     """Return a standard that evaluates what a file holds: the usual one, or one that is for it."""
     if proposal.circle:
         return _OF_CIRCLES
@@ -130,13 +132,13 @@ def _standard_for(proposal: SourceProposal, registry: Registry) -> str:
     fitting = (
         standard.identifier
         for standard in registry.standards
-        for each in measurands_of(standard)
+        for each in list_measurands_of(standard)
         if wanted == (each.of_lines if proposal.tests and each.of_lines else each).identifier
     )
     return next(fitting, _OF_AXES)
 
 
-def job_of(looked: Looked, file: Path, directory: Path) -> str:
+def write_job_of(looked: Looked, file: Path, directory: Path) -> str:
     """Return the job in a folder that makes a report of a file; what is to be asked stands in comments."""
     name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
     return "\n".join(
@@ -144,7 +146,7 @@ def job_of(looked: Looked, file: Path, directory: Path) -> str:
             f"# A measuring report of {file.name}. 'zlmreport schema' describes every key.",
             "schema: zlmreport/job/1",
             "certificate: {number: REPORT-0001, kind: report}",
-            *_measured(looked),
+            *_write_measured(looked),
             "measurement:",
             *(f"  # {question}" for question in looked.proposal.asks),
             *looked.block(name, indent="  "),
@@ -156,7 +158,7 @@ def job_of(looked: Looked, file: Path, directory: Path) -> str:
     )
 
 
-def _measured(looked: Looked) -> Iterator[str]:
+def _write_measured(looked: Looked) -> Iterator[str]:
     """Yield the lines of a job that say of what the file holds readings."""
     axis = looked.read.axis
     if axis.circle:
@@ -171,12 +173,13 @@ def _measured(looked: Looked) -> Iterator[str]:
     yield f"axis: {{name: {axis.name}, kind: {axis.kind.value}, travel: [{first:.9g}, {last:.9g}]}}"
 
 
-def _in_yaml(value: Any) -> str:
+def _write_in_yaml(value: Any) -> str:
     """Return a value in YAML, on one line: text without quotation marks where that is safe."""
     if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{_in_yaml(name)}: {_in_yaml(each)}' for name, each in value.items())}}}"
+        pairs = (f"{_write_in_yaml(name)}: {_write_in_yaml(each)}" for name, each in value.items())
+        return f"{{{', '.join(pairs)}}}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_in_yaml, value))}]"
+        return f"[{', '.join(map(_write_in_yaml, value))}]"
     if isinstance(value, str) and _PLAIN.fullmatch(value) and value.casefold() not in _WORDS_OF_YAML:
         return value
     return json.dumps(value, ensure_ascii=False)

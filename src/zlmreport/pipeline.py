@@ -13,39 +13,44 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from zlmreport.document.certificate.attachments import Attachment, arranged, media_type, source_attachments
+from zlmreport.document.certificate.attachments import (
+    Attachment,
+    arrange_attachments,
+    attach_sources,
+    find_media_type,
+)
 from zlmreport.document.certificate.build import GENERATOR, build
-from zlmreport.document.certificate.clauses import missing_items
-from zlmreport.document.certificate.collection import collected
-from zlmreport.document.certificate.information import findings
-from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.clauses import find_missing_items
+from zlmreport.document.certificate.collection import collect_certificates
+from zlmreport.document.certificate.information import check_information
+from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.results import Evaluated, Tested
-from zlmreport.document.subjects.doubts import doubts_of_runs
+from zlmreport.document.subjects.doubts import find_doubts_of_runs
 from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation import traceability
-from zlmreport.evaluation.correction.corrections import corrected, corrections_of, without_excluded
+from zlmreport.evaluation.correction.corrections import correct, drop_excluded, find_corrections_of
 from zlmreport.evaluation.decision import decided, decision_rule
-from zlmreport.evaluation.evaluate import called, evaluate
+from zlmreport.evaluation.evaluate import evaluate, name_adoption
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.likely_units import doubts
+from zlmreport.evaluation.likely_units import find_doubts
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
-from zlmreport.evaluation.uncertainty.expanded import with_uncertainty
-from zlmreport.evaluation.uncertainty.job_budget import budget_of, refusals
-from zlmreport.evaluation.uncertainty.joined_budget import joined_budget
+from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
+from zlmreport.evaluation.uncertainty.job_budget import find_unstated, make_budget_of
+from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import Document
 from zlmreport.language import Words
-from zlmreport.measurement.error_symbol import for_error
-from zlmreport.measurement.measurement_set import joined
+from zlmreport.measurement.error_symbol import evaluate_for_error
+from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin.kinds import RENDERER
 from zlmreport.plugin.protocols import (
     Renderer,
     SourceContext,
     Standard,
     carries_attachments,
-    contributions_of,
-    information_asked_by,
-    relationship_of,
+    find_contributions_of,
+    find_information_asked_by,
+    find_relationship_of,
 )
 
 if TYPE_CHECKING:
@@ -85,14 +90,14 @@ def _unseen(_doing: str) -> AbstractContextManager[Callable[[float], object]]:
 def read(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names, correct them and set aside what it says."""
     if job.tests:
-        return joined(job.axis, {name: read(each, registry) for name, each in job.tests.items()})
-    return without_excluded(read_whole(job, registry), job)
+        return join_lines(job.axis, {name: read(each, registry) for name, each in job.tests.items()})
+    return drop_excluded(read_whole(job, registry), job)
 
 
 def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names and correct them; none is set aside."""
     if job.tests:
-        return joined(job.axis, {name: read_whole(each, registry) for name, each in job.tests.items()})
+        return join_lines(job.axis, {name: read_whole(each, registry) for name, each in job.tests.items()})
     source = registry.source(job.source.identifier)
     set_ups = {
         choice.identifier: extension.set_up(job, choice.options)
@@ -100,9 +105,9 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     }
     context = SourceContext(job.axis, job.source.place, set_ups)
     measurements = source.read(job.source.options, context)
-    corrections = corrections_of(job, measurements)
+    corrections = find_corrections_of(job, measurements)
     if corrections:
-        measurements = corrected(measurements, corrections)
+        measurements = correct(measurements, corrections)
     return measurements
 
 
@@ -129,22 +134,29 @@ def compose(  # noqa: PLR0913 - what a document is made of
     if job.measurements:
         return _compose_parts(job, registry, made_by, showing, trials)
     missing = [
-        *missing_items(job),
-        *(one for each in (*job.lines.values(), job.as_found) if each for one in traceability.refusals(each)),
+        *find_missing_items(job),
+        *(
+            one
+            for each in (*job.lines.values(), job.as_found)
+            if each
+            for one in traceability.find_broken_chain(each)
+        ),
     ]
     try:
         measurements = read(job, registry)
         for each, readings in ((job, measurements), (job.as_found, None)):
             if each:
-                missing += _refusals(each, budget_of_job(each, readings or read(each, registry), registry))
+                missing += _find_refusals(
+                    each, make_budget_of_job(each, readings or read(each, registry), registry)
+                )
     except InputError as error:
         raise InputError([*missing, *error.problems]) from error
     if missing:
         raise InputError(dict.fromkeys(missing))
-    evaluations = evaluated(job, measurements, registry, trials)
-    studied = modelled(job, measurements, registry, showing) if job.effects else None
+    evaluations = evaluate_all(job, measurements, registry, trials)
+    studied = fit_model(job, measurements, registry, showing) if job.effects else None
     found = job.as_found
-    as_found = evaluated(found, read(found, registry), registry, trials) if found else ()
+    as_found = evaluate_all(found, read(found, registry), registry, trials) if found else ()
 
     def describe(writer: Writer) -> list[Described]:
         said = [
@@ -153,12 +165,18 @@ def compose(  # noqa: PLR0913 - what a document is made of
         ]
         return [each for each in said if each]
 
-    generator, plugins = made_by or programs(job, registry)
-    tests = tested(job, measurements, evaluations[0].budget, registry, trials)
+    generator, plugins = made_by or find_programs(job, registry)
+    tests = evaluate_tests(job, measurements, evaluations[0].budget, registry, trials)
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
     doubtful = tuple(
-        said_of_each(
-            (name, (*doubts(line, of_line, [each.evaluation for each in by]), *doubts_of_runs(of_line)))
+        say_of_each(
+            (
+                name,
+                (
+                    *find_doubts(line, of_line, [each.evaluation for each in by]),
+                    *find_doubts_of_runs(of_line),
+                ),
+            )
             for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
         )
     )
@@ -180,18 +198,18 @@ def _compose_parts(
             problems.extend(error.problems)
     if problems:
         raise InputError(dict.fromkeys(problems))
-    generator, plugins = made_by or programs(job, registry)
-    return collected(job, parts, plugins, generator)
+    generator, plugins = made_by or find_programs(job, registry)
+    return collect_certificates(job, parts, plugins, generator)
 
 
-def _refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
+def _find_refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
     """Yield what a certificate must state of its uncertainty and does not; of several lines, of each too."""
-    yield from refusals(job, budget)
+    yield from find_unstated(job, budget)
     for name, of_line in budget.tests.items() if isinstance(budget, Budget) else ():
-        yield from refusals(job.tests[name], of_line)
+        yield from find_unstated(job.tests[name], of_line)
 
 
-def tested(
+def evaluate_tests(
     job: Job,
     measurements: MeasurementSet,
     budget: Budget | NoBudget,
@@ -206,48 +224,49 @@ def tested(
     for name, line in job.tests.items():
         of_line = budget.tests[name] if isinstance(budget, Budget) else budget
         readings = measurements.tests[name]
-        evaluations = evaluated(line, readings, registry, trials, of_line)
+        evaluations = evaluate_all(line, readings, registry, trials, of_line)
         found.append(Tested(name, line, readings, of_line, evaluations))
     return tuple(found)
 
 
-def programs(job: Job, registry: Registry) -> Programs:
+def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
     return GENERATOR, registry.versions(job)
 
 
-def budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:
+def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:
     """Return the uncertainty budget of the set-up, with what its extensions contribute."""
     if job.tests:
         budgets = {
-            name: budget_of_job(each, measurements.tests[name], registry) for name, each in job.tests.items()
+            name: make_budget_of_job(each, measurements.tests[name], registry)
+            for name, each in job.tests.items()
         }
         brought = [
-            contributions_of(standard, measurements, options)
-            for standard, options in standards(job, registry)
+            find_contributions_of(standard, measurements, options)
+            for standard, options in choose_standards(job, registry)
         ]
         negligible = [(str(key), said) for key, said in job.keys.uncertainty.negligible.items()]
-        return joined_budget(budgets, brought, job.axis.measurand.contributors, negligible)
+        return join_budgets(budgets, brought, job.axis.measurand.contributors, negligible)
     own = tuple(
         contribution
         for extension, choice in registry.extensions_of(job)
         for contribution in extension.contributions(job, choice.options, measurements)
     )
-    return budget_of(job, measurements, own)
+    return make_budget_of(job, measurements, own)
 
 
-def parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluation, ...]:
+def evaluate_parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluation, ...]:
     """Evaluate readings by every standard that the job names; uncertainties and decisions are left out."""
     return tuple(
         replace(
-            called(evaluate(standard, measurements, options, choice.tolerances), choice.adoption),
+            name_adoption(evaluate(standard, measurements, options, choice.tolerances), choice.adoption),
             specification=choice.specification,
         )
-        for (standard, options), choice in zip(standards(job, registry), job.standards, strict=True)
+        for (standard, options), choice in zip(choose_standards(job, registry), job.standards, strict=True)
     )
 
 
-def evaluated(
+def evaluate_all(
     job: Job,
     measurements: MeasurementSet,
     registry: Registry,
@@ -260,60 +279,63 @@ def evaluated(
     """
     stated = job.keys.decision_rule
     rule = decision_rule(stated.rule, stated.guard_band_factor)
-    budget = budget or budget_of_job(job, measurements, registry)
-    chosen = standards(job, registry)
+    budget = budget or make_budget_of_job(job, measurements, registry)
+    chosen = choose_standards(job, registry)
     bare = [
         (evaluation, partial(standard.arithmetic, options=options))
         for (standard, options), evaluation in zip(
-            chosen, parameters(job, measurements, registry), strict=True
+            chosen, evaluate_parameters(job, measurements, registry), strict=True
         )
     ]
     complete: list[Evaluated] = []
-    for (standard, options), evaluation in zip(chosen, with_uncertainty(bare, budget, trials), strict=True):
-        reported = findings(information_asked_by(standard), job, measurements, budget)
+    for (standard, options), evaluation in zip(chosen, add_uncertainty(bare, budget, trials), strict=True):
+        reported = check_information(find_information_asked_by(standard), job, measurements, budget)
         with_verdicts = decided(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
         figures = tuple(standard.figures(with_verdicts, options))
         complete.append(Evaluated(with_verdicts, figures, budget))
     return tuple(complete)
 
 
-def modelled(
+def fit_model(
     job: Job, measurements: MeasurementSet, registry: Registry, showing: Showing = _unseen
 ) -> Modelled:
     """Hold the job's error model against the readings, and ask its standards about a corrected axis."""
     from zlmreport.document.subjects.annex import Modelled  # noqa: PLC0415
-    from zlmreport.document.subjects.forecast import forecasts  # noqa: PLC0415 - only for a job with a model
+    from zlmreport.document.subjects.forecast import make_forecasts  # noqa: PLC0415 - only for a job with a model
     from zlmreport.model.diagnosis.study import Fitted, Study  # noqa: PLC0415
-    from zlmreport.model.planning.deciding import experiment_of_tie  # noqa: PLC0415
+    from zlmreport.model.planning.deciding import plan_experiment_of_tie  # noqa: PLC0415
 
     study = Study.of(job, measurements, registry.effects, read_sessions(job, registry))
     with showing("diagnosing") as told:
         diagnosis = study.diagnosis(registry.effects, told)
     with showing("simulating plans") as told:
-        experiment = experiment_of_tie(study, diagnosis, registry.effects, told)
+        experiment = plan_experiment_of_tie(study, diagnosis, registry.effects, told)
     history = study.history(Fitted(diagnosis.fit, diagnosis.error))
     return Modelled(
         history,
         diagnosis,
-        forecasts(standards(job, registry), study, history) if job.axis.measurand.is_position else (),
+        make_forecasts(choose_standards(job, registry), study, history)
+        if job.axis.measurand.is_position
+        else (),
         study.titles(registry.effects),
         study,
         experiment,
     )
 
 
-def standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
+def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]:
     """Return the standards that a job names, as they evaluate what was measured, each with its own keys."""
     stated = job.axis.error or job.axis.measurand.identifier
     return [
-        (for_error(registry.standard(choice.identifier), stated), choice.options) for choice in job.standards
+        (evaluate_for_error(registry.standard(choice.identifier), stated), choice.options)
+        for choice in job.standards
     ]
 
 
 def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
     renderers = [registry.renderer(identifier) for identifier in job.formats]
-    with _garbage_collected_once():
+    with _collect_garbage_once():
         certificate = compose(job, registry, showing=showing)
         contents = render(certificate, renderers, registry)
         if signer:
@@ -326,7 +348,7 @@ def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Sho
             }
         documents = tuple(
             Document(job.directory / name, contents[renderer.identifier])
-            for name, renderer in zip(file_names(certificate.number, renderers), renderers, strict=True)
+            for name, renderer in zip(name_files(certificate.number, renderers), renderers, strict=True)
         )
     return Outcome(certificate, documents)
 
@@ -348,20 +370,20 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
             Attachment(
                 name,
                 contents[each.identifier],
-                media_type(name),
+                find_media_type(name),
                 relationship,
                 each.title.in_language(certificate.language),
             )
-            for name, each in zip(file_names(certificate.number, others), others, strict=True)
-            if (relationship := relationship_of(each))
+            for name, each in zip(name_files(certificate.number, others), others, strict=True)
+            if (relationship := find_relationship_of(each))
         ]
-        attached += source_attachments(certificate.sources, certificate.language)
-        complete = replace(certificate, attachments=arranged(attached, certificate.number))
+        attached += attach_sources(certificate.sources, certificate.language)
+        complete = replace(certificate, attachments=arrange_attachments(attached, certificate.number))
         contents |= {each.identifier: each.render(complete) for each in carriers}
     return contents
 
 
-def file_names(number: str, renderers: Sequence[Renderer]) -> tuple[str, ...]:
+def name_files(number: str, renderers: Sequence[Renderer]) -> tuple[str, ...]:
     """Return the names of a certificate's files: ``CAL-1.pdf``.
 
     Where several write files of one suffix, those after the first have their identifiers in their names:
@@ -375,7 +397,7 @@ def file_names(number: str, renderers: Sequence[Renderer]) -> tuple[str, ...]:
 
 
 @contextlib.contextmanager
-def _garbage_collected_once() -> Iterator[None]:
+def _collect_garbage_once() -> Iterator[None]:
     """Collect no garbage while a document is made: the collector walks the youngest objects once, after it.
 
     Laying out pages makes a growing heap of objects that it would walk again and again for nothing: about

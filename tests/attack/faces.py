@@ -22,12 +22,12 @@ from verification.remembered import remembering
 from zlmreport.errors import ZlmreportError
 from zlmreport.verification import table
 from zlmreport.verification.findings import VerificationOutcome, VerificationVerdict
-from zlmreport.verification.readers import READERS, Reader, Seen, seen_by, without_leads
+from zlmreport.verification.readers import READERS, Reader, Seen, read_as_seen_by, remove_leads
 from zlmreport.verification.verify import verify
 
 #: Ways in which a file is damaged so that a reader has to put it together anew.
 _DAMAGE: tuple[Callable[[bytes], bytes], ...] = (
-    without_leads,
+    remove_leads,
     lambda content: re.sub(rb"/Size \d+", b"/Size 1", content),
     lambda content: content.replace(b"\nxref", b"\nxxxx").replace(b"startxref", b"xxxxxxxxx"),
     lambda content: content[: content.rfind(b"startxref")],
@@ -72,7 +72,7 @@ class Faces:
 
     def __init__(self, issued: bytes) -> None:
         self._bases = (plain(issued), rewritten(issued, lambda _: None))
-        self._shown = {each.name: seen_by(each, issued) for each in READERS if each.is_here}
+        self._shown = {each.name: read_as_seen_by(each, issued) for each in READERS if each.is_here}
 
     def made(self, seeds: tuple[int, ...]) -> bytes:
         """Return the file of an input."""
@@ -83,7 +83,7 @@ class Faces:
 
         What the strict reading of its bytes refuses, which is most, need not be made again for that.
         """
-        refused = table.finding(content, is_signed=False)
+        refused = table.check_table(content, is_signed=False)
         if refused.verdict is VerificationVerdict.DIFFERS:
             return str(refused.detail), False
         with tempfile.TemporaryDirectory(prefix="zlmreport-attack-") as folder:
@@ -109,7 +109,7 @@ class Faces:
             issued = self._shown[reader.name]
             assert issued is not None
             for number, damaged in enumerate((content, *(damage(content) for damage in _DAMAGE))):
-                shown = seen_by(reader, damaged)
+                shown = read_as_seen_by(reader, damaged)
                 is_same = shown and _is_same(shown, issued, reader, is_mended=number > 0)
                 if shown is None and not number:
                     yield f"{reader.name} cannot open it"

@@ -23,7 +23,7 @@ from zlmreport.cli import main
 from zlmreport.evaluation.uncertainty import expanded
 from zlmreport.model.diagnosis import null_distribution
 from zlmreport.plugin.registry import find_plugins
-from zlmreport.verification.attached import digital_findings
+from zlmreport.verification.attached import check_digital_certificates
 from zlmreport.verification.carrier import Carried
 
 _CONFIGS = ROOT / "configs"
@@ -114,7 +114,7 @@ def _by_rules_of_ptb(folder: Path) -> int:
         f'<element name="{root}"/></schema>'
     )
     list(
-        digital_findings(
+        check_digital_certificates(
             {"x.xml": Carried("x.xml", (folder / "y-axis.xml").read_bytes(), "", "", "", "")}, folder
         )
     )
@@ -123,7 +123,7 @@ def _by_rules_of_ptb(folder: Path) -> int:
 
 def with_few_draws() -> None:
     """Simulate little: what a spoiled file breaks does not depend on how often."""
-    pipeline.with_uncertainty = lambda *given: expanded.with_uncertainty(*given[:2], trials=100)  # type: ignore[attr-defined]
+    pipeline.add_uncertainty = lambda *given: expanded.add_uncertainty(*given[:2], trials=100)  # type: ignore[attr-defined]
     null_distribution.TRIALS = 20
 
 

@@ -27,7 +27,7 @@ from hidden_effects.tables.shares import Share
 from hidden_effects.tables.targets import targets
 from hidden_effects.trial import EFFECTS, drawn_trial
 from zlmreport.model.diagnosis.diagnosis import diagnose
-from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.planning.methods import Method
 
 ROOT = Path(__file__).parents[2]
@@ -114,7 +114,7 @@ class TestOracle:
     def test_where_the_readings_are_gone_that_show_the_effect_it_adds_nothing(self) -> None:
         trial = drawn_trial(case("first-run", method=Method.UNIDIRECTIONAL))
         assert trial is not None
-        observed = observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
+        observed = make_observations_of(trial.first.measurements, overrun=trial.description.plan.overrun)
         later = observed.without(np.flatnonzero(observed.design.run == observed.design.run.min()))
         found = errors(trial, diagnose(trial.model, later, tuple(EFFECTS.values())))
         assert found["oracle"] == found["before"]

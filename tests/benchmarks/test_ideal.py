@@ -11,10 +11,10 @@ from hidden_effects.strangers import STRANGERS
 from hidden_effects.trial import EFFECTS
 from zlmreport.model.effects.axis_model import Term
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.simulation.simulate import design_of
+from zlmreport.model.simulation.simulate import make_design_of
 
 SIGMA = 8e-7
-DESIGN = design_of(drawn_linear_test(np.random.default_rng(1), Method.LINEAR))
+DESIGN = make_design_of(drawn_linear_test(np.random.default_rng(1), Method.LINEAR))
 CONSTANT = base_columns([EFFECTS["offset"]], DESIGN)
 BACKLASH = Term(EFFECTS["backlash"], {"lost_motion": 5e-6})
 

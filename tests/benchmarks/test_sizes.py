@@ -13,7 +13,7 @@ from model.simulation.describing import EFFECTS
 from zlmreport.model.effects.design import Design
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import Description
-from zlmreport.model.simulation.simulate import design_of, deviation_by
+from zlmreport.model.simulation.simulate import compute_deviation_by, make_design_of
 
 BASE = [EFFECTS["polynomial"], EFFECTS["backlash"]]
 OF_ROTARY = {"eccentricity", "ellipticity", "gear-mesh", "lost-motion-turn"}
@@ -26,7 +26,7 @@ DRAWN = {"linear": drawn_linear_test, "rotary": drawn_rotary_test}
 
 
 def _design(seed: int = 0, method: Method = Method.LINEAR) -> Design:
-    return design_of(drawn_linear_test(np.random.default_rng(seed), method))
+    return make_design_of(drawn_linear_test(np.random.default_rng(seed), method))
 
 
 @pytest.mark.parametrize("identifier", sorted(EFFECTS))
@@ -34,7 +34,7 @@ def _design(seed: int = 0, method: Method = Method.LINEAR) -> Design:
 def test_drawn_effect_has_the_stated_size_beyond_the_model(identifier: str, method: Method) -> None:
     random = np.random.default_rng(3)
     draw = DRAWN["rotary" if identifier in OF_ROTARY else "linear"]
-    design = design_of(draw(random, method))
+    design = make_design_of(draw(random, method))
     effect = EFFECTS[identifier]
     if effect.untestable(design):
         assert identifier in NOT_DRAWN
@@ -45,7 +45,7 @@ def test_drawn_effect_has_the_stated_size_beyond_the_model(identifier: str, meth
         assert drawn is None
         return
     assert drawn is not None
-    left = beyond(base, deviation_by(effect, design, drawn.fixed)[:, np.newaxis])
+    left = beyond(base, compute_deviation_by(effect, design, drawn.fixed)[:, np.newaxis])
     assert np.sqrt(np.mean(left**2)) == pytest.approx(0.8e-6, rel=1e-9)
 
 
@@ -105,7 +105,7 @@ def test_theta_of_a_joint_is_one_of_the_grid() -> None:
 def test_drawn_tests_are_those_of_a_workshop(draw: Callable[..., Description]) -> None:
     for seed in range(10):
         description = draw(np.random.default_rng(seed), Method.LINEAR)
-        design = design_of(description)
+        design = make_design_of(description)
         assert len(design.position) == 2 * 5 * len(description.plan.targets)
         assert 900 < design.duration < 5400
         lacking = {

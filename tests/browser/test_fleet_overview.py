@@ -10,7 +10,7 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.overview import overview
+from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import State
 from zlmreport.fleet.state import state_of
@@ -35,7 +35,7 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     state = state_of("Hall North", entries, [each.job for each in entries], None)
     file = tmp_path_factory.mktemp("overview") / "fleet.html"
     names = Names(find_plugins().standards)
-    file.write_text(overview(state, Language.GERMAN, names, "."), encoding="utf-8")
+    file.write_text(make_overview(state, Language.GERMAN, names, "."), encoding="utf-8")
     return file
 
 

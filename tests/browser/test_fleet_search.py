@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Page
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.overview import overview
+from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import PastNight
 from zlmreport.fleet.state import Rules, state_of
@@ -40,7 +40,9 @@ def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
         )
     state = state_of("Hall North", entries, [], PastNight(BEGAN, BEGAN), Rules())
     file = tmp_path_factory.mktemp("overview") / "fleet.html"
-    file.write_text(overview(state, Language.ENGLISH, Names(find_plugins().standards), "."), encoding="utf-8")
+    file.write_text(
+        make_overview(state, Language.ENGLISH, Names(find_plugins().standards), "."), encoding="utf-8"
+    )
     return file
 
 

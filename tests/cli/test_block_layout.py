@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from zlmreport.cli.layout import block_lines, section_lines
+from zlmreport.cli.layout import lay_out_blocks, lay_out_sections
 from zlmreport.document.blocks import (
     Align,
     Block,
@@ -34,11 +34,15 @@ def _table(*columns: Column, rows: tuple[tuple[str, ...], ...], heading: str = "
 
 
 def _lines(block: Block, title: str = "") -> list[str]:
-    return list(block_lines(block, title))
+    return list(lay_out_blocks(block, title))
 
 
 def test_a_section_stands_below_its_title_after_an_empty_line() -> None:
-    assert list(section_lines([Section("key", "Title", (Paragraph("Text."),))])) == ["", "Title", "  Text."]
+    assert list(lay_out_sections([Section("key", "Title", (Paragraph("Text."),))])) == [
+        "",
+        "Title",
+        "  Text.",
+    ]
 
 
 def test_a_heading_that_repeats_the_title_is_left_out() -> None:

@@ -13,7 +13,7 @@ from processes import ZLMREPORT, run, started
 from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.arguments.parser import FAULTS
-from zlmreport.cli.emulate import axis_of
+from zlmreport.cli.emulate import make_axis_of
 from zlmreport.live.emulation.emulator import Trouble
 from zlmreport.plugin.registry import find_plugins
 
@@ -27,7 +27,7 @@ def test_every_fault_is_one_that_the_command_line_knows() -> None:
 
 
 def test_an_axis_is_described_in_millimetres() -> None:
-    axis = axis_of(_options("--course=-5,10", "--dwell", "2"))
+    axis = make_axis_of(_options("--course=-5,10", "--dwell", "2"))
     assert (axis.course, axis.dwell) == ((-0.005, 0.01), 2.0)
 
 

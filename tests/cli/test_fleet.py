@@ -14,7 +14,7 @@ import pytest
 from fleet.fleets import FLEET, Fleet, without_processes
 from processes import PYTHON, run as run_program
 from zlmreport.cli import main
-from zlmreport.cli.fleet import NightProgress, TextLog, bar
+from zlmreport.cli.fleet import NightProgress, TextLog, draw_bar
 from zlmreport.fleet.issuing import Happened, What
 
 OTHER_READINGS = "2 2 3 -1 -2 -3"
@@ -223,4 +223,4 @@ def test_a_file_shows_no_bar() -> None:
     ],
 )
 def test_the_bar_has_the_rate_and_the_time_that_is_left(done: int, seconds: float, text: str) -> None:
-    assert bar(done, 1000, 0, seconds).strip() == text.strip()
+    assert draw_bar(done, 1000, 0, seconds).strip() == text.strip()

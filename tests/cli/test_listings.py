@@ -8,7 +8,7 @@ import pytest
 
 from cli.commands import Shop, use
 from offers import exemplary_registry, offering
-from zlmreport.job.schema import job_schema
+from zlmreport.job.schema import make_job_schema
 from zlmreport.plugin.registry import Plugin, collect
 
 
@@ -54,7 +54,7 @@ def test_plugins_that_do_not_work_are_listed_with_the_reason(
 def test_schema_is_printed_with_the_keys_of_the_installed_plugins(shop: Shop) -> None:
     run = shop.run("schema")
     assert run.code == 0
-    assert json.loads(run.output) == json.loads(json.dumps(job_schema(exemplary_registry())))
+    assert json.loads(run.output) == json.loads(json.dumps(make_job_schema(exemplary_registry())))
 
 
 @pytest.mark.parametrize("command", ["plugins", "schema"])

@@ -14,7 +14,7 @@ from cli.commands import Shop
 from environments import ROOT
 from zlmreport.cli import main
 from zlmreport.errors import InputError, ZlmreportError
-from zlmreport.looking import looked_at
+from zlmreport.looking import look_at
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins({})
@@ -91,7 +91,7 @@ def table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 @pytest.mark.parametrize("kind", TABLES)
 def test_table_is_read_by_the_keys_that_are_proposed(kind: str, table: Any) -> None:
     content, keys = TABLES[kind]
-    looked = looked_at(table(content), REGISTRY)
+    looked = look_at(table(content), REGISTRY)
     assert (looked.source.identifier, looked.proposal.keys) == ("laser-csv", keys)
     np.testing.assert_allclose(
         looked.read.deviations()[:, :, 0] * 1e6, [[1.5, 2.5], [-0.5, 0.5]], rtol=0, atol=1e-7
@@ -116,7 +116,7 @@ def test_what_nobody_can_see_in_a_file_is_asked(table: Any, capsys: pytest.Captu
 
 
 def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:
-    asked = " ".join(looked_at(table(TABLES["a German protocol"][0]), REGISTRY).proposal.asks)
+    asked = " ".join(look_at(table(TABLES["a German protocol"][0]), REGISTRY).proposal.asks)
     assert "sign:" in asked
     assert "units:" not in asked
 
@@ -124,7 +124,7 @@ def test_unit_that_stands_in_the_header_is_not_asked(table: Any) -> None:
 def test_files_of_instruments_find_their_readers() -> None:
     data = ROOT / "tests" / "data" / "sources"
     found = {
-        name: looked_at(data / name, REGISTRY).source.identifier
+        name: look_at(data / name, REGISTRY).source.identifier
         for name in ("bidirectional.rtl", "ecmc_13e6c326.dat")
     }
     assert found == {"bidirectional.rtl": "renishaw-rtl", "ecmc_13e6c326.dat": "ecmc"}
@@ -134,7 +134,7 @@ def test_files_of_instruments_find_their_readers() -> None:
 def test_file_that_nobody_reads_is_told_with_its_name(content: bytes, table: Any) -> None:
     path = table(content)
     with pytest.raises(ZlmreportError, match=r"x-axis\.csv"):
-        looked_at(path, REGISTRY)
+        look_at(path, REGISTRY)
 
 
 def test_file_that_is_not_there_is_told(shop: Shop) -> None:
@@ -149,7 +149,7 @@ SENSORS = "time (h),X1,X2,Z,air_temperature\n" + "".join(
 
 
 def test_a_file_of_sensors_over_time_becomes_a_test_of_each(table: Any) -> None:
-    looked = looked_at(table(SENSORS.encode()), REGISTRY)
+    looked = look_at(table(SENSORS.encode()), REGISTRY)
     assert looked.source.identifier == "channels-csv"
     assert looked.proposal.tests == tuple(looked.read.tests) == ("X1", "X2", "Z")
     assert looked.standard == "iso230-3"
@@ -173,14 +173,14 @@ def test_what_sensors_read_over_time_is_told(table: Any, capsys: pytest.CaptureF
 def test_sensors_whose_times_fall_are_told_by_their_reader(table: Any) -> None:
     fallen = SENSORS.replace("\n9,", "\n7.5,")
     with pytest.raises(InputError, match="the time is before that of the reading of channel 'X1'"):
-        looked_at(table(fallen.encode()), REGISTRY)
+        look_at(table(fallen.encode()), REGISTRY)
 
 
 PLATE = (ROOT / "configs" / "flatness" / "plate.csv").read_bytes()
 
 
 def test_a_file_of_a_plate_becomes_a_test_of_each_line(table: Any) -> None:
-    looked = looked_at(table(PLATE), REGISTRY)
+    looked = look_at(table(PLATE), REGISTRY)
     assert looked.source.identifier == "plate-csv"
     assert len(looked.read.tests) == len(looked.proposal.tests) == 8
     assert looked.standard == "union-jack"
@@ -195,4 +195,4 @@ def test_a_job_on_a_plate_that_is_written_runs(table: Any, capsys: pytest.Captur
 def test_a_plate_without_a_station_is_told_by_its_reader(table: Any) -> None:
     left = b"\n".join(row for row in PLATE.splitlines() if not row.startswith(b"NW-SE,2,"))
     with pytest.raises(InputError, match="station 2 of the line is left out"):
-        looked_at(table(left), REGISTRY)
+        look_at(table(left), REGISTRY)

@@ -14,7 +14,7 @@ from pdf_conformance import complaints
 from processes import ZLMREPORT, run
 from zlmreport.cli import main
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.document.signing.state import Integrity, signature_state
+from zlmreport.document.signing.state import Integrity, read_signature_state
 
 JOB = ROOT / "configs" / "german" / "messbericht.yaml"
 
@@ -35,7 +35,7 @@ def test_a_pdf_is_signed_and_every_other_file_is_as_it_is_without(
         after = (signed / before.name).read_bytes()
         if before.suffix == ".pdf":
             assert after.startswith(before.read_bytes())
-            assert signature_state(after).integrity is Integrity.INTACT
+            assert read_signature_state(after).integrity is Integrity.INTACT
             assert complaints(after) == []
         else:
             assert after == before.read_bytes()

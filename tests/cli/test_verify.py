@@ -11,7 +11,7 @@ import pytest
 
 from verification.issued import LABORATORY, READINGS, issue, lay_out, with_attachment, with_results
 from zlmreport.cli import main
-from zlmreport.cli.terminal import said
+from zlmreport.cli.terminal import say
 from zlmreport.cli.verify import _own_words
 from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.verification.findings import QuotedText
@@ -138,7 +138,7 @@ def test_what_a_foreign_file_says_of_itself_does_not_steer_the_terminal(report: 
 
 def own_lines(texts: list[tuple[str, str]]) -> list[str]:
     """Return what is told of words that somebody wrote, without the heading."""
-    return list(_own_words([QuotedText(*each) for each in texts], said))[1:]
+    return list(_own_words([QuotedText(*each) for each in texts], say))[1:]
 
 
 def test_a_text_that_every_measurement_repeats_is_told_once_with_its_places() -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import pypdfium2
 
 from zlmreport.document.blocks import Facts, Formulas, Notice, Paragraph, Symbol, Table
-from zlmreport.document.certificate.columns import table_layout, text_of
+from zlmreport.document.certificate.columns import lay_out_table, write_cell_text
 from zlmreport.document.certificate.document import Certificate
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
@@ -74,9 +74,9 @@ def _emptiness(
 ) -> Iterator[tuple[int, float]]:
     """Yield pages with little on them; the last has what is left of a section or a table that must part."""
     parted = [
-        text_of(each.columns[0].heading)
+        write_cell_text(each.columns[0].heading)
         for each in _blocks(certificate)
-        if isinstance(each, Table) and not table_layout(each).is_whole
+        if isinstance(each, Table) and not lay_out_table(each).is_whole
     ]
     may_be_short = len(pages) == 1 or certificate.sections[-1].new_page or any(map(end[0].startswith, parted))
     for number, page in enumerate(pages, 1):
@@ -167,8 +167,8 @@ def _parted(certificate: Certificate, bodies: list[list[str]]) -> Iterator[tuple
         rows = [row for group in table.groups for row in group.rows]
         words = _letters("".join(bodies[numbered[0]]))
         cells = [
-            text_of(cell)
-            for row in (rows if table_layout(table).is_whole else rows[:2])
+            write_cell_text(cell)
+            for row in (rows if lay_out_table(table).is_whole else rows[:2])
             for cell in row
             if not isinstance(cell, Symbol)
         ]

@@ -9,7 +9,7 @@ import pytest
 
 from environments import ROOT
 from zlmreport import pipeline
-from zlmreport.evaluation.evidence import evidence
+from zlmreport.evaluation.evidence import find_evidence
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
@@ -48,7 +48,7 @@ def marks(path: Path, registry: Registry) -> list[str]:
     return [
         words.in_language(Language.ENGLISH)
         for job in measured(load(path, registry))
-        for words in evidence(job, pipeline.read(job, registry))
+        for words in find_evidence(job, pipeline.read(job, registry))
     ]
 
 

@@ -12,8 +12,8 @@ from plugins.standards.oracle import evaluated_plainly
 from plugins.standards.test_iso230_4 import circle_of_the_note
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE, STRAIGHTNESS, measurands_of
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.measurand import CIRCLE, STRAIGHTNESS, list_measurands_of
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.plugin.protocols import Standard
 from zlmreport.testing import WorkedExample, bidirectional_test
 
@@ -68,7 +68,9 @@ def _square() -> MeasurementSet:
         )
         for name, error in (("X", "EYX"), ("Y", "EXY"))
     }
-    return joined(Axis("Y", quantity=measurands_of(_installed("iso230-1:2012"))[2], error="C0Y"), lines)
+    return join_lines(
+        Axis("Y", quantity=list_measurands_of(_installed("iso230-1:2012"))[2], error="C0Y"), lines
+    )
 
 
 def _circle() -> list[WorkedExample]:
@@ -83,7 +85,7 @@ def _circle() -> list[WorkedExample]:
 
 def _diagonals() -> list[WorkedExample]:
     """Return lines that rise by 4 µm on 200 mm, with 14 µm of lost motion, each 10 % of that more."""
-    (of,) = measurands_of(_installed("iso230-6:2002"))
+    (of,) = list_measurands_of(_installed("iso230-6:2002"))
     up, down = [[-1, 1], [1, 3], [3, 5]], [[-15, -13], [-13, -11], [-11, -9]]
     lines, values = {}, {"E_d": 1.3 * 18, "B_d": 1.3 * 14}
     for number, name in enumerate(of.test_names):
@@ -100,12 +102,12 @@ def _diagonals() -> list[WorkedExample]:
     values["C0Y"] = _OUT_OF_SQUARE * 0.41 / 0.4
     values["B0Z"] = -_OUT_OF_SQUARE * 0.34 / 0.3
     values["A0Z"] = _OUT_OF_SQUARE * 0.25 / 0.24
-    return [WorkedExample(joined(Axis("space", quantity=of), lines), values)]
+    return [WorkedExample(join_lines(Axis("space", quantity=of), lines), values)]
 
 
 def _drift() -> list[WorkedExample]:
     """Return sensors that drift by 4 µm in 24 hours, each 10 % of that more, two of them 200 mm apart."""
-    (of,) = measurands_of(_installed("iso230-3"))
+    (of,) = list_measurands_of(_installed("iso230-3"))
     lines, values = {}, {}
     hours = np.arange(25.0)
     for number, name in enumerate(of.test_names):
@@ -120,7 +122,7 @@ def _drift() -> list[WorkedExample]:
     tilt = math.degrees(0.4e-6 / 0.2) * 3600
     values |= {f"tilt_{axis}": tilt for axis in "XYZ"}
     keys = {"distance": {"X": 200, "Y": 200, "Z": 200}}
-    return [WorkedExample(joined(Axis("machine", quantity=of), lines), values, keys)]
+    return [WorkedExample(join_lines(Axis("machine", quantity=of), lines), values, keys)]
 
 
 def _plate() -> list[WorkedExample]:
@@ -128,7 +130,7 @@ def _plate() -> list[WorkedExample]:
 
     Its centre lines begin and end at 0, and should be 0 in the middle, too: they rise to 3 and fall to −2 µm.
     """
-    (of,) = measurands_of(_installed("union-jack"))
+    (of,) = list_measurands_of(_installed("union-jack"))
     micrometre = math.degrees(1e-6 / 0.1) * 3600
     rises = {
         "NW-SE": [3, 1, -1, -3],
@@ -150,7 +152,7 @@ def _plate() -> list[WorkedExample]:
         for name, of_line in rises.items()
     }
     values = {"t": 8.0, "t_LS": 8.0, "t_MZ": 8.0, "closure_WE": 3.0, "closure_NS": -2.0}
-    return [WorkedExample(joined(Axis("plate", quantity=of), lines), values)]
+    return [WorkedExample(join_lines(Axis("plate", quantity=of), lines), values)]
 
 
 def _installed(identifier: str) -> Any:

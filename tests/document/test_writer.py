@@ -7,7 +7,7 @@ from document.certificate.circles import document
 from document.certificate.documents import COMPLETE, certificate, text_of
 from document.certificate.everything import EVERYTHING, write_tables
 from zlmreport.document.writer import NOTHING, Marks, Writer
-from zlmreport.job.contradictions import markable_keys
+from zlmreport.job.contradictions import list_markable_keys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -158,4 +158,4 @@ def test_every_key_that_others_may_supply_is_marked_where_it_is_printed(tmp_path
     certificate(tmp_path, EVERYTHING)
     document(tmp_path, {"ccw": 1, "cw": 1})
     monkeypatch.undo()
-    assert [key for key in markable_keys() if not Marks(frozenset({key})).after(*asked)] == []
+    assert [key for key in list_markable_keys() if not Marks(frozenset({key})).after(*asked)] == []

@@ -15,7 +15,7 @@ from documents.pages import DOCS, ROOT, Block, blocks, name
 from documents.shell import VARIABLES
 from documents.warm import warm_command, warm_server
 from processes import PATIENCE, started
-from zlmreport.cli.new import skeleton_of
+from zlmreport.cli.new import make_skeleton_of
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +40,7 @@ def test_the_warm_command_ends_with_whoever_started_it_and_takes_along_what_runs
 
 
 def test_the_guide_to_a_quantity_shows_what_is_written_in_less_than_200_lines() -> None:
-    written = skeleton_of("quantity", "rail-line")
+    written = make_skeleton_of("quantity", "rail-line")
     shown = {block.file: block.text for block in blocks(DOCS / "how-to" / "add-a-quantity.md") if block.file}
     for path in ("rail_line.py", "test_rail_line.py"):
         assert shown[path] == written[path].decode()

@@ -12,7 +12,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
-from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.fitting.observations import make_observations_of
 
 _DATA = Path(__file__).parents[1] / "data" / "published"
 VERDICTS = {
@@ -48,7 +48,9 @@ def _diagnosis(rows: list[tuple[float, int, int, float]]) -> Diagnosis:
         run,
         MICROMETRE.to_si(deviation),
     )
-    return diagnose(model_of("offset", "scale-error", "backlash"), observations_of(measurements), INSTALLED)
+    return diagnose(
+        model_of("offset", "scale-error", "backlash"), make_observations_of(measurements), INSTALLED
+    )
 
 
 @pytest.mark.parametrize("name", VERDICTS)

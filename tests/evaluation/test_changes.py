@@ -8,7 +8,7 @@ import pytest
 
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, changes
+from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, compare_parameters
 from zlmreport.evaluation.report import report_changes
 from zlmreport.job.types import Options
 from zlmreport.testing import simulated_test
@@ -26,7 +26,7 @@ AFTER = of(Parameter(E, 3e-6), Parameter(A, 7e-6, None, 2e-6, 2.0))
 
 
 def test_a_parameter_of_one_test_stands_beside_nothing() -> None:
-    assert changes(BEFORE, AFTER) == (
+    assert compare_parameters(BEFORE, AFTER) == (
         Change(None, AFTER.parameters[0]),
         Change(BEFORE.parameters[0], AFTER.parameters[1]),
         Change(BEFORE.parameters[1], None),

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.copies import groups_of_copies
+from zlmreport.evaluation.copies import group_copies
 
 STEP = 0.01
 
@@ -42,7 +42,7 @@ def moved_where_a_reading_is_missing(series: np.ndarray) -> np.ndarray:
     "copied", [with_a_digit_changed, moved_by_a_constant, moved_where_a_reading_is_missing]
 )
 def test_a_run_that_was_copied_and_touched_up_is_found(copied: Callable[[np.ndarray], np.ndarray]) -> None:
-    assert groups_of_copies(copied(honest(1)), STEP) == ((1, 3),)
+    assert group_copies(copied(honest(1)), STEP) == ((1, 3),)
 
 
 def test_runs_that_are_all_copies_of_one_are_one_group() -> None:
@@ -50,13 +50,13 @@ def test_runs_that_are_all_copies_of_one_are_one_group() -> None:
     for run in range(1, 4):
         series[run, run] += 0.05
 
-    assert groups_of_copies(series, STEP) == ((0, 1, 2, 3),)
+    assert group_copies(series, STEP) == ((0, 1, 2, 3),)
 
 
 @pytest.mark.parametrize("step", [0.01, 0.1, 0.4])
 def test_honest_runs_whose_scatter_the_last_digit_shows_are_no_copies(step: float) -> None:
-    assert [groups_of_copies(honest(seed, step=step), step) for seed in range(200)] == [()] * 200
+    assert [group_copies(honest(seed, step=step), step) for seed in range(200)] == [()] * 200
 
 
 def test_runs_of_one_value_say_nothing() -> None:
-    assert groups_of_copies(np.zeros((22, 3)), STEP) == ()
+    assert group_copies(np.zeros((22, 3)), STEP) == ()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.evaluation.evaluate import doubts, evaluate
+from zlmreport.evaluation.evaluate import evaluate, find_doubts
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.types import Options
@@ -97,7 +97,7 @@ def test_a_value_that_is_not_plausible_is_named_with_its_parameter(
 ) -> None:
     quantity = next(each for each in ISO.quantities if each.symbol == symbol)
     statistics = position_statistics(np.array([[[1e-6, -3e-6]]]))
-    (finding,) = doubts([(quantity, value)], statistics, Axis("X"))
+    (finding,) = find_doubts([(quantity, value)], statistics, Axis("X"))
     assert finding.found.in_language(Language.ENGLISH) == sentence
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.stray_targets import Stray, found_in_both, stray_target
+from zlmreport.evaluation.stray_targets import Stray, find_stray_target, join_found_in_both
 
 TARGETS = np.array([3.1, 104.2, 201.7, 303.9, 398.3, 502.6, 601.4, 703.8, 799.2, 902.5, 996.4])
 STEP = 0.01
@@ -25,7 +25,7 @@ def test_a_target_that_lies_off_in_every_run_is_found(position: int) -> None:
     readings = healthy(1)
     readings[position] += 60
 
-    found = stray_target(TARGETS, readings, STEP)
+    found = find_stray_target(TARGETS, readings, STEP)
 
     assert found is not None
     assert found.position == position
@@ -34,7 +34,7 @@ def test_a_target_that_lies_off_in_every_run_is_found(position: int) -> None:
 
 @pytest.mark.parametrize("kink", [0.0, 60.0])
 def test_healthy_axes_have_none(kink: float) -> None:
-    found = [stray_target(TARGETS, healthy(seed, kink=kink), STEP) for seed in range(200)]
+    found = [find_stray_target(TARGETS, healthy(seed, kink=kink), STEP) for seed in range(200)]
 
     assert found == [None] * 200
 
@@ -43,16 +43,16 @@ def test_an_outlier_of_one_run_is_no_stray_target() -> None:
     readings = healthy(2)
     readings[4, 1] += 60
 
-    assert stray_target(TARGETS, readings, STEP) is None
+    assert find_stray_target(TARGETS, readings, STEP) is None
 
 
 def test_few_targets_make_no_curve() -> None:
     readings = healthy(3)[:6]
     readings[3] += 60
 
-    assert stray_target(TARGETS[:6], readings, STEP) is None
+    assert find_stray_target(TARGETS[:6], readings, STEP) is None
 
 
 def test_a_target_that_is_off_in_both_directions_is_told_once() -> None:
-    assert found_in_both(Stray(4, 60.0), Stray(4, 59.8)) == [Stray(4, 60.0)]
-    assert found_in_both(Stray(4, 60.0), None) == [Stray(4, 60.0)]
+    assert join_found_in_both(Stray(4, 60.0), Stray(4, 59.8)) == [Stray(4, 60.0)]
+    assert join_found_in_both(Stray(4, 60.0), None) == [Stray(4, 60.0)]

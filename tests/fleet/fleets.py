@@ -78,7 +78,7 @@ class Here:
 
     def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
-            yield task, making.work(task)
+            yield task, making.make_certificate(task)
 
 
 @dataclass(slots=True)
@@ -177,4 +177,4 @@ def without_processes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(night, "_executor", lambda *_: Here())
     monkeypatch.setattr(making, "_registry", lambda _: REGISTRY)
     monkeypatch.setattr(making, "_versions", lambda _: VERSIONS)
-    monkeypatch.setattr(night, "program_versions", lambda **_: VERSIONS)
+    monkeypatch.setattr(night, "find_program_versions", lambda **_: VERSIONS)

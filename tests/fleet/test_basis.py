@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.fleet.basis import CertificateBasis, Disk, FileStamp, KnownFile, changes
+from zlmreport.fleet.basis import CertificateBasis, Disk, FileStamp, KnownFile, say_changes
 
 CONTENT = b"readings"
 BASIS = CertificateBasis(
@@ -67,7 +67,7 @@ def test_a_file_without_a_look_is_read(tmp_path: Path) -> None:
 def test_each_change_is_said(tmp_path: Path) -> None:
     (tmp_path / "x.csv").write_bytes(CONTENT)
     now = CertificateBasis((), {"zlmreport": "0.1.0 other code"}, ("pdf",), "")
-    assert list(changes(BASIS, Disk(tmp_path), now)) == [
+    assert list(say_changes(BASIS, Disk(tmp_path), now)) == [
         "job x.yaml is gone",
         "readings x.csv changed",
         "the defaults of the fleet changed",
@@ -79,7 +79,7 @@ def test_each_change_is_said(tmp_path: Path) -> None:
 
 def test_a_newer_release_is_said(tmp_path: Path) -> None:
     now = replace(BASIS, programs=dict(BASIS.programs) | {"acme": "1.1 code"}, formats=())
-    said = list(changes(replace(BASIS, files=()), Disk(tmp_path), now))
+    said = list(say_changes(replace(BASIS, files=()), Disk(tmp_path), now))
     assert said == ["acme changed from 1.0 to 1.1"]
 
 

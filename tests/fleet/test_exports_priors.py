@@ -11,7 +11,7 @@ from environments import ROOT
 from fleet.fleets import Fleet, Here
 from zlmreport.cli import main
 from zlmreport.fleet import night
-from zlmreport.fleet.exports import priors
+from zlmreport.fleet.exports import make_priors
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Taught
 from zlmreport.fleet.records import About, Subject
@@ -98,12 +98,12 @@ def test_each_type_of_machine_has_priors_of_its_own_and_the_same_ledger_gives_th
             ("2026-01-05", "", _LESSON),
         )
     ]
-    found = list(priors(taught, tmp_path))
+    found = list(make_priors(taught, tmp_path))
     assert [each.path.name for each in found] == [
         "Works-A.linear.2026-01-03.yaml",
         "Works-A.rotary.2026-01-04.yaml",
         "Works-B.linear.2026-01-02.yaml",
     ]
-    assert list(priors(taught, tmp_path)) == found
+    assert list(make_priors(taught, tmp_path)) == found
     assert b"tests: 2\n" in found[0].content
     assert b"backlash: {rms: 2, tests: 2}" in found[0].content

@@ -11,7 +11,7 @@ import pytest
 from environments import ROOT
 from fleet.exposition import Family, parse
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.exports import heartbeat, metrics
+from zlmreport.fleet.exports import write_heartbeat, write_metrics
 from zlmreport.fleet.records import About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import same
@@ -27,7 +27,7 @@ def told(
     entries: Sequence[LedgerEntry], name: str = "Hall North", night: PastNight | None = NIGHT
 ) -> dict[str, Family]:
     rules = Rules(interval=365)
-    return parse(metrics(state_of(name, entries, [each.job for each in entries], night, rules)))
+    return parse(write_metrics(state_of(name, entries, [each.job for each in entries], night, rules)))
 
 
 def only(families: dict[str, Family], name: str) -> float:
@@ -158,5 +158,5 @@ def test_the_documentation_lists_every_metric() -> None:
     page = (ROOT / "docs" / "how-to" / "watch-a-fleet.md").read_text(encoding="utf-8")
     listed = set(re.findall(r"^\| `(zlmreport_\w+)`", page, re.MULTILINE))
     families = told([*DRIFT, entry(DAY, parameter(1.0), axis="Y", job="y")])
-    of_night = parse(heartbeat("Hall North", datetime(2026, 11, 21, tzinfo=UTC), is_at_work=True))
+    of_night = parse(write_heartbeat("Hall North", datetime(2026, 11, 21, tzinfo=UTC), is_at_work=True))
     assert listed == {*families, *of_night}

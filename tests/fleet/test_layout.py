@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import REGISTRY, SOUND
-from zlmreport.fleet.records import designation, folder_of
+from zlmreport.fleet.records import find_folder_of, write_designation
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.loading import load
 
@@ -30,19 +30,19 @@ def keys(folder: Path, machine: str, axis: str = "X") -> JobKeys:
 )
 def test_a_layout_is_filled_by_what_the_job_says(tmp_path: Path, layout: str, folder: str) -> None:
     machine = "{manufacturer: Werk Müller, model: HMC 500, serial: 17}"
-    assert str(folder_of(keys(tmp_path, machine), layout)) == folder
+    assert str(find_folder_of(keys(tmp_path, machine), layout)) == folder
 
 
 @pytest.mark.parametrize("serial", ["../../etc", "/etc/x", "..", "a\\b:c"])
 def test_no_name_leads_out_of_its_folder(tmp_path: Path, serial: str) -> None:
-    folder = folder_of(keys(tmp_path, f"{{serial: '{serial}'}}"), "{serial}/{axis}")
+    folder = find_folder_of(keys(tmp_path, f"{{serial: '{serial}'}}"), "{serial}/{axis}")
     assert len(folder.parts) == 2
     assert ".." not in folder.parts
 
 
 def test_what_a_job_does_not_say_has_a_folder_too(tmp_path: Path) -> None:
-    assert str(folder_of(keys(tmp_path, "{}"), "{machine}/{model}")) == "no-machine/no-model"
+    assert str(find_folder_of(keys(tmp_path, "{}"), "{machine}/{model}")) == "no-machine/no-model"
 
 
 def test_a_machine_is_called_by_manufacturer_model_and_serial_number(tmp_path: Path) -> None:
-    assert designation(keys(tmp_path, "{model: HMC 500, serial: 17}").machine) == "HMC 500 17"
+    assert write_designation(keys(tmp_path, "{model: HMC 500, serial: 17}").machine) == "HMC 500 17"

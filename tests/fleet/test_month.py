@@ -20,7 +20,7 @@ from fleet.test_news import NOTIFY, Post, on_a_day, post_office
 from zlmreport.fleet import issuing, making, night
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.making import Failed, MadeCertificate, Task, late
+from zlmreport.fleet.making import Failed, MadeCertificate, Task, report_late
 from zlmreport.fleet.night import MissingError
 
 #: Axis 2 has a test that hangs, 3 gets another instrument, 4 another one and a step with it, 5 drifts.
@@ -68,7 +68,7 @@ class Hanging(Here):
     def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             hangs = task.job.stem == self.stem
-            yield task, late(task) if hangs else making.work(task)
+            yield task, report_late(task) if hangs else making.make_certificate(task)
 
 
 def schedule(rng: random.Random) -> dict[int, str]:
@@ -125,7 +125,7 @@ class Month:
         elif trouble == "clock":
             on_a_day(2, monkeypatch)
         elif trouble == "disk":
-            monkeypatch.setattr(issuing, "laid", full)
+            monkeypatch.setattr(issuing, "lay", full)
         elif trouble == "hang":
             self.hanging = f"a{HANGING}t{self.measured[HANGING]}"
         monkeypatch.setattr(night, "_executor", lambda *_: Hanging(self.hanging))

@@ -53,7 +53,7 @@ def test_the_ledger_keeps_what_a_certificate_states(fleet: Fleet) -> None:
 
 def test_what_is_unchanged_is_not_made_again(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     fleet.spend()
-    monkeypatch.setattr(making, "work", lambda _: pytest.fail("nothing is due"))
+    monkeypatch.setattr(making, "make_certificate", lambda _: pytest.fail("nothing is due"))
     assert fleet.spend().what == {"x": What.UNCHANGED, "y": What.UNCHANGED}
     assert len(fleet.entries()) == 2
 
@@ -308,7 +308,7 @@ def test_a_file_that_the_job_extends_is_watched(fleet: Fleet) -> None:
 def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     fleet.spend()
     newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
-    monkeypatch.setattr(nights, "program_versions", lambda **_: newer)
+    monkeypatch.setattr(nights, "find_program_versions", lambda **_: newer)
     monkeypatch.setattr(making, "_versions", lambda _: newer)
     happened = fleet.spend().of("x")
     assert happened.why.startswith("exemplary-plugins changed from 1.2 to 1.3 since ")
@@ -319,14 +319,14 @@ def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.Mo
 def with_another_page(monkeypatch: pytest.MonkeyPatch, factor: float = 1.0) -> None:
     """Let a new release print another page, and come to other values by a factor."""
     newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
-    monkeypatch.setattr(nights, "program_versions", lambda **_: newer)
+    monkeypatch.setattr(nights, "find_program_versions", lambda **_: newer)
     monkeypatch.setattr(making, "_versions", lambda _: newer)
     page = REGISTRY.renderer("exemplary")
     monkeypatch.setattr(page, "render", lambda certificate: f"1.3: {certificate.title}".encode())
-    states = making.parameters_of
+    states = making.list_parameters_of
     monkeypatch.setattr(
         making,
-        "parameters_of",
+        "list_parameters_of",
         lambda certificate: (replace(each, value=factor * each.value) for each in states(certificate)),
     )
 
@@ -362,7 +362,7 @@ def test_a_new_release_does_not_hide_that_a_reading_changed(
 
 def test_a_plugin_that_no_job_uses_changes_nothing(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
     fleet.spend()
-    monkeypatch.setattr(nights, "program_versions", lambda **_: VERSIONS | {"another": "1.0 code"})
+    monkeypatch.setattr(nights, "find_program_versions", lambda **_: VERSIONS | {"another": "1.0 code"})
     assert fleet.spend().what["x"] is What.UNCHANGED
 
 

@@ -16,7 +16,7 @@ from xml.etree import ElementTree as ET
 import pytest
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.overview import overview
+from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.records import MODEL, About, LedgerEntry, NightNotice, PastNight, State
 from zlmreport.fleet.state import state_of
@@ -35,7 +35,7 @@ def page(*entries: LedgerEntry, language: Language = Language.ENGLISH, files: st
     jobs = [each.job for each in entries]
     night = PastNight(NIGHT, NIGHT + timedelta(seconds=94)) if entries else None
     state = state_of("Hall North", entries, jobs, night)
-    return overview(state, language, Names(find_plugins().standards), files)
+    return make_overview(state, language, Names(find_plugins().standards), files)
 
 
 def text(html: str) -> str:
@@ -63,7 +63,7 @@ FAILURE = of_night(
 def test_what_concerns_the_whole_night_stands_first() -> None:
     notices = (NightNotice(About.FOLDER, same("the folder is empty")),)
     state = state_of("Hall North", CALM, ["x"], PastNight(NIGHT, NIGHT, notices))
-    html = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
+    html = make_overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "Folder of certificates the folder is empty" in text(section(html, "needs"))
 
 
@@ -222,7 +222,7 @@ def test_a_run_at_work_is_not_called_interrupted() -> None:
     said = {}
     for minutes in (10, 60):
         state = state_of("Hall North", CALM, ["x"], night.seen_at(NIGHT + timedelta(minutes=minutes)))
-        said[minutes] = overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
+        said[minutes] = make_overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "at work: 3 jobs so far" in said[10]
     assert "interrupted" not in said[10]
     assert "interrupted" in said[60]

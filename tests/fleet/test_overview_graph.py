@@ -8,10 +8,10 @@ from collections.abc import Sequence
 from xml.etree import ElementTree as ET
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.drifts import trends
+from zlmreport.fleet.drifts import judge_trends
 from zlmreport.fleet.records import LedgerEntry
-from zlmreport.fleet.trend import series_of, standing
-from zlmreport.fleet.trend_graph import LARGE, SMALL, GraphSize, Period, trend_graph
+from zlmreport.fleet.trend import list_series_of, select_standing
+from zlmreport.fleet.trend_graph import LARGE, SMALL, GraphSize, Period, draw_trend
 from zlmreport.language.formatting import DecimalSign
 
 PERIOD = Period(quarters(8)[0], quarters(8)[-1])
@@ -21,8 +21,8 @@ def drawn(
     entries: Sequence[LedgerEntry], period: Period = PERIOD
 ) -> list[tuple[str, list[tuple[float, float]]]]:
     """Return the class and the points of each outline."""
-    (trend,) = trends(series_of(standing(entries)))
-    image = ET.fromstring(trend_graph(trend, period, "words", DecimalSign.POINT))
+    (trend,) = judge_trends(list_series_of(select_standing(entries)))
+    image = ET.fromstring(draw_trend(trend, period, "words", DecimalSign.POINT))
     found = []
     for path in image.iter("{http://www.w3.org/2000/svg}path"):
         numbers = list(map(float, re.findall(r"-?[\d.]+", path.attrib["d"])))
@@ -99,8 +99,8 @@ def test_a_single_calibration_of_zero_stays_on_the_drawing() -> None:
 
 
 def lettering(entries: Sequence[LedgerEntry], size: GraphSize, sign: DecimalSign) -> list[str]:
-    (trend,) = trends(series_of(standing(entries)))
-    image = ET.fromstring(trend_graph(trend, PERIOD, "words", sign, size))
+    (trend,) = judge_trends(list_series_of(select_standing(entries)))
+    image = ET.fromstring(draw_trend(trend, PERIOD, "words", sign, size))
     return ["".join(text.itertext()) for text in image.iter("{http://www.w3.org/2000/svg}text")]
 
 

@@ -8,7 +8,7 @@ from statistics import NormalDist
 import numpy as np
 import pytest
 
-from zlmreport.fleet.scatter import ScatterLikelihood, learned
+from zlmreport.fleet.scatter import ScatterLikelihood, learn_scatter
 from zlmreport.model.fitting.distributions import chi_square_tail, t_quantile
 
 NORMAL = NormalDist()
@@ -30,21 +30,21 @@ def part_between(scatter: ScatterLikelihood, low: float, high: float) -> float:
 
 def test_an_axis_without_others_is_judged_by_students_t() -> None:
     """With ignorance of the logarithm of σ: P(y > t·s) is that of Student's t with its degrees of freedom."""
-    (unknown,) = learned([(0.05**2 * DEGREES, DEGREES)])
+    (unknown,) = learn_scatter([(0.05**2 * DEGREES, DEGREES)])
     known = unknown.after(0.05**2 * DEGREES, DEGREES)
     for chance in (0.05, 0.003):
         assert known.quantile(chance) == pytest.approx(0.05 * t_quantile(1 - 2 * chance, DEGREES), rel=0.03)
 
 
 def test_axes_that_scatter_alike_know_the_scatter_together() -> None:
-    found = learned(fleet_of(np.full(400, 0.06)))[0]
+    found = learn_scatter(fleet_of(np.full(400, 0.06)))[0]
     assert found.deviation == pytest.approx(0.06, rel=0.05)
     # A normal quantile: four tests alone would have 4.6 instead of 2.6.
     assert found.quantile(0.005) == pytest.approx(-0.06 * NORMAL.inv_cdf(0.005), rel=0.05)
 
 
 def test_two_kinds_of_axes_are_told_apart() -> None:
-    found = learned(fleet_of(np.repeat([1 / 60, 1 / 15], 200)))[0]
+    found = learn_scatter(fleet_of(np.repeat([1 / 60, 1 / 15], 200)))[0]
     assert part_between(found, 1 / 80, 1 / 45) == pytest.approx(0.5, abs=0.1)
     assert part_between(found, 1 / 20, 1 / 11) == pytest.approx(0.5, abs=0.1)
     calm, wild = (found.after(DEGREES * each**2, DEGREES) for each in (1 / 60, 1 / 15))
@@ -53,19 +53,19 @@ def test_two_kinds_of_axes_are_told_apart() -> None:
 
 
 def test_a_scatter_that_no_other_axis_has_is_believed_nevertheless() -> None:
-    found = learned(fleet_of(np.full(400, 1 / 40)))[0]
+    found = learn_scatter(fleet_of(np.full(400, 1 / 40)))[0]
     assert found.after(DEGREES * 0.3**2, DEGREES).deviation > 0.2
 
 
 def test_an_axis_is_not_asked_for_what_it_says_itself() -> None:
     calm = [(DEGREES * 0.02**2, DEGREES)] * 5
-    of_wild, of_calm = learned([(DEGREES * 0.5**2, DEGREES), *calm])[:2]
+    of_wild, of_calm = learn_scatter([(DEGREES * 0.5**2, DEGREES), *calm])[:2]
     assert part_between(of_wild, 0.2, 1.0) < 0.05
     assert of_wild.degrees == of_calm.degrees == 5 * DEGREES
 
 
 def test_a_fleet_of_first_tests_knows_nothing() -> None:
-    (found, _) = learned([(0.0, 0), (0.0, 0)])
+    (found, _) = learn_scatter([(0.0, 0), (0.0, 0)])
     assert found.degrees == 0
     assert len(set(found.weights.tolist())) == 1
 

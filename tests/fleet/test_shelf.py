@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from zlmreport.fleet.basis import FileStamp, KnownFile, is_intact
-from zlmreport.fleet.issuing import laid, tidy
+from zlmreport.fleet.issuing import lay, tidy
 from zlmreport.fleet.making import FinishedFile
 
 FILES = (FinishedFile(".pdf", "m/X/CAL-1.pdf", b"pages"), FinishedFile(".json", "m/X/CAL-1.json", b"{}"))
@@ -19,7 +19,7 @@ def names(folder: Path) -> set[str]:
 
 def left_behind(folder: Path) -> tuple[KnownFile, ...]:
     """Leave the files under their hidden names, as a kill does; return what a ledger would know of them."""
-    with laid(folder, FILES) as files:
+    with lay(folder, FILES) as files:
         hidden = {path: path.read_bytes() for path in files.names.values()}
     for path, content in hidden.items():
         path.write_bytes(content)
@@ -27,7 +27,7 @@ def left_behind(folder: Path) -> tuple[KnownFile, ...]:
 
 
 def test_files_have_no_names_before_the_ledger_has_them(tmp_path: Path) -> None:
-    with laid(tmp_path, FILES) as files:
+    with lay(tmp_path, FILES) as files:
         assert not names(tmp_path) & {"CAL-1.pdf", "CAL-1.json"}
         assert len(names(tmp_path)) == 2
         files.name()
@@ -35,13 +35,13 @@ def test_files_have_no_names_before_the_ledger_has_them(tmp_path: Path) -> None:
 
 
 def test_what_the_ledger_refuses_leaves_nothing(tmp_path: Path) -> None:
-    with pytest.raises(RuntimeError), laid(tmp_path, FILES):
+    with pytest.raises(RuntimeError), lay(tmp_path, FILES):
         raise RuntimeError
     assert not names(tmp_path)
 
 
 def test_the_ledger_knows_the_files_as_they_lie_there(tmp_path: Path) -> None:
-    with laid(tmp_path, FILES) as files:
+    with lay(tmp_path, FILES) as files:
         files.name()
     for known, file in zip(files.known, FILES, strict=True):
         assert (known.path, known.sha256) == (file.path, file.sha256)
@@ -80,7 +80,7 @@ def test_other_files_are_left_alone(tmp_path: Path) -> None:
     ("content", "intact"), [(b"pages", True), (b"pages, signed", True), (b"paper", False), (b"pag", False)]
 )
 def test_a_pdf_is_as_it_was_issued_if_it_begins_so(tmp_path: Path, content: bytes, *, intact: bool) -> None:
-    with laid(tmp_path, FILES[:1]) as files:
+    with lay(tmp_path, FILES[:1]) as files:
         files.name()
     path = tmp_path / "m/X/CAL-1.pdf"
     path.write_bytes(content)
@@ -88,7 +88,7 @@ def test_a_pdf_is_as_it_was_issued_if_it_begins_so(tmp_path: Path, content: byte
 
 
 def test_to_any_other_file_nothing_may_be_added(tmp_path: Path) -> None:
-    with laid(tmp_path, FILES[1:2]) as files:
+    with lay(tmp_path, FILES[1:2]) as files:
         files.name()
     path = tmp_path / files.known[0].path
     path.write_bytes(path.read_bytes() + b" ")

@@ -159,7 +159,7 @@ def test_a_night_that_was_broken_off_is_told_once_with_what_it_came_to(
     on_a_day("2026-11-21", monkeypatch)
     fleet.readings("x", "2 2 3 -1 -2 -3")
     with monkeypatch.context() as patched:
-        patched.setattr(night, "documents", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+        patched.setattr(night, "find_left_documents", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
         with pytest.raises(KeyboardInterrupt):
             fleet.spend()
     on_a_day("2026-11-22", monkeypatch)

@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 
 from fleet.histories import entry, history, parameter, quarters
-from zlmreport.fleet.causes import Cause, Shared, cause_of, shared
-from zlmreport.fleet.drifts import Trend, trends
+from zlmreport.fleet.causes import Cause, Shared, find_cause_of, find_shared
+from zlmreport.fleet.drifts import Trend, judge_trends
 from zlmreport.fleet.records import MODEL, LedgerEntry
-from zlmreport.fleet.scatter import ScatterLikelihood, learned
-from zlmreport.fleet.steps import chances, course, level_of, squares_about_mean
-from zlmreport.fleet.trend import series_of, standing
+from zlmreport.fleet.scatter import ScatterLikelihood, learn_scatter
+from zlmreport.fleet.steps import compute_chances, compute_level_of, judge_course, sum_squares_about_mean
+from zlmreport.fleet.trend import list_series_of, select_standing
 
 LIMIT = 20.0
 CALM = [8.0, 8.4, 8.1, 8.3, 8.2, 8.0]
 
 
 def judged(entries: list[LedgerEntry]) -> tuple[Trend, ...]:
-    return trends(series_of(standing(entries)))
+    return judge_trends(list_series_of(select_standing(entries)))
 
 
 def fleet_with(values: list[float], **others: list[float]) -> Trend:
@@ -117,9 +117,9 @@ def test_the_effect_and_the_instrument_that_changed_with_it_are_named() -> None:
         )
         for day, a, b, c in zip(days, values, lost, scale, strict=True)
     ]
-    series = series_of(standing(entries))
-    (trend,) = trends(each for each in series if each.standard != MODEL)
-    cause = cause_of(trend, [each for each in series if each.standard == MODEL])
+    series = list_series_of(select_standing(entries))
+    (trend,) = judge_trends(each for each in series if each.standard != MODEL)
+    cause = find_cause_of(trend, [each for each in series if each.standard == MODEL])
     assert cause
     assert cause.change == pytest.approx(4.2)
     assert cause == Cause(
@@ -145,7 +145,7 @@ def of_type(
 
 
 def shared_in(*entries: LedgerEntry) -> tuple[Shared, ...]:
-    return shared(each for each in series_of(standing(entries)) if each.standard == MODEL)
+    return find_shared(each for each in list_series_of(select_standing(entries)) if each.standard == MODEL)
 
 
 def test_what_machines_of_a_type_have_in_common_is_shown_with_its_mean() -> None:
@@ -208,7 +208,7 @@ def test_the_chances_are_those_of_integration_over_mean_effect_and_variance(valu
     steps = [evidence(each) / nothing / (number - 1) for each in shapes]
     drift = evidence(ramp) / nothing
     total = 1 + sum(steps) + drift
-    found = chances(values, fleet)
+    found = compute_chances(values, fleet)
     assert found.nothing == pytest.approx(1 / total, rel=2e-3)
     assert found.drift == pytest.approx(drift / total, rel=2e-3)
     assert found.steps[1:] == pytest.approx([each / total for each in steps], rel=2e-3)
@@ -217,9 +217,9 @@ def test_the_chances_are_those_of_integration_over_mean_effect_and_variance(valu
 @pytest.mark.parametrize("before", [4, 5, 7, 20])
 def test_the_level_leaves_five_scatters_visible_where_the_scatter_is_known(before: int) -> None:
     normal = NormalDist()
-    critical = normal.inv_cdf(1 - level_of(before))
+    critical = normal.inv_cdf(1 - compute_level_of(before))
     assert 1 - normal.cdf(critical - 5 / math.sqrt(1 + 1 / before)) >= 0.95
-    assert AXES * level_of(before) <= 1
+    assert AXES * compute_level_of(before) <= 1
 
 
 AXES, NIGHTS = 300, 10
@@ -239,12 +239,12 @@ def nights(scatters: np.ndarray, tests: int, seed: int) -> list[np.ndarray]:
 
 def known(values: np.ndarray) -> tuple[ScatterLikelihood, ...]:
     """Return what each axis knows from the others, before the latest test."""
-    return learned((squares_about_mean(row[:-1]), len(row) - 2) for row in values.tolist())
+    return learn_scatter((sum_squares_about_mean(row[:-1]), len(row) - 2) for row in values.tolist())
 
 
 def stepping(values: np.ndarray) -> np.ndarray:
     """Return which axes show a step of the latest test."""
-    found = [course(row, fleet) for row, fleet in zip(values.tolist(), known(values), strict=True)]
+    found = [judge_course(row, fleet) for row, fleet in zip(values.tolist(), known(values), strict=True)]
     last = values.shape[1] - 1
     return np.array([bool(each.steps) and each.steps[-1].index == last for each in found])
 
@@ -279,7 +279,7 @@ def test_the_smallest_step_that_is_printed_is_seen_at_once(scatters: np.ndarray)
     seen = []
     for values in nights(scatters, 5, 22):
         for row, fleet in zip(values, known(values), strict=True):
-            printed = course(row[:-1].tolist(), fleet).smallest
+            printed = judge_course(row[:-1].tolist(), fleet).smallest
             assert printed
             row[-1] += printed
         seen.append(stepping(values))

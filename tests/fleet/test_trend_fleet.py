@@ -11,13 +11,13 @@ from fleet.histories import entry, history, parameter, quarters
 from zlmreport.fleet.drifts import (
     FALSE_SHARE,
     Trend,
-    chosen_by_benjamini_hochberg,
-    holm,
-    named_in_families,
-    trends,
+    adjust_by_holm,
+    choose_by_benjamini_hochberg,
+    judge_trends,
+    name_in_families,
 )
 from zlmreport.fleet.records import LedgerEntry
-from zlmreport.fleet.trend import line_through, series_of, standing
+from zlmreport.fleet.trend import fit_line_through, list_series_of, select_standing
 
 #: The fifteen p-values of the paper of Benjamini and Hochberg (1995), section 4.
 PUBLISHED = [
@@ -27,35 +27,35 @@ PUBLISHED = [
 
 
 def judged(entries: list[LedgerEntry]) -> tuple[Trend, ...]:
-    return trends(series_of(standing(entries)))
+    return judge_trends(list_series_of(select_standing(entries)))
 
 
 def test_the_published_example_chooses_four() -> None:
-    assert chosen_by_benjamini_hochberg(PUBLISHED, 0.05) == 4
+    assert choose_by_benjamini_hochberg(PUBLISHED, 0.05) == 4
 
 
 def test_the_published_example_keeps_three_by_the_stricter_count() -> None:
-    adjusted = holm(dict(enumerate(PUBLISHED)))
+    adjusted = adjust_by_holm(dict(enumerate(PUBLISHED)))
     assert sum(p <= 0.05 for p in adjusted.values()) == 3
 
 
 def test_holms_values_are_multiplied_by_the_number_that_is_left_and_never_fall() -> None:
-    adjusted = holm({7: 0.01, 8: 0.04, 9: 0.03})
+    adjusted = adjust_by_holm({7: 0.01, 8: 0.04, 9: 0.03})
     assert adjusted == pytest.approx({7: 0.03, 9: 0.06, 8: 0.06})
 
 
 def test_a_larger_p_value_is_chosen_along_with_a_smaller_one_that_alone_would_not_be() -> None:
-    assert chosen_by_benjamini_hochberg([0.03, 0.04], 0.05) == 2
+    assert choose_by_benjamini_hochberg([0.03, 0.04], 0.05) == 2
 
 
 def test_nothing_tested_is_nothing_named() -> None:
-    assert named_in_families([], 0.05) == frozenset()
+    assert name_in_families([], 0.05) == frozenset()
 
 
 def test_within_a_chosen_family_the_level_is_that_of_the_chosen_share() -> None:
     # One of two families is chosen, so its tests are held to 0.05·1/2: 0.012·2 is named, 0.03 is not.
     families = [{0: 0.012, 1: 0.03}, {2: 0.9}]
-    assert named_in_families(families, 0.05) == {0}
+    assert name_in_families(families, 0.05) == {0}
 
 
 def test_a_steady_rise_is_a_drift() -> None:
@@ -109,7 +109,9 @@ def test_the_chance_of_a_slope_is_kept_by_series_that_do_not_drift(number: int) 
     values = np.random.default_rng(number).normal(10.0, 0.7, (TRIALS, number))
     p_values = []
     for index, row in enumerate(values.tolist()):
-        (trend,) = (Trend(each, line_through(each)) for each in series_of(history(row, axis=str(index))))
+        (trend,) = (
+            Trend(each, fit_line_through(each)) for each in list_series_of(history(row, axis=str(index)))
+        )
         p_values.append(trend.p_value)
     for level in (0.01, 0.05, 0.5):
         count = sum(p is not None and p <= level for p in p_values)

@@ -16,10 +16,10 @@ from zlmreport.fleet.trend import (
     DAYS_PER_YEAR,
     Series,
     TrendLine,
+    fit_line_through,
     forecast,
-    line_through,
-    series_of,
-    standing,
+    list_series_of,
+    select_standing,
 )
 from zlmreport.model.fitting.distributions import t_quantile
 
@@ -33,7 +33,7 @@ def series(values: Sequence[float], uncertainties: Sequence[float | None] | None
         entry(day, parameter(value, expanded_uncertainty=uncertainty))
         for day, value, uncertainty in zip(quarters(len(values)), values, stated, strict=True)
     ]
-    (found,) = series_of(standing(entries))
+    (found,) = list_series_of(select_standing(entries))
     return found
 
 
@@ -56,15 +56,15 @@ UNCERTAINTIES = [1.0, 1.0, 3.0, 1.5, 1.0, 2.0]
 
 def test_calibrations_weigh_by_the_inverse_square_of_their_uncertainty() -> None:
     found = series(VALUES, UNCERTAINTIES)
-    line = line_through(found)
+    line = fit_line_through(found)
     slope, deviation, _ = normal_equations(found, [1 / u**2 for u in UNCERTAINTIES])
     assert line.slope == pytest.approx(slope, rel=1e-9)
     assert math.sqrt(line.slope_variance) == pytest.approx(deviation, rel=1e-9)
 
 
 def test_calibrations_weigh_alike_where_one_states_no_uncertainty() -> None:
-    line = line_through(series(VALUES, [None, *UNCERTAINTIES[1:]]))
-    assert line.slope == pytest.approx(line_through(series(VALUES)).slope, rel=1e-12)
+    line = fit_line_through(series(VALUES, [None, *UNCERTAINTIES[1:]]))
+    assert line.slope == pytest.approx(fit_line_through(series(VALUES)).slope, rel=1e-12)
 
 
 def test_the_regression_is_that_of_the_certified_data_set_norris() -> None:
@@ -81,8 +81,8 @@ def test_the_regression_is_that_of_the_certified_data_set_norris() -> None:
         )
         for index, (x, y) in enumerate(zip(norris["x"], norris["y"], strict=True))
     ]
-    (found,) = series_of(standing(entries))
-    line = line_through(found)
+    (found,) = list_series_of(select_standing(entries))
+    line = fit_line_through(found)
     per_unit = 10 / DAYS_PER_YEAR
     assert line.slope * per_unit == pytest.approx(float(norris["parameters"][1]), rel=1e-10)
     deviation = float(norris["standard_deviations"][1])
@@ -92,32 +92,32 @@ def test_the_regression_is_that_of_the_certified_data_set_norris() -> None:
 def test_the_chance_is_that_of_students_t() -> None:
     found = series(VALUES)
     _, _, t = normal_equations(found, [1.0] * len(VALUES))
-    p_value = line_through(found).p_value
+    p_value = fit_line_through(found).p_value
     assert t_quantile(1 - p_value, len(VALUES) - 2) == pytest.approx(abs(t), rel=1e-9)
 
 
 def test_what_all_calibrations_have_in_common_leaves_slope_and_chance_alone() -> None:
-    line = line_through(series(VALUES))
-    shifted = line_through(series([value + 3.0 for value in VALUES]))
+    line = fit_line_through(series(VALUES))
+    shifted = fit_line_through(series([value + 3.0 for value in VALUES]))
     assert (shifted.slope, shifted.p_value) == pytest.approx((line.slope, line.p_value), rel=1e-9)
 
 
 def test_larger_stated_uncertainties_of_all_calibrations_make_no_scatter() -> None:
-    line = line_through(series(VALUES, [0.1] * len(VALUES)))
-    other = line_through(series(VALUES, [10.0] * len(VALUES)))
+    line = fit_line_through(series(VALUES, [0.1] * len(VALUES)))
+    other = fit_line_through(series(VALUES, [10.0] * len(VALUES)))
     assert other.p_value == pytest.approx(line.p_value, rel=1e-9)
 
 
 def test_values_that_never_change_do_not_drift() -> None:
-    assert line_through(series([5.0] * 6)).p_value == 1.0
+    assert fit_line_through(series([5.0] * 6)).p_value == 1.0
 
 
 def test_values_of_zero_do_not_drift() -> None:
-    assert line_through(series([0.0] * 6)).p_value == 1.0
+    assert fit_line_through(series([0.0] * 6)).p_value == 1.0
 
 
 def test_a_line_without_scatter_is_no_accident() -> None:
-    assert line_through(series([1.0, 2.0, 3.0, 4.0, 5.0])).p_value < 1e-12
+    assert fit_line_through(series([1.0, 2.0, 3.0, 4.0, 5.0])).p_value < 1e-12
 
 
 # Worked by hand: 10 µm at the mean date, which is day 10000; +2 µm a year; u(a) = 0.1, u(b) = 0.2.
@@ -187,10 +187,10 @@ def test_a_limit_that_was_passed_has_its_date_in_the_past() -> None:
 
 
 def test_every_forecast_of_a_history_is_a_date() -> None:
-    line = line_through(series([1.0, 1.0, 1.0, 1.0, 1.0 + 1e-6]))
+    line = fit_line_through(series([1.0, 1.0, 1.0, 1.0, 1.0 + 1e-6]))
     assert forecast(line, 1e9, date(2026, 1, 1)) is None
 
 
 def test_a_history_is_read_from_the_ledger_as_it_stands() -> None:
-    (found,) = series_of(standing(history([1.0, 2.0, 3.0])))
-    assert line_through(found).at(found.calibrations[1].measured) == pytest.approx(2.0, rel=1e-12)
+    (found,) = list_series_of(select_standing(history([1.0, 2.0, 3.0])))
+    assert fit_line_through(found).at(found.calibrations[1].measured) == pytest.approx(2.0, rel=1e-12)

@@ -39,7 +39,7 @@ def test_the_numbers_are_those_of_the_standard(tmp_path: Path) -> None:
     values = []
     for name in ("BS ISO 230-2:2014", "iso230-2:2014"):
         checked = job(tmp_path, of({"standard": name, "tolerances": {"A": 150}}))
-        (found,) = pipeline.parameters(checked, pipeline.read(checked, registry()), registry())
+        (found,) = pipeline.evaluate_parameters(checked, pipeline.read(checked, registry()), registry())
         values.append([(each.quantity.symbol, each.value, each.limit) for each in found.parameters])
     assert values[0] == values[1]
 

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 
 from job.jobs import REGISTRY, mistakes
-from zlmreport.job.schema import job_schema
+from zlmreport.job.schema import make_job_schema
 
-SCHEMA = job_schema(REGISTRY)
+SCHEMA = make_job_schema(REGISTRY)
 VALIDATOR = jsonschema.Draft202012Validator(
     SCHEMA, format_checker=jsonschema.Draft202012Validator.FORMAT_CHECKER
 )

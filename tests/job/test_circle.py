@@ -10,7 +10,7 @@ import yaml
 
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.job.schema import job_schema
+from zlmreport.job.schema import make_job_schema
 from zlmreport.measurement.measurand import CIRCLE
 from zlmreport.plugin.registry import find_plugins
 
@@ -98,7 +98,7 @@ def test_keys_of_lines_are_refused(tmp_path: Path, key: str, value, said: str) -
 
 
 def test_the_schema_takes_a_circle_instead_of_an_axis_and_not_neither() -> None:
-    validator = jsonschema.Draft202012Validator(job_schema(REGISTRY))
+    validator = jsonschema.Draft202012Validator(make_job_schema(REGISTRY))
     assert validator.is_valid(JOB)
     assert not validator.is_valid({key: value for key, value in JOB.items() if key != "circle"})
     assert not validator.is_valid({**JOB, "circle": {"plane": "XX", "radius": 1, "feed": 1}})

@@ -10,7 +10,7 @@ import yaml
 
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
-from zlmreport.job.schema import job_schema
+from zlmreport.job.schema import make_job_schema
 from zlmreport.measurement.measurand import DISPLACEMENT, Coordinate
 from zlmreport.plugin.registry import find_plugins
 
@@ -46,7 +46,7 @@ def test_each_test_is_a_sensor_over_time(tmp_path: Path) -> None:
 
 
 def test_an_editor_takes_it() -> None:
-    jsonschema.validate(JOB, job_schema(REGISTRY))
+    jsonschema.validate(JOB, make_job_schema(REGISTRY))
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from zlmreport.errors import AccessError, InputError, Place, ZlmreportError
-from zlmreport.job.edit import Edit, edit_effects, named_effect
+from zlmreport.job.edit import Edit, edit_effects, read_named_effect
 from zlmreport.job.loading import load
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -43,7 +43,7 @@ def job(tmp_path: Path) -> Path:
 
 def edited(path: Path, add: str = "", *, remove: tuple[str, ...] = ()) -> Edit:
     """Return the change of a job that somebody asks for on the command line."""
-    named = [named_effect(add, registry(), Place("command"))] if add else []
+    named = [read_named_effect(add, registry(), Place("command"))] if add else []
     return edit_effects(path, load(path, registry()), registry(), add=named, remove=remove)
 
 
@@ -53,7 +53,7 @@ def effects(path: Path) -> list[str]:
 
 def message(add: str) -> str:
     with pytest.raises(ZlmreportError) as caught:
-        named_effect(add, registry(), Place("command"))
+        read_named_effect(add, registry(), Place("command"))
     return str(caught.value)
 
 
@@ -178,5 +178,5 @@ def test_mistakes_stand_at_the_place_that_names_the_effect() -> None:
 
 
 def test_an_effect_is_named_as_in_a_job() -> None:
-    named = named_effect("polynomial: {order: 5}", registry(), Place("command"))
+    named = read_named_effect("polynomial: {order: 5}", registry(), Place("command"))
     assert (named.choice.identifier, named.choice.settings.model_dump()) == ("polynomial", {"order": 5})

@@ -9,7 +9,7 @@ import pytest
 from job.jobs import REGISTRY, SOUND
 from zlmreport.errors import AccessError, InputError
 from zlmreport.job.extends import Defaults
-from zlmreport.job.fleet import FleetFile, job_files, load_fleet, number_of
+from zlmreport.job.fleet import FleetFile, list_job_files, load_fleet, number_of
 from zlmreport.job.loading import load
 from zlmreport.job.parse import parse
 
@@ -116,15 +116,15 @@ def test_jobs_come_once_in_the_order_of_their_names(tmp_path: Path) -> None:
     fleet = loaded(tmp_path)
     path = tmp_path / "all.yaml"
     path.write_text("schema: zlmreport/fleet/1\njobs: ['**/*.yaml', jobs/a.yaml]\n", encoding="utf-8")
-    names = [str(each.relative_to(tmp_path)) for each in job_files(load_fleet(path))]
+    names = [str(each.relative_to(tmp_path)) for each in list_job_files(load_fleet(path))]
     assert names == ["fleet.yaml", "jobs/a.yaml", "jobs/b.yaml", "jobs/deep/c.yaml"]
-    assert [each.name for each in job_files(fleet)] == ["a.yaml", "b.yaml"]
+    assert [each.name for each in list_job_files(fleet)] == ["a.yaml", "b.yaml"]
 
 
 def test_every_pattern_without_a_file_is_named(tmp_path: Path) -> None:
     fleet = loaded(tmp_path)
     with pytest.raises(InputError, match=r"fleet.yaml:2:7: jobs: no file is called 'jobs/\*.yaml'; nothing"):
-        job_files(fleet)
+        list_job_files(fleet)
 
 
 def test_the_number_of_a_job_is_found_where_it_stands(tmp_path: Path) -> None:

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from zlmreport.job.formula import FormulaError, computed, parse_formula
+from zlmreport.job.formula import FormulaError, compute, parse_formula
 from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys
 from zlmreport.job.formula_parts import UNITS, Formula, refuse_unsound
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.effect import Dimension, unit_of
+from zlmreport.model.effects.effect import Dimension, find_unit_of
 
 _UM: dict[str, Any] = {"unit": "um", "range": [-20, 20]}
 
@@ -34,7 +34,7 @@ def _keys(formula: str, **parameters: dict[str, Any]) -> FormulaKeys:
     ],
 )
 def test_formula_means_what_arithmetic_says(text: str, value: float) -> None:
-    assert float(computed(parse_formula(text), {})) == pytest.approx(value, rel=1e-15)
+    assert float(compute(parse_formula(text), {})) == pytest.approx(value, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -138,14 +138,14 @@ def test_formula_of_a_rotary_axis_is_in_angles() -> None:
 
 def test_every_unit_is_one_that_results_print() -> None:
     for kind, units in UNITS.items():
-        printed = {unit_of(each, kind).ascii: unit_of(each, kind).per_si for each in Dimension}
+        printed = {find_unit_of(each, kind).ascii: find_unit_of(each, kind).per_si for each in Dimension}
         assert {name: unit.per_si for name, unit in units.items()} == {name: printed[name] for name in units}
 
 
 def test_unit_on_a_linear_axis_has_its_like_on_a_rotary_one() -> None:
     for linear, rotary in UNITS_OF_PARAMETERS.items():
-        like = {each for each in Dimension if unit_of(each, AxisKind.LINEAR).ascii == linear}
-        assert rotary in {unit_of(each, AxisKind.ROTARY).ascii for each in like}
+        like = {each for each in Dimension if find_unit_of(each, AxisKind.LINEAR).ascii == linear}
+        assert rotary in {find_unit_of(each, AxisKind.ROTARY).ascii for each in like}
         assert (
             UNITS[AxisKind.LINEAR][linear].extent == UNITS[AxisKind.ROTARY][rotary].extent or linear == "deg"
         )

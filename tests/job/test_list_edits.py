@@ -10,10 +10,10 @@ from zlmreport.job.extents import Written
 from zlmreport.job.list_edits import (
     ListKey,
     UneditableError,
-    own_list,
-    with_item,
-    with_list,
-    without_item,
+    add_item,
+    add_list,
+    drop_item,
+    find_own_list,
 )
 from zlmreport.job.parse import parse
 from zlmreport.job.tree import Items, Keys, Node, Scalar, walk
@@ -121,33 +121,33 @@ def _in_model(effects_: str) -> str:
 
 @pytest.mark.parametrize(("before", "after"), ADDED.values(), ids=ADDED.keys())
 def test_an_effect_is_added(before: str, after: str) -> None:
-    assert with_item(_in_model(before), EFFECTS, NEW) == _in_model(after)
+    assert add_item(_in_model(before), EFFECTS, NEW) == _in_model(after)
 
 
 @pytest.mark.parametrize(("before", "index", "after"), REMOVED.values(), ids=REMOVED.keys())
 def test_an_effect_is_taken_out(before: str, index: int, after: str) -> None:
-    assert without_item(_in_model(before), EFFECTS, index) == _in_model(after)
+    assert drop_item(_in_model(before), EFFECTS, index) == _in_model(after)
 
 
 @pytest.mark.parametrize(("before", "after"), NEW_LIST.values(), ids=NEW_LIST.keys())
 def test_a_list_is_begun(before: str, after: str) -> None:
-    assert with_list(before, EFFECTS, [NEW]) == after
+    assert add_list(before, EFFECTS, [NEW]) == after
 
 
 def test_an_effect_keeps_its_keys() -> None:
     item = node("{polynomial: {order: 5, weights: [1, 2.5], note: 'a: b'}}")
-    after = with_item("model:\n  effects:\n    - a\n", EFFECTS, item)
+    after = add_item("model:\n  effects:\n    - a\n", EFFECTS, item)
     assert after.splitlines()[-1] == '    - polynomial: {order: 5, weights: [1, 2.5], note: "a: b"}'
 
 
 def test_an_effect_in_brackets_keeps_its_keys_in_braces() -> None:
-    after = with_item("model: {effects: [a]}\n", EFFECTS, node("{polynomial: {order: 5}}"))
+    after = add_item("model: {effects: [a]}\n", EFFECTS, node("{polynomial: {order: 5}}"))
     assert after == "model: {effects: [a, {polynomial: {order: 5}}]}\n"
 
 
 @pytest.mark.parametrize("text", ["null", "~", "12", "on fire", "a, b", "#", "a: b"])
 def test_text_that_would_mean_something_else_is_quoted(text: str) -> None:
-    after = with_item("model: {effects: [a]}\n", EFFECTS, Scalar(NEW.place, text, plain=False))
+    after = add_item("model: {effects: [a]}\n", EFFECTS, Scalar(NEW.place, text, plain=False))
     assert effects(after) == ["a", text]
 
 
@@ -155,26 +155,26 @@ def test_text_that_would_mean_something_else_is_quoted(text: str) -> None:
 def test_what_cannot_be_changed_alone_is_refused(before: str) -> None:
     text = f"other: &x [a]\n{_in_model(before)}"
     with pytest.raises(UneditableError):
-        with_list(text, EFFECTS, [NEW]) if "*" in before else without_item(text, EFFECTS, 0)
+        add_list(text, EFFECTS, [NEW]) if "*" in before else drop_item(text, EFFECTS, 0)
 
 
 @given(layouts)
 def test_adding_and_taking_out_again_gives_the_same_bytes(layout: Layout) -> None:
     text = layout.text
-    added = with_item(text, EFFECTS, NEW)
+    added = add_item(text, EFFECTS, NEW)
     assert effects(added) == [*layout.names, "thermal-drift"]
-    assert without_item(added, EFFECTS, len(layout.names)) == text
+    assert drop_item(added, EFFECTS, len(layout.names)) == text
 
 
 @given(layouts)
 def test_adding_takes_nothing_away(layout: Layout) -> None:
-    rest = iter(with_item(layout.text, EFFECTS, NEW))
+    rest = iter(add_item(layout.text, EFFECTS, NEW))
     assert all(character in rest for character in layout.text)
 
 
 @given(layouts)
 def test_what_is_around_the_list_stays_when_an_effect_is_added(layout: Layout) -> None:
-    added = with_item(layout.text, EFFECTS, NEW)
+    added = add_item(layout.text, EFFECTS, NEW)
     assert added.startswith(layout.head)
     assert added.endswith(layout.tail)
 
@@ -184,7 +184,7 @@ def test_taking_out_leaves_everything_else(layout: Layout, data: st.DataObject) 
     if not layout.names:
         return
     index = data.draw(st.integers(0, len(layout.names) - 1))
-    left = without_item(layout.text, EFFECTS, index)
+    left = drop_item(layout.text, EFFECTS, index)
     assert effects(left) == [name for number, name in enumerate(layout.names) if number != index]
     assert left.startswith(layout.head)
     assert left.endswith(layout.tail)
@@ -195,14 +195,14 @@ def test_comments_in_lines_of_their_own_stay(layout: Layout, data: st.DataObject
     if not layout.names:
         return
     index = data.draw(st.integers(0, len(layout.names) - 1))
-    left = without_item(with_item(layout.text, EFFECTS, NEW), EFFECTS, index)
+    left = drop_item(add_item(layout.text, EFFECTS, NEW), EFFECTS, index)
     assert [comment for comment in layout.comments if comment not in left] == []
 
 
 @given(layouts)
 def test_values_are_found_where_they_stand(layout: Layout) -> None:
     written = Written.of(layout.text)
-    listed = own_list(written, EFFECTS)
+    listed = find_own_list(written, EFFECTS)
     assert listed is not None
     for item, name in zip(listed.parts, layout.names, strict=True):
         assert name in written.text[item.start : item.end]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from zlmreport.job.types import Enclosure, enclosed, path_from_job, path_named
+from zlmreport.job.types import Enclosure, enclose, find_path_from_job, resolve_path_named
 
 UNPACKED = Path("/unpacked")
 ENCLOSURE = Enclosure(
@@ -22,16 +22,16 @@ ENCLOSURE = Enclosure(
 
 
 def in_enclosure(reference: str, naming_file: str = "0/job.yaml") -> str:
-    with enclosed(ENCLOSURE):
-        return path_named(reference, UNPACKED / naming_file).relative_to(UNPACKED).as_posix()
+    with enclose(ENCLOSURE):
+        return resolve_path_named(reference, UNPACKED / naming_file).relative_to(UNPACKED).as_posix()
 
 
 def test_a_file_is_found_beside_the_file_that_names_it() -> None:
-    assert path_named("x.csv", Path("jobs/job.yaml")) == Path("jobs/x.csv")
+    assert resolve_path_named("x.csv", Path("jobs/job.yaml")) == Path("jobs/x.csv")
 
 
 def test_a_path_from_the_root_stays_what_it_is() -> None:
-    assert path_named("/data/x.csv", Path("jobs/job.yaml")) == Path("/data/x.csv")
+    assert resolve_path_named("/data/x.csv", Path("jobs/job.yaml")) == Path("/data/x.csv")
 
 
 @pytest.mark.parametrize(
@@ -66,13 +66,13 @@ def test_any_other_reference_leads_nowhere(reference: str) -> None:
 
 def test_after_an_enclosure_paths_mean_files_again() -> None:
     in_enclosure("x.csv")
-    assert path_named("x.csv", Path("jobs/job.yaml")) == Path("jobs/x.csv")
+    assert resolve_path_named("x.csv", Path("jobs/job.yaml")) == Path("jobs/x.csv")
 
 
 def test_an_error_ends_an_enclosure() -> None:
-    with pytest.raises(ValueError, match="wrong"), enclosed(ENCLOSURE):
+    with pytest.raises(ValueError, match="wrong"), enclose(ENCLOSURE):
         raise ValueError("wrong")
-    assert path_named("x.csv", Path("job.yaml")) == Path("x.csv")
+    assert resolve_path_named("x.csv", Path("job.yaml")) == Path("x.csv")
 
 
 @pytest.mark.parametrize(
@@ -86,15 +86,15 @@ def test_an_error_ends_an_enclosure() -> None:
     ],
 )
 def test_a_path_is_told_from_the_folder_of_the_job(file: str, job: str, path: str) -> None:
-    assert path_from_job(Path(file), Path(job)) == path
+    assert find_path_from_job(Path(file), Path(job)) == path
 
 
 def test_a_file_elsewhere_has_no_path_from_the_job() -> None:
-    assert path_from_job(Path("/data/x.csv"), Path("jobs/job.yaml")) is None
+    assert find_path_from_job(Path("/data/x.csv"), Path("jobs/job.yaml")) is None
 
 
 def test_an_enclosed_file_has_the_path_that_it_had() -> None:
-    with enclosed(ENCLOSURE):
-        assert path_from_job(UNPACKED / "1/laboratory.yaml", UNPACKED / "0/job.yaml") == (
+    with enclose(ENCLOSURE):
+        assert find_path_from_job(UNPACKED / "1/laboratory.yaml", UNPACKED / "0/job.yaml") == (
             "../shared/laboratory.yaml"
         )

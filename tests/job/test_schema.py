@@ -15,7 +15,7 @@ from job.jobs import REGISTRY, SOUND, with_line, with_lines
 from offers import offering
 from testing.exemplary import ExemplarySource
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.schema import job_schema
+from zlmreport.job.schema import make_job_schema
 from zlmreport.job.types import Options
 from zlmreport.plugin.registry import Plugin, collect, find_plugins
 
@@ -31,13 +31,13 @@ _Loader.yaml_implicit_resolvers = {
 
 
 def _complaints(text: str) -> list[str]:
-    validator = jsonschema.Draft202012Validator(job_schema(REGISTRY))
+    validator = jsonschema.Draft202012Validator(make_job_schema(REGISTRY))
     value = yaml.load(text, Loader=_Loader)
     return [error.message for error in validator.iter_errors(value)]
 
 
 def test_schema_is_one() -> None:
-    jsonschema.Draft202012Validator.check_schema(job_schema(REGISTRY))
+    jsonschema.Draft202012Validator.check_schema(make_job_schema(REGISTRY))
 
 
 def test_sound_job_fits() -> None:
@@ -71,7 +71,7 @@ def test_sound_job_fits() -> None:
 )
 def test_what_the_program_refuses_does_not_fit(text: str) -> None:
     checker = jsonschema.Draft202012Validator(
-        job_schema(REGISTRY), format_checker=jsonschema.Draft202012Validator.FORMAT_CHECKER
+        make_job_schema(REGISTRY), format_checker=jsonschema.Draft202012Validator.FORMAT_CHECKER
     )
     assert not checker.is_valid(yaml.load(text, Loader=_Loader))
 
@@ -96,7 +96,7 @@ def test_what_the_program_takes_fits(text: str) -> None:
 
 
 def test_every_key_is_described() -> None:
-    schema = job_schema(REGISTRY)
+    schema = make_job_schema(REGISTRY)
     undescribed = [
         f"{name}.{key}"
         for name, part in [("job", schema), *schema["$defs"].items()]
@@ -120,12 +120,12 @@ def test_every_example_is_taken_by_its_own_key() -> None:
 
 
 def _parts(model: type[BaseModel]) -> set[type[BaseModel]]:
-    from zlmreport.job.types import model_in
+    from zlmreport.job.types import find_model_in
 
     found = {model}
     for field in model.model_fields.values():
         for annotation in [field.annotation, *getattr(field.annotation, "__args__", ())]:
-            part = model_in(annotation)
+            part = find_model_in(annotation)
             if part:
                 found |= _parts(part)
     return found
@@ -165,7 +165,7 @@ def _source_schema(options: type[Options]) -> dict[str, Any]:
         identifier = "other"
 
     Source.options = options
-    schema = job_schema(collect([(Plugin("other"), offering(sources=[ExemplarySource(), Source()]))]))
+    schema = make_job_schema(collect([(Plugin("other"), offering(sources=[ExemplarySource(), Source()]))]))
     jsonschema.Draft202012Validator.check_schema(schema)
     return schema
 
@@ -189,7 +189,7 @@ def test_plugin_whose_keys_json_does_not_know_is_taken_as_it_is() -> None:
 
 def test_every_example_and_every_part_of_one_fits() -> None:
     """Whole jobs, what they extend, and a job of a fleet that says only its file."""
-    validator = jsonschema.Draft202012Validator(job_schema(find_plugins({})))
+    validator = jsonschema.Draft202012Validator(make_job_schema(find_plugins({})))
     files = (ROOT / "configs").rglob("*.yaml")
     values = {path: yaml.load(path.read_text("utf-8"), Loader=_Loader) for path in files}
     jobs = {path: each for path, each in values.items() if each.get("schema") in {None, "zlmreport/job/1"}}
@@ -198,7 +198,7 @@ def test_every_example_and_every_part_of_one_fits() -> None:
 
 
 def test_a_misspelt_key_never_fits() -> None:
-    schema = job_schema(REGISTRY)
+    schema = make_job_schema(REGISTRY)
     groups = {
         name: schema["$defs"].get(part.get("$ref", "").rpartition("/")[2], {}).get("properties", {})
         for name, part in schema["properties"].items()

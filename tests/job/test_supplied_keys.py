@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from job.jobs import mistakes, with_lines
-from zlmreport.job.contradictions import markable_keys
+from zlmreport.job.contradictions import list_markable_keys
 
 
 @pytest.mark.parametrize(
@@ -53,6 +53,6 @@ def test_keys_of_external_providers_are_held_against_the_job_too(tmp_path: Path)
 
 
 def test_keys_are_named_through_groups_and_lists() -> None:
-    known = markable_keys()
+    known = list_markable_keys()
     assert {"environment", "environment.air_temperature", "evaluate.tolerances"} <= set(known)
     assert not any(key.startswith(("certificate", "output", "laboratory")) for key in known)

@@ -89,7 +89,7 @@ def test_an_overview_of_a_single_axis_says_axis() -> None:
     ],
 )
 def test_a_night_says_of_a_single_job_that_it_is_left(left: int, due: int, said: str) -> None:
-    (notice,) = notices.left(left, due)
+    (notice,) = notices.say_left(left, due)
     assert notice.text.in_language(Language.ENGLISH).endswith(said)
 
 

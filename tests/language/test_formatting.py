@@ -4,11 +4,18 @@ from __future__ import annotations
 
 import pytest
 
-from zlmreport.language.formatting import DecimalSign, fixed_number, p_value, percentage, plain, spans
+from zlmreport.language.formatting import (
+    DecimalSign,
+    split_spans,
+    write_fixed_number,
+    write_p_value,
+    write_percentage,
+    write_plain,
+)
 
 
 def test_a_number_too_large_for_its_decimals_is_written_all_the_same() -> None:
-    assert fixed_number(1e31, 2) == f"1{31 * '0'}.00"
+    assert write_fixed_number(1e31, 2) == f"1{31 * '0'}.00"
 
 
 @pytest.mark.parametrize(
@@ -16,23 +23,23 @@ def test_a_number_too_large_for_its_decimals_is_written_all_the_same() -> None:
     [(1e-9, "p < 0,000001"), (2.34e-5, "p = 0,000023"), (0.0123, "p = 0,012"), (0.4, "p = 0,400")],
 )
 def test_a_p_value_is_written_as_far_as_it_is_known(value: float, text: str) -> None:
-    assert p_value(value, DecimalSign.COMMA).replace("\xa0", " ") == text
+    assert write_p_value(value, DecimalSign.COMMA).replace("\xa0", " ") == text
 
 
 def test_an_extrapolated_p_value_is_about_so_much() -> None:
-    assert p_value(2.34e-5, is_extrapolated=True).replace("\xa0", " ") == "p ≈ 0.00002"
+    assert write_p_value(2.34e-5, is_extrapolated=True).replace("\xa0", " ") == "p ≈ 0.00002"
 
 
 @pytest.mark.parametrize(
     ("share", "text"), [(0.0, "0"), (0.004, "< 1"), (0.0099, "< 1"), (0.01, "1"), (0.996, "100")]
 )
 def test_a_share_below_the_last_digit_is_small_and_not_nothing(share: float, text: str) -> None:
-    assert percentage(share) == text
+    assert write_percentage(share) == text
 
 
 def test_a_share_has_the_decimal_sign_and_the_decimals_that_are_asked_for() -> None:
-    assert percentage(0.1234, DecimalSign.COMMA, 1) == "12,3"
-    assert percentage(0.0004, DecimalSign.COMMA, 1) == "< 0,1"
+    assert write_percentage(0.1234, DecimalSign.COMMA, 1) == "12,3"
+    assert write_percentage(0.0004, DecimalSign.COMMA, 1) == "< 0,1"
 
 
 @pytest.mark.parametrize(
@@ -46,9 +53,9 @@ def test_a_share_has_the_decimal_sign_and_the_decimals_that_are_asked_for() -> N
     ],
 )
 def test_only_quantities_and_running_indices_are_italic(notation: str, italic: list[str]) -> None:
-    assert [span.text for span in spans(notation) if span.italic] == italic
+    assert [span.text for span in split_spans(notation) if span.italic] == italic
 
 
 @pytest.mark.parametrize("notation", ["A·sin(2π·P/p_{0} + φ)", "P_{s max}", "½·B·d"])
 def test_nothing_is_lost_in_spans(notation: str) -> None:
-    assert "".join(span.text for span in spans(notation)) == plain(notation)
+    assert "".join(span.text for span in split_spans(notation)) == write_plain(notation)

@@ -9,7 +9,7 @@ from machines.simulated import bare_machine
 from zlmreport.cli import main
 from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import Course
-from zlmreport.machines.cross_tables import compensated, plan_tables
+from zlmreport.machines.cross_tables import compensate_machine, plan_tables
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
@@ -61,7 +61,7 @@ def test_what_siemens_reads_back_leaves_nothing_of_straightness_and_squareness(
     files = control.cross_files(plan.tables, moves)
     decoded = control.read_cross(files, plan.tables, moves)
     assert np.abs(displacements(out_of_square)).max() > 15e-6
-    assert np.abs(displacements(compensated(out_of_square, decoded))).max() < 0.05e-6
+    assert np.abs(displacements(compensate_machine(out_of_square, decoded))).max() < 0.05e-6
 
 
 def test_a_wrong_sign_doubles_the_error(out_of_square, controls):
@@ -69,7 +69,7 @@ def test_a_wrong_sign_doubles_the_error(out_of_square, controls):
     plan = plan_tables(out_of_square, PLACE)
     decoded = control.read_cross(control.cross_files(plan.tables, 1), plan.tables, -1)
     before = displacements(out_of_square)
-    assert displacements(compensated(out_of_square, decoded)) == pytest.approx(2 * before, abs=0.05e-6)
+    assert displacements(compensate_machine(out_of_square, decoded)) == pytest.approx(2 * before, abs=0.05e-6)
 
 
 def test_a_positive_value_that_moves_back_is_the_deviation_itself(controls):
@@ -92,7 +92,7 @@ def test_linuxcnc_takes_squareness_by_its_kinematics_and_leaves_straightness(out
     ]
     decoded = control.read_cross(files, plan.tables, 1)
     straight = bare_machine([each for each in out_of_square.curves if not each.is_single])
-    assert displacements(compensated(out_of_square, decoded)) == pytest.approx(
+    assert displacements(compensate_machine(out_of_square, decoded)) == pytest.approx(
         displacements(straight), abs=1e-9
     )
 

@@ -15,9 +15,9 @@ from machines.simulated import (
     with_lost_motion,
     with_play,
 )
-from zlmreport.machines.choosing import study_of
+from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.diagnosis import diagnose
-from zlmreport.machines.diagnosis_report import build_values, diagnosis_values
+from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.plugin.registry import find_plugins
 
@@ -28,7 +28,7 @@ BASE = ("centre-offset", "radius")
 
 def diagnosed(*circles, effects=BASE, machine=None):
     chosen = [REGISTRY.circle_effect(name) for name in effects]
-    return diagnose(study_of(machine or bare_machine(), circles, chosen), CATALOGUE)
+    return diagnose(study_circles(machine or bare_machine(), circles, chosen), CATALOGUE)
 
 
 CAUSES = {
@@ -84,7 +84,7 @@ def test_two_causes_are_found_beside_each_other():
 
 def test_in_one_sense_squareness_and_servo_mismatch_are_one_thing():
     found = diagnosed(circle(out_of_square(20 * MICRO), seed=2, senses=(1,)))
-    values = diagnosis_values(found, (), ())
+    values = collect_diagnosis(found, (), ())
     assert found.verdict is Verdict.MISSING
     assert found.found == ()
     first = values["candidates"][0]

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from machines.simulated import MICRO, bare_machine, circle, nothing
-from zlmreport.machines.curve import measured_curve, without_alignment
+from zlmreport.machines.curve import make_measured_curve, remove_alignment
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
-from zlmreport.machines.volume import diagonals, measured_space, volume_map
+from zlmreport.machines.volume import find_measured_space, map_volume, predict_diagonals
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.fitting.estimate import InstrumentError
@@ -40,7 +40,7 @@ def test_the_band_holds_the_circle_that_the_axes_would_make():
     true_x = 5 * MICRO * TARGETS / 0.5 + 1.5 * MICRO * np.sin(TARGETS / 0.09)
     true_y = -3 * MICRO * TARGETS / 0.5
     exact = {
-        name: measured_curve(
+        name: make_measured_curve(
             name, readings(curve, random, 2 * MICRO, 0.0, 1), InstrumentError(), ErrorLine({}), ""
         )
         for name, curve in (("EXX", true_x), ("EYY", true_y))
@@ -53,7 +53,7 @@ def test_the_band_holds_the_circle_that_the_axes_would_make():
     truth = predict(bare_machine(exact.values()), seen.course()).values
     for _ in range(150):
         curves = [
-            measured_curve(name, readings(curve, random, 2 * MICRO), INSTRUMENT, ErrorLine({}), "")
+            make_measured_curve(name, readings(curve, random, 2 * MICRO), INSTRUMENT, ErrorLine({}), "")
             for name, curve in (("EXX", true_x), ("EYY", true_y))
         ]
         found = predict(bare_machine(curves), seen.course())
@@ -67,8 +67,8 @@ def test_a_straightness_error_loses_its_line_and_an_angle_its_mean():
     random = np.random.default_rng(1)
     bent = 4 * MICRO * (TARGETS / 0.5) ** 2
     for name, orders in (("EYX", 1), ("EBX", 0), ("EXX", None)):
-        raw = measured_curve(name, readings(bent, random, scatter=0.0), INSTRUMENT, ErrorLine({}), "")
-        found = without_alignment(raw)
+        raw = make_measured_curve(name, readings(bent, random, scatter=0.0), INSTRUMENT, ErrorLine({}), "")
+        found = remove_alignment(raw)
         if orders is None:
             assert found is raw
             continue
@@ -89,13 +89,13 @@ def test_out_of_square_axes_stretch_one_diagonal_and_shorten_the_other():
     ]
     square = AxisErrorCurve("C0Y", np.zeros(1), np.array([20e-6]), np.eye(1) * 1e-6, ErrorLine({}), "")
     machine = bare_machine([*flat, square])
-    space = measured_space(machine)
+    space = find_measured_space(machine)
     length = np.sqrt(0.5**2 + 0.4**2 + 0.3**2)
-    ends = {each.name: each.deviation[-1] for each in diagonals(machine, space)}
+    ends = {each.name: each.deviation[-1] for each in predict_diagonals(machine, space)}
     # L·δ = ± C0Y·a·b with the signs of machine.md 1.3: − for +++, + for −++ and +−+, − for ++−
     for name, sign in (("PPP", -1), ("NPP", 1), ("PNP", 1), ("NNP", -1)):
         assert ends[name] == pytest.approx(sign * 20e-6 * 0.5 * 0.4 / length, rel=1e-9)
-    found = volume_map(machine, space)
+    found = map_volume(machine, space)
     assert found.length.max() == pytest.approx(20e-6 * 0.2)
     assert found.expanded_uncertainty[found.largest] == pytest.approx(2e-6 * 0.2)
     assert found.bound.max() > 0

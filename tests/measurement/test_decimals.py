@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.measurement.arrays import decimals_of
+from zlmreport.measurement.arrays import count_decimals_of
 
 
 @pytest.mark.parametrize(
@@ -20,4 +20,4 @@ from zlmreport.measurement.arrays import decimals_of
     ],
 )
 def test_the_fewest_decimals_that_hold_all_values_count(values: list[float], decimals: int) -> None:
-    assert decimals_of(np.array(values), most=3) == decimals
+    assert count_decimals_of(np.array(values), most=3) == decimals

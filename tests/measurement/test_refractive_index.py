@@ -10,7 +10,7 @@ from zlmreport.measurement.refractive_index import (
     refractive_index,
     saturation_vapour_pressure,
 )
-from zlmreport.measurement.units import above_reference
+from zlmreport.measurement.units import compute_above_reference
 
 # Stone and Zimmerman, Index of refraction of air, NIST Engineering Metrology Toolbox
 # (emtoolbox.nist.gov/Wavelength/Documentation.asp), table 1: °C, % relative humidity, kPa, nm; the column of
@@ -78,4 +78,4 @@ def test_conditions_may_be_arrays() -> None:
 
 
 def test_reference_temperature_is_twenty_degrees_celsius() -> None:
-    assert above_reference(20.0 + 273.15) == 0.0
+    assert compute_above_reference(20.0 + 273.15) == 0.0

@@ -9,11 +9,11 @@ import pytest
 
 from document.figures.model_samples import WAVE, WHOLE, fitted, linear_test
 from model.hidden_effect import study, written
-from zlmreport.model.diagnosis.study import waves
+from zlmreport.model.diagnosis.study import list_waves
 
 
 def test_the_wave_of_the_screw_has_its_amplitude_and_phase() -> None:
-    first, second = waves(fitted(*WHOLE).fit)
+    first, second = list_waves(fitted(*WHOLE).fit)
     assert (first.effect, first.harmonic.order, second.harmonic.order) == ("screw-pitch", 1, 2)
     u = first.harmonic.amplitude_uncertainty
     assert first.harmonic.amplitude == pytest.approx(WAVE, abs=4 * u)
@@ -22,7 +22,7 @@ def test_the_wave_of_the_screw_has_its_amplitude_and_phase() -> None:
 
 def test_the_uncertainty_is_that_of_the_sine_where_the_phase_is_zero() -> None:
     found = fitted(*WHOLE).fit
-    first = waves(found)[0]
+    first = list_waves(found)[0]
     sine, cosine = (
         next(each for each in found.estimates if each.parameter.name == name) for name in ("sine", "cosine")
     )
@@ -35,23 +35,23 @@ def test_the_uncertainty_is_that_of_the_sine_where_the_phase_is_zero() -> None:
 
 
 def test_a_model_without_waves_has_none() -> None:
-    assert waves(fitted("offset", "scale-error", "backlash").fit) == ()
+    assert list_waves(fitted("offset", "scale-error", "backlash").fit) == ()
 
 
 def test_a_wave_with_a_given_parameter_is_left_out(tmp_path) -> None:
     path = written(tmp_path, ("    - backlash\n", "    - screw-pitch: {sine: 2.0}\n"))
-    assert waves(study(path).fitted().fit) == ()
+    assert list_waves(study(path).fitted().fit) == ()
 
 
 def test_a_wave_beside_a_given_parameter_is_found(tmp_path) -> None:
     path = written(tmp_path, ("    - backlash\n", "    - backlash: {lost_motion: -4.0}\n    - screw-pitch\n"))
-    first = waves(study(path).fitted().fit)[0]
+    first = list_waves(study(path).fitted().fit)[0]
     assert first.harmonic.amplitude == pytest.approx(math.hypot(2.1, 0.9) * 1e-6, rel=0.1)
 
 
 def test_the_wave_is_the_one_that_was_fitted() -> None:
     found = fitted(*WHOLE).fit
-    first, second = (each.harmonic for each in waves(found))
+    first, second = (each.harmonic for each in list_waves(found))
     turn = 2 * np.pi * linear_test().position / 10e-3
     wave = sum(each.amplitude * np.sin(each.order * turn + each.phase) for each in (first, second))
     term = found.model.terms[3].effect

@@ -13,9 +13,9 @@ from testing.exemplary_effect import ExemplaryEffect, ExemplaryOptions
 from zlmreport.errors import Place
 from zlmreport.job.choices import EffectChoice
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, chosen_terms
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_terms
 from zlmreport.model.fitting.fit import fit
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport_plugins.effects.polynomial import Polynomial
 
 DESIGN = linear_test(targets=7, runs=3)
@@ -66,13 +66,13 @@ def test_all_mistakes_are_said_at_once() -> None:
 
 
 def test_more_parameters_than_readings_are_refused() -> None:
-    few = of_readings(DESIGN, np.arange(2))
+    few = select_readings(DESIGN, np.arange(2))
     with pytest.raises(ModelError, match="3 parameters to estimate and the test 2 readings; measure more"):
         fit(model_of("offset", "scale-error", "datum-temperature"), few, READINGS[:2])
 
 
 def test_an_effect_without_influence_is_named() -> None:
-    one_target = of_readings(DESIGN, np.flatnonzero(DESIGN.target == 3))
+    one_target = select_readings(DESIGN, np.flatnonzero(DESIGN.target == 3))
     still = replace(one_target, position=np.zeros(len(one_target.position)))
     with pytest.raises(ModelError, match="scale-error has no influence on any of these readings"):
         fit(model_of("offset", "scale-error"), still, READINGS[: len(still.position)])
@@ -92,7 +92,7 @@ def test_adding_a_higher_order_takes_the_place_of_the_lower() -> None:
 
 def _chosen(kind: AxisKind, settings: ExemplaryOptions | None = None, **values: float) -> Term:
     choice = EffectChoice("exemplary-wave", settings or ExemplaryOptions(), values, Place("job.yaml"))
-    (chosen,) = chosen_terms([choice], lambda _: ExemplaryEffect(), kind)
+    (chosen,) = choose_terms([choice], lambda _: ExemplaryEffect(), kind)
     return chosen
 
 

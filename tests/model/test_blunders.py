@@ -6,42 +6,42 @@ import numpy as np
 
 from model.axis_tests import INSTALLED, SIGMA, linear_test, model_of, noise, observations, pendulum_test
 from zlmreport.model.diagnosis.diagnosis import diagnose
-from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.blunders import find_outliers
 
 DESIGN = linear_test()
 PENDULUM = pendulum_test(21, 3)
 
 
 def test_clean_readings_do_not_stand_off() -> None:
-    flagged = [len(outliers(DESIGN, noise(DESIGN, seed)).readings) for seed in range(20)]
+    flagged = [len(find_outliers(DESIGN, noise(DESIGN, seed)).readings) for seed in range(20)]
     assert sum(flagged) <= 4  # of 4200 normal readings
 
 
 def test_a_reading_far_off_is_flagged_and_no_other() -> None:
     readings = noise(DESIGN)
     readings[57] += 15 * SIGMA
-    found = outliers(DESIGN, readings)
+    found = find_outliers(DESIGN, readings)
     assert found.readings.tolist() == [57]
     assert found.p_value < 1e-10
 
 
 def test_a_first_run_that_stands_off_is_no_outlier() -> None:
     readings = noise(DESIGN) + np.where(DESIGN.run == 1, 12 * SIGMA, 0.0)
-    assert not len(outliers(DESIGN, readings).readings)
+    assert not len(find_outliers(DESIGN, readings).readings)
 
 
 def test_targets_after_each_reversal_that_stand_off_are_no_outliers() -> None:
     readings = noise(DESIGN) + 30 * SIGMA * DESIGN.direction * np.exp(-DESIGN.since_reversal / 0.02)
-    assert not len(outliers(DESIGN, readings).readings)
+    assert not len(find_outliers(DESIGN, readings).readings)
 
 
 def test_readings_without_any_scatter_have_no_outliers() -> None:
-    assert not len(outliers(DESIGN, np.zeros(len(DESIGN.position))).readings)
+    assert not len(find_outliers(DESIGN, np.zeros(len(DESIGN.position))).readings)
 
 
 def test_good_readings_at_the_noisy_end_are_kept() -> None:
     grown = 1.0 + 8.0 * DESIGN.position
-    flagged = [len(outliers(DESIGN, grown * noise(DESIGN, seed)).readings) for seed in range(10)]
+    flagged = [len(find_outliers(DESIGN, grown * noise(DESIGN, seed)).readings) for seed in range(10)]
     assert sum(flagged) <= 3  # of 2100 normal readings
 
 
@@ -49,20 +49,20 @@ def test_a_blunder_at_the_quiet_end_is_found_where_the_other_scatters_more() -> 
     readings = (1.0 + 8.0 * DESIGN.position) * noise(DESIGN)
     quiet = int(np.argmin(DESIGN.position))
     readings[quiet] += 12 * SIGMA
-    assert quiet in outliers(DESIGN, readings).readings.tolist()
+    assert quiet in find_outliers(DESIGN, readings).readings.tolist()
 
 
 def test_two_of_a_block_before_something_happened_are_evidence() -> None:
     readings = noise(PENDULUM)
     block = np.flatnonzero(PENDULUM.target == 10)
     readings[block[:2]] -= 12 * SIGMA
-    assert not len(outliers(PENDULUM, readings).readings)
+    assert not len(find_outliers(PENDULUM, readings).readings)
 
 
 def test_first_readings_of_many_blocks_are_evidence() -> None:
     first = (PENDULUM.run == 1) & (PENDULUM.direction > 0)
     readings = noise(PENDULUM) + 9 * SIGMA * first
-    assert not len(outliers(PENDULUM, readings).readings)
+    assert not len(find_outliers(PENDULUM, readings).readings)
 
 
 def test_what_the_model_explains_is_no_blunder() -> None:

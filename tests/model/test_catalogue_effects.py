@@ -16,7 +16,7 @@ from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.catalogue import effects_in, effects_of_catalogue
+from zlmreport.model.effects.catalogue import read_effects_in, read_effects_of_catalogue
 from zlmreport.model.effects.effect import Dimension
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.testing import full_designs
@@ -165,21 +165,21 @@ effects:
 
 def test_effects_of_a_file_beside_a_module(tmp_path: Path) -> None:
     (tmp_path / "own.yaml").write_text(_CATALOGUE, encoding="utf-8")
-    (effect,) = effects_of_catalogue(str(tmp_path / "module.py"), "own.yaml")
+    (effect,) = read_effects_of_catalogue(str(tmp_path / "module.py"), "own.yaml")
     assert effect.identifier == "drum"
 
 
 def test_file_that_is_not_there_is_told(tmp_path: Path) -> None:
     with pytest.raises(AccessError, match=r"own\.yaml: there is no such catalogue of effects"):
-        effects_in(tmp_path / "own.yaml")
+        read_effects_in(tmp_path / "own.yaml")
 
 
 def test_file_that_changed_is_read_anew(tmp_path: Path) -> None:
     path = tmp_path / "own.yaml"
     path.write_text(_CATALOGUE, encoding="utf-8")
-    assert effects_in(path)[0].identifier == "drum"
+    assert read_effects_in(path)[0].identifier == "drum"
     path.write_text(_CATALOGUE.replace("drum", "horn"), encoding="utf-8")
-    assert effects_in(path)[0].identifier == "horn"
+    assert read_effects_in(path)[0].identifier == "horn"
 
 
 def test_catalogue_is_a_plugin_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -196,4 +196,4 @@ def test_mistake_in_a_plugin_file_is_told_at_its_line(tmp_path: Path) -> None:
     with pytest.raises(
         InputError, match=r"own\.yaml:3:27: effects\.drum\.formula: the parameter a does not stand"
     ):
-        effects_in(path)
+        read_effects_in(path)

@@ -21,14 +21,14 @@ from model.axis_tests import (
 )
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import effects_to_try
-from zlmreport.model.diagnosis.contest import _WORTHS, Amplitudes, Contest, _root_of, averaged
+from zlmreport.model.diagnosis.candidates import list_effects_to_try
+from zlmreport.model.diagnosis.contest import _WORTHS, Amplitudes, Contest, _root_of, average_evidence
 from zlmreport.model.diagnosis.families import PRICE
-from zlmreport.model.diagnosis.forms import unnamed_forms
+from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import TRIALS, NullDistribution, Scores, simulate_null
-from zlmreport.model.fitting.contrasts import single_readings
+from zlmreport.model.fitting.contrasts import describe_single_readings
 from zlmreport.model.fitting.noise import NoiseSource
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 
 DESIGN = linear_test(targets=9, runs=3)
 BASE = np.concatenate([term.effect.columns(DESIGN, np.empty(0)) for term in USUAL.terms], axis=1)
@@ -113,7 +113,7 @@ def test_columns_that_depend_on_each_other_count_once() -> None:
 
 def test_evidence_in_independent_noise_is_that_of_a_prior_worth_one_reading() -> None:
     few = np.flatnonzero((DESIGN.run == 1) & (DESIGN.target % 2 == 0))[:11]  # too few for shared parts
-    design = of_readings(DESIGN, few)
+    design = select_readings(DESIGN, few)
     effect = EFFECTS["backlash-gradient"]
     deviation = noise(design) + 2e-6 * design.direction * design.position
     base = np.concatenate([term.effect.columns(design, np.empty(0)) for term in USUAL.terms], axis=1)
@@ -188,7 +188,7 @@ def test_sets_of_deviations_are_judged_each_by_itself() -> None:
 
 def test_evidence_that_is_averaged_over_one_noise_is_that_of_this_noise() -> None:
     found = CONTEST.trials(AMPLITUDES, [], READINGS[:, np.newaxis])
-    evidence, nameless = averaged([found])
+    evidence, nameless = average_evidence([found])
     assert evidence == pytest.approx(found.evidence, abs=1e-9)
     assert nameless == pytest.approx(found.nameless, abs=1e-9)
 
@@ -203,7 +203,9 @@ def test_a_form_that_an_installed_effect_has_is_no_rival_of_it() -> None:
     base = np.ones((len(design.position), 1))
     kinds = []
     for names in (("scale-kink", "periodic"), ()):
-        contest = Contest.of(design, base, [EFFECTS[name] for name in names], forms=unnamed_forms(design))
+        contest = Contest.of(
+            design, base, [EFFECTS[name] for name in names], forms=list_unnamed_forms(design)
+        )
         kinds.append({each.identifier for each in contest.families if not each.is_named})
     assert kinds[1] - kinds[0] == {"kink", "wave"}
     assert {"bump", "step-up", "saw"} <= kinds[0]
@@ -221,7 +223,7 @@ def test_a_wave_in_time_that_comes_back_with_every_run_is_a_coincidence() -> Non
 def test_single_readings_that_resemble_those_before_them_are_made_independent() -> None:
     memory = 2.0 * float(np.diff(DESIGN.time).mean())
     weights = np.linspace(0.5, 1.5, len(BASE))
-    single = single_readings(DESIGN, weights, memory)
+    single = describe_single_readings(DESIGN, weights, memory)
     apart = np.abs(DESIGN.time[:, np.newaxis] - DESIGN.time)
     covariance = np.sqrt(np.outer(weights, weights)) * np.exp(-apart / memory)
     root = single.whitened(np.eye(len(BASE)))
@@ -283,7 +285,7 @@ class TestNullDistribution:
 
 
 def test_entrants_are_the_forms_that_the_test_can_show() -> None:
-    found = effects_to_try(USUAL, DESIGN, INSTALLED)
+    found = list_effects_to_try(USUAL, DESIGN, INSTALLED)
     orders = [len(form.linear) - 1 for form in found.forms if form.identifier == "polynomial"]
     assert orders == [4, 5]
     reasons = {each.effect: each.reason.in_language(Language.ENGLISH) for each in found.not_testable}
@@ -293,7 +295,7 @@ def test_entrants_are_the_forms_that_the_test_can_show() -> None:
 
 
 def test_what_is_imitated_entirely_comes_with_what_would_show_it() -> None:
-    (found,) = effects_to_try(model_of("scale-error"), DESIGN, [EFFECTS["cosine-error"]]).not_testable
+    (found,) = list_effects_to_try(model_of("scale-error"), DESIGN, [EFFECTS["cosine-error"]]).not_testable
     assert found.reason.in_language(Language.ENGLISH) == (
         "at these targets scale-error imitates it entirely; what would show it: align the beam anew until it "
         "returns to the same spot along the whole travel, and repeat"

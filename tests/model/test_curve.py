@@ -14,10 +14,10 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.axis_model import AxisModel, Term
-from zlmreport.model.effects.design import at_positions
+from zlmreport.model.effects.design import place_at_positions
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.formula import FormulaEffect
-from zlmreport.model.fitting.curve import curve_positions, effect_positions, waves_along
+from zlmreport.model.fitting.curve import find_waves_along, lay_curve_positions, lay_effect_positions
 from zlmreport.model.fitting.fit import Fit, fit
 
 _PITCHES = [0.5, 0.01, 0.005]
@@ -32,14 +32,14 @@ def _fitted(pitch: float) -> Fit:
 @pytest.mark.parametrize("pitch", _PITCHES)
 def test_curve_reaches_as_far_as_the_wave(pitch: float) -> None:
     fitted = _fitted(pitch)
-    drawn = _values(fitted, curve_positions(fitted, Approach.POSITIVE))
+    drawn = _values(fitted, lay_curve_positions(fitted, Approach.POSITIVE))
     assert np.ptp(drawn) == pytest.approx(8e-6, rel=0.03)
 
 
 @pytest.mark.parametrize("pitch", [0.5, 0.01])
 def test_between_what_is_drawn_the_model_does_not_leave_the_line(pitch: float) -> None:
     fitted = _fitted(pitch)
-    positions = curve_positions(fitted, Approach.POSITIVE)
+    positions = lay_curve_positions(fitted, Approach.POSITIVE)
     between = (positions[1:] + positions[:-1]) / 2
     drawn, true = (_values(fitted, each) for each in (positions, between))
     np.testing.assert_allclose((drawn[1:] + drawn[:-1]) / 2, true, atol=0.03 * 4e-6)
@@ -47,14 +47,14 @@ def test_between_what_is_drawn_the_model_does_not_leave_the_line(pitch: float) -
 
 def test_many_periods_are_drawn_at_few_positions() -> None:
     fitted = _fitted(0.0002)
-    assert len(curve_positions(fitted, Approach.POSITIVE)) < 1300
+    assert len(lay_curve_positions(fitted, Approach.POSITIVE)) < 1300
 
 
 def test_step_of_a_joint_is_drawn_upright() -> None:
     design = linear_test(15, 2)
     model = AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["scale-joint"])))
     fitted = fit(model, design, 5e-6 * (design.position > 0.5) + noise(design, sigma=1e-8))
-    positions = curve_positions(fitted, Approach.POSITIVE)
+    positions = lay_curve_positions(fitted, Approach.POSITIVE)
     step = int(np.argmax(np.abs(np.diff(_values(fitted, positions)))))
     assert positions[step + 1] - positions[step] < 1e-6
 
@@ -63,19 +63,19 @@ def test_smooth_curve_has_even_positions() -> None:
     design = linear_test(15, 2)
     fitted = fit(model_of("offset", "scale-error"), design, 1e-5 * design.position + noise(design))
     np.testing.assert_allclose(
-        np.diff(curve_positions(fitted, Approach.POSITIVE)), fitted.design.length / 479
+        np.diff(lay_curve_positions(fitted, Approach.POSITIVE)), fitted.design.length / 479
     )
 
 
 def _values(fitted: Fit, positions: FloatArray) -> FloatArray:
-    return fitted.value_at(at_positions(fitted.design, positions, Approach.POSITIVE))
+    return fitted.value_at(place_at_positions(fitted.design, positions, Approach.POSITIVE))
 
 
 def test_effect_alone_is_drawn_as_finely_as_in_a_model() -> None:
     design = linear_test(15, 2)
     interpolation, theta = EFFECTS["encoder-interpolation"], np.array([20e-6])
-    positions = effect_positions(interpolation, theta, design, Approach.POSITIVE, design.span)
-    drawn = interpolation.columns(at_positions(design, positions, Approach.POSITIVE), theta).sum(axis=1)
+    positions = lay_effect_positions(interpolation, theta, design, Approach.POSITIVE, design.span)
+    drawn = interpolation.columns(place_at_positions(design, positions, Approach.POSITIVE), theta).sum(axis=1)
     turn = np.linspace(0, 2 * np.pi, 1000)
     true = np.sin(turn) + np.cos(turn) + np.sin(2 * turn) + np.cos(2 * turn)
     assert np.ptp(drawn) == pytest.approx(np.ptp(true), rel=0.03)
@@ -121,9 +121,9 @@ def test_between_positions_a_curve_is_what_the_model_gives(drawn: Effect, search
     names = [each.name for each in drawn.searched]
     known = dict(zip(names, searched, strict=True))
     fitted = fit(AxisModel((Term(drawn, known),)), design, deviation)
-    positions = curve_positions(fitted, Approach.POSITIVE)
+    positions = lay_curve_positions(fitted, Approach.POSITIVE)
     asked = np.random.default_rng(5).uniform(*design.span, 20_000)
-    true = fitted.predict(at_positions(design, asked, Approach.POSITIVE)).deviation
+    true = fitted.predict(place_at_positions(design, asked, Approach.POSITIVE)).deviation
     line = np.interp(asked, positions, _values(fitted, positions))
     np.testing.assert_allclose(line, true, atol=0.03 * np.abs(true).max())
 
@@ -131,4 +131,4 @@ def test_between_positions_a_curve_is_what_the_model_gives(drawn: Effect, search
 def test_wave_of_a_formula_is_as_long_as_its_period_says() -> None:
     wave = _formula("a*sin(6*pi*P/L) + b*cos(2*pi*P/L)", a=_UM, b=_UM, L=_MM)
     fitted = fit(AxisModel((Term(wave, {"L": 0.3}),)), _LONG, noise(_LONG))
-    assert waves_along(fitted) == {"own": pytest.approx(0.1)}
+    assert find_waves_along(fitted) == {"own": pytest.approx(0.1)}

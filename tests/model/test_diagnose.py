@@ -31,7 +31,7 @@ from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 
 DESIGN = linear_test()
 #: Air that changes so much that its effects have a plausible size.
@@ -265,7 +265,7 @@ def test_a_pendulum_test_hides_warm_up_and_the_diagnosis_says_so() -> None:
 
 def test_too_few_readings_are_refused_with_what_would_do() -> None:
     few = np.flatnonzero((DESIGN.run == 1) & (DESIGN.target < 5))
-    design = of_readings(DESIGN, few)
+    design = select_readings(DESIGN, few)
     with pytest.raises(ModelError, match="a diagnosis needs at least 6 readings more than parameters"):
         diagnose(USUAL, observations(design, known(DESIGN)[few]), INSTALLED)
 

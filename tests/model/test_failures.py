@@ -21,13 +21,13 @@ from model.axis_tests import (
 )
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.residual_tests import failures, flagged, residual_tests
-from zlmreport.model.diagnosis.residuals import Failure, ResidualTest, residuals_of
+from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
+from zlmreport.model.diagnosis.residuals import Failure, ResidualTest, find_residuals_of
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.fit import Assumptions, fit
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 
 DESIGN = linear_test()
 
@@ -37,7 +37,7 @@ def _tests(
 ) -> dict[ResidualTest, Failure]:
     fitted = fit(model, design, known(design) + noise(design) + added, Assumptions(parts=()))
     found: dict[ResidualTest, Failure] = {}
-    for each in residual_tests(residuals_of(fitted, fitted.noise)):
+    for each in run_residual_tests(find_residuals_of(fitted, fitted.noise)):
         if each.test not in found or each.p_value < found[each.test].p_value:
             found[each.test] = each
     return found
@@ -58,7 +58,7 @@ def _by_chance() -> Mapping[ResidualTest, FloatArray]:
     found: dict[ResidualTest, list[float]] = {}
     for seed in range(TRIALS):
         fitted = fit(USUAL, design, known(design) + noise(design, 1000 + seed), Assumptions(parts=()))
-        for each in residual_tests(residuals_of(fitted, fitted.noise)):
+        for each in run_residual_tests(find_residuals_of(fitted, fitted.noise)):
             found.setdefault(each.test, []).append(each.p_value)
     return {test: np.array(values) for test, values in found.items()}
 
@@ -73,7 +73,7 @@ def test_where_nothing_is_missing_every_test_is_passed(test: ResidualTest) -> No
 
 
 def test_no_passed_test_is_a_failure() -> None:
-    assert failures(tuple(QUIET.values())) == ()
+    assert find_failures(tuple(QUIET.values())) == ()
 
 
 @pytest.mark.parametrize("test", QUIET)
@@ -193,7 +193,7 @@ def test_scatter_that_differs_is_said_with_its_place() -> None:
 
 
 def test_failures_stand_in_the_order_of_their_clearness() -> None:
-    found = failures(tuple(_tests(hidden(DESIGN, "screw-pitch", [0.01], size=3.0)).values()))
+    found = find_failures(tuple(_tests(hidden(DESIGN, "screw-pitch", [0.01], size=3.0)).values()))
     assert [each.p_value for each in found] == sorted(each.p_value for each in found)
     assert found[0].test is ResidualTest.LACK_OF_FIT
 
@@ -201,21 +201,21 @@ def test_failures_stand_in_the_order_of_their_clearness() -> None:
 def test_a_reading_that_was_set_aside_is_named_with_target_direction_and_run() -> None:
     readings = known(DESIGN) + noise(DESIGN)
     readings[30] += 20 * SIGMA
-    found = flagged(DESIGN, outliers(DESIGN, readings))
+    found = report_flagged(DESIGN, find_outliers(DESIGN, readings))
     assert found is not None
     assert _where(found) == f"at {1e3 * DESIGN.position[30]:.1f} mm, ↓, run 1"
     assert not math.isnan(found.p_value)
 
 
 def test_nothing_is_said_where_nothing_was_set_aside() -> None:
-    assert flagged(DESIGN, outliers(DESIGN, noise(DESIGN))) is None
+    assert report_flagged(DESIGN, find_outliers(DESIGN, noise(DESIGN))) is None
 
 
 @pytest.mark.parametrize("design", [linear_test(5, 1), pendulum_test(7, 2)], ids=["one run", "two runs"])
 def test_small_tests_have_the_tests_that_they_allow(design: Design) -> None:
     model = AxisModel(model_of("offset", "scale-error", "backlash").terms)
     fitted = fit(model, design, known(design) + noise(design))
-    found = {each.test for each in residual_tests(residuals_of(fitted, fitted.noise))}
+    found = {each.test for each in run_residual_tests(find_residuals_of(fitted, fitted.noise))}
     has_repeats = len(np.unique(design.run)) > 1
     assert (ResidualTest.TIME_ORDER in found) is has_repeats
     assert (ResidualTest.RUNS in found) is has_repeats
@@ -229,8 +229,8 @@ def test_every_test_says_what_it_is(test: ResidualTest) -> None:
 def test_a_test_without_direction_has_none_to_compare() -> None:
     design = linear_test(9, 3)
     up = np.flatnonzero(design.direction > 0)
-    one_way = of_readings(design, up)
+    one_way = select_readings(design, up)
     fitted = fit(model_of("offset", "scale-error"), one_way, (known(design) + noise(design))[up])
     assert ResidualTest.DIRECTION not in {
-        each.test for each in residual_tests(residuals_of(fitted, fitted.noise))
+        each.test for each in run_residual_tests(find_residuals_of(fitted, fitted.noise))
     }

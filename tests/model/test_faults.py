@@ -13,15 +13,15 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Verdict, diagnose
 from zlmreport.model.diagnosis.faults import (
     FaultKind,
-    gaps,
-    lagging_sensors,
-    recorded_faults,
+    find_gaps,
+    find_lagging_sensors,
+    find_recorded_faults,
     run_faults,
 )
 from zlmreport.model.diagnosis.report import report
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.fit import fit
-from zlmreport.model.fitting.sessions import held_together, with_zeros
+from zlmreport.model.fitting.sessions import add_zeros, hold_together
 
 _DESIGN = linear_test(11, 5)
 _MODEL = model_of("offset", "scale-error", "backlash")
@@ -36,7 +36,7 @@ _TRUE = (
 
 
 def _kinds(design: Design, deviation: FloatArray) -> list[tuple[FaultKind, int | None]]:
-    return [(each.kind, each.run) for each in recorded_faults(design, deviation)]
+    return [(each.kind, each.run) for each in find_recorded_faults(design, deviation)]
 
 
 def _slip(design: Design, deviation: FloatArray) -> list[tuple[FaultKind, int | None]]:
@@ -83,7 +83,7 @@ def test_run_in_another_unit_is_told_by_its_size() -> None:
 
 
 def test_test_that_hardly_deviates_is_asked_for_its_unit() -> None:
-    (fault,) = recorded_faults(_DESIGN, 1e-3 * _TRUE)
+    (fault,) = find_recorded_faults(_DESIGN, 1e-3 * _TRUE)
     assert (fault.kind, fault.run) == (FaultKind.WRONG_UNIT, None)
     assert not fault.is_sure
 
@@ -176,22 +176,22 @@ def test_a_lagging_sensor_is_known_by_the_clock_of_each_session() -> None:
         design = replace(base, conditions={"axis_temperature": 293.15 + 3.0 * sign * course})
         deviation = 11e-6 * design.position * true + noise(design, seed=seed, sigma=1e-7)
         sessions.append(observations(design, deviation))
-    both = held_together(sessions[0], [("second", sessions[1])])
-    fitted = fit(with_zeros(model_of("offset", "scale-error"), both.design), both.design, both.deviation)
-    (found,) = lagging_sensors(fitted, [fitted], INSTALLED)
+    both = hold_together(sessions[0], [("second", sessions[1])])
+    fitted = fit(add_zeros(model_of("offset", "scale-error"), both.design), both.design, both.deviation)
+    (found,) = find_lagging_sensors(fitted, [fitted], INSTALLED)
     assert found.kind is FaultKind.LAGGING_SENSOR
 
 
 def test_a_night_between_two_runs_parts_two_sessions() -> None:
     time = _DESIGN.time + 22 * 3600.0 * (_DESIGN.run > 3)
-    (said,) = gaps(replace(_DESIGN, time=time))
+    (said,) = find_gaps(replace(_DESIGN, time=time))
     assert said.in_language(Language.ENGLISH).startswith("Between run 3 and run 4 lie 22 h")
-    assert not list(gaps(_DESIGN))
+    assert not list(find_gaps(_DESIGN))
 
 
 def test_repeats_that_no_machine_has_are_asked_for_their_unit() -> None:
     quiet = 1e-6 * _DESIGN.position + noise(_DESIGN, sigma=1e-9)
-    (fault,) = recorded_faults(_DESIGN, quiet)
+    (fault,) = find_recorded_faults(_DESIGN, quiet)
     assert (fault.kind, fault.run) == (FaultKind.WRONG_UNIT, None)
     assert "millimetres" in fault.statement.in_language(Language.ENGLISH)
 

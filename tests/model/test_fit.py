@@ -23,8 +23,8 @@ from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.estimate import InstrumentError, Plausibility
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
-from zlmreport.model.fitting.noise import noise_parts
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.noise import list_noise_parts
+from zlmreport.model.fitting.observations import select_readings
 
 DESIGN = linear_test(targets=11)
 READINGS = known(DESIGN) + realistic_noise(DESIGN)
@@ -43,7 +43,7 @@ def _value(fitted: Fit, name: str) -> float:
 
 def test_generalized_least_squares_is_that_of_the_textbook() -> None:
     fitted = fit(USUAL, DESIGN, READINGS, Assumptions(weights=EVEN))
-    columns, parts = _columns(fitted, DESIGN), noise_parts(DESIGN)
+    columns, parts = _columns(fitted, DESIGN), list_noise_parts(DESIGN)
     shared = sum(fitted.noise.ratios[part.source] * part.factor @ part.factor.T for part in parts)
     inverse = np.linalg.inv(np.eye(len(READINGS)) + shared)
     covariance = np.linalg.inv(columns.T @ inverse @ columns)
@@ -259,7 +259,7 @@ def test_where_scatter_grows_the_quiet_end_is_known_as_well_as_its_own_scatter_a
     sigma = 1e-6 * (0.3 + 1.7 * way)
     columns = np.column_stack([np.ones_like(way), design.position])
     known_better = np.linalg.inv(columns.T @ (columns / sigma[:, np.newaxis] ** 2))
-    first = of_readings(design, np.flatnonzero(way == 0)[:1])
+    first = select_readings(design, np.flatnonzero(way == 0)[:1])
     (row,) = np.column_stack([np.ones(1), first.position])
     least = 2 * np.sqrt(row @ known_better @ row)
     ratios, held = [], 0

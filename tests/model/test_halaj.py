@@ -12,7 +12,7 @@ from model.axis_tests import EFFECTS, known, linear_test, model_of, noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 
 DESIGN = linear_test(targets=10, runs=10)
 READINGS = known(DESIGN) + noise(DESIGN)
@@ -26,7 +26,7 @@ def one_way(request: pytest.FixtureRequest) -> tuple[Fit, FloatArray]:
     """Return a cubic through the readings of one direction, and the readings."""
     chosen = np.flatnonzero(request.param == DESIGN.direction)
     assumed = Assumptions(InstrumentError(U_INSTRUMENT), parts=(), weights=np.ones(len(chosen)))
-    found = fit(model_of(EFFECTS["polynomial"]), of_readings(DESIGN, chosen), READINGS[chosen], assumed)
+    found = fit(model_of(EFFECTS["polynomial"]), select_readings(DESIGN, chosen), READINGS[chosen], assumed)
     return found, READINGS[chosen]
 
 

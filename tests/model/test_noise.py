@@ -9,11 +9,11 @@ from model.axis_tests import SIGMA, USUAL, linear_test, noise, realistic_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.contrasts import contrasts_of, restricted_estimate, whitener
-from zlmreport.model.fitting.noise import Noise, NoiseSource, noise_parts, ratio_grid
+from zlmreport.model.fitting.contrasts import estimate_restricted, make_contrasts_of, make_whitener
+from zlmreport.model.fitting.noise import Noise, NoiseSource, list_noise_parts, make_ratio_grid
 
 DESIGN = linear_test(targets=9, runs=4)
-PARTS = noise_parts(DESIGN)
+PARTS = list_noise_parts(DESIGN)
 RATIOS = np.array([0.3, 0.1, 0.2, 0.4])
 WEIGHTS = np.linspace(0.7, 1.3, len(DESIGN.position))
 
@@ -49,26 +49,26 @@ def test_direction_has_no_part_in_a_unidirectional_test() -> None:
         time_is_counted=False,
         since_reversal=DESIGN.since_reversal[one_way],
     )
-    assert NoiseSource.DIRECTION not in [part.source for part in noise_parts(design)]
+    assert NoiseSource.DIRECTION not in [part.source for part in list_noise_parts(design)]
 
 
 def test_a_single_run_says_nothing_of_what_targets_share_in_each_direction() -> None:
     design = linear_test(targets=9, runs=1)
-    sources = [part.source for part in noise_parts(design)]
+    sources = [part.source for part in list_noise_parts(design)]
     assert NoiseSource.DIRECTION not in sources
     assert NoiseSource.RUN not in sources
 
 
 def test_whitened_readings_are_independent() -> None:
     by_source = {part.source: float(ratio) for part, ratio in zip(PARTS, RATIOS, strict=True)}
-    whiten = whitener(PARTS, Noise(1.0, by_source, WEIGHTS))
+    whiten = make_whitener(PARTS, Noise(1.0, by_source, WEIGHTS))
     root = whiten(np.eye(len(WEIGHTS)))
     assert root @ _covariance() @ root.T == pytest.approx(np.eye(len(WEIGHTS)), abs=1e-10)
 
 
 def test_restricted_likelihood_is_that_of_the_textbook() -> None:
     base, values = _base(DESIGN), realistic_noise(DESIGN)
-    space = contrasts_of(base, PARTS, WEIGHTS)
+    space = make_contrasts_of(base, PARTS, WEIGHTS)
     differences = []
     for ratios in (RATIOS, 2 * RATIOS):
         covariance = _covariance(ratios)
@@ -86,10 +86,10 @@ def test_restricted_likelihood_is_that_of_the_textbook() -> None:
 
 def test_estimate_of_the_noise_is_nowhere_surpassed_on_the_grid() -> None:
     values = realistic_noise(DESIGN)
-    space = contrasts_of(_base(DESIGN), PARTS, WEIGHTS)
-    grid = ratio_grid(PARTS)
+    space = make_contrasts_of(_base(DESIGN), PARTS, WEIGHTS)
+    grid = make_ratio_grid(PARTS)
     contrast = space.of(values)
-    ratios, _ = restricted_estimate(space, contrast, grid, grid.max(axis=0))
+    ratios, _ = estimate_restricted(space, contrast, grid, grid.max(axis=0))
     criterion = space.restricted(contrast)
     best = min(criterion(each)[0] for each in grid)
     assert criterion(ratios)[0] <= best
@@ -97,13 +97,13 @@ def test_estimate_of_the_noise_is_nowhere_surpassed_on_the_grid() -> None:
 
 def test_noise_of_known_parts_is_found_on_average() -> None:
     design = linear_test()
-    parts = noise_parts(design)
-    space = contrasts_of(_base(design), parts, np.ones(len(design.position)))
+    parts = list_noise_parts(design)
+    space = make_contrasts_of(_base(design), parts, np.ones(len(design.position)))
     largest = np.full(len(parts), 1e3)
     found = []
     for seed in range(12):
         values = space.of(realistic_noise(design, seed))
-        ratios, variance = restricted_estimate(space, values, ratio_grid(parts), largest)
+        ratios, variance = estimate_restricted(space, values, make_ratio_grid(parts), largest)
         found.append([np.sqrt(variance), np.sqrt(variance * ratios[0])])
     sigma, geometry = np.mean(found, axis=0)
     # 12 tests of 200 degrees of freedom know σ to 1.5 %, those of 16 targets the geometry to 15 %.
@@ -112,7 +112,7 @@ def test_noise_of_known_parts_is_found_on_average() -> None:
 
 
 def test_independent_noise_needs_no_shared_part() -> None:
-    space = contrasts_of(_base(DESIGN), PARTS, np.ones(len(DESIGN.position)))
-    grid = ratio_grid(PARTS)
-    ratios, _ = restricted_estimate(space, space.of(noise(DESIGN)), grid, grid.max(axis=0))
+    space = make_contrasts_of(_base(DESIGN), PARTS, np.ones(len(DESIGN.position)))
+    grid = make_ratio_grid(PARTS)
+    ratios, _ = estimate_restricted(space, space.of(noise(DESIGN)), grid, grid.max(axis=0))
     assert ratios.max() < 0.2

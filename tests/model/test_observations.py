@@ -11,14 +11,14 @@ from model.axis_tests import linear_test, observations
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.effects.axis_model import ModelError
-from zlmreport.model.fitting.observations import MOST_TARGETS, observations_of, thinned
+from zlmreport.model.fitting.observations import MOST_TARGETS, make_observations_of, thin
 from zlmreport.testing.measurements import poor_tests, simulated_test
 
 TEST = simulated_test()
 
 
 def _said(measurements: MeasurementSet) -> str:
-    return " ".join(each.in_language(Language.ENGLISH) for each in observations_of(measurements).remarks)
+    return " ".join(each.in_language(Language.ENGLISH) for each in make_observations_of(measurements).remarks)
 
 
 def _logged(log: object, measurements: MeasurementSet = TEST) -> MeasurementSet:
@@ -27,14 +27,14 @@ def _logged(log: object, measurements: MeasurementSet = TEST) -> MeasurementSet:
 
 def test_missing_readings_are_dropped_and_the_order_is_kept() -> None:
     measurements = poor_tests()["a missing reading"]
-    found = observations_of(measurements)
+    found = make_observations_of(measurements)
     assert len(found.deviation) == len(measurements.deviation) - 1
     assert np.array_equal(found.deviation, measurements.deviation[found.reading])
     assert np.all(np.diff(found.reading) > 0)
 
 
 def test_without_times_the_row_is_the_clock_and_this_is_said() -> None:
-    found = observations_of(poor_tests()["a missing reading"])
+    found = make_observations_of(poor_tests()["a missing reading"])
     assert found.design.time_is_counted
     assert np.array_equal(found.design.time, found.reading)
     assert "counted in readings" in _said(TEST)
@@ -42,13 +42,13 @@ def test_without_times_the_row_is_the_clock_and_this_is_said() -> None:
 
 def test_times_count_from_the_first_reading_that_is_there() -> None:
     timed = replace(TEST, time=100.0 + 2.0 * np.arange(len(TEST.deviation)))
-    found = observations_of(timed)
+    found = make_observations_of(timed)
     assert not found.design.time_is_counted
     assert found.design.time[:3].tolist() == [0.0, 2.0, 4.0]
 
 
 def test_distance_since_the_reversal_grows_along_each_pass_of_the_linear_method() -> None:
-    found = observations_of(TEST, overrun=0.003)
+    found = make_observations_of(TEST, overrun=0.003)
     first_pass = found.design.since_reversal[:9]
     assert first_pass == pytest.approx(0.003 + TEST.target_positions - TEST.target_positions[0], rel=1e-12)
     assert found.design.since_reversal[9] == 0.003
@@ -56,16 +56,18 @@ def test_distance_since_the_reversal_grows_along_each_pass_of_the_linear_method(
 
 def test_an_assumed_overrun_is_said_and_a_known_one_is_not() -> None:
     assert "5 mm" in _said(TEST)
-    assert not [each for each in observations_of(TEST, overrun=0.003).remarks if "overrun" in each.values]
+    assert not [
+        each for each in make_observations_of(TEST, overrun=0.003).remarks if "overrun" in each.values
+    ]
 
 
 def test_gap_of_a_log_is_interpolated_in_time_and_said_where() -> None:
     log = np.linspace(293.0, 295.0, len(TEST.deviation))
     gapped = log.copy()
     gapped[7] = np.nan
-    found = observations_of(_logged(gapped)).design.conditions["axis_temperature"]
+    found = make_observations_of(_logged(gapped)).design.conditions["axis_temperature"]
     assert found == pytest.approx(
-        observations_of(_logged(log)).design.conditions["axis_temperature"], abs=1e-3
+        make_observations_of(_logged(log)).design.conditions["axis_temperature"], abs=1e-3
     )
     assert "axis_temperature has gaps (readings without it: 1)" in _said(_logged(gapped))
     assert "in the order of the file: 8." in _said(_logged(gapped))
@@ -74,13 +76,13 @@ def test_gap_of_a_log_is_interpolated_in_time_and_said_where() -> None:
 def test_log_of_many_gaps_is_left_out_and_this_is_said() -> None:
     log = np.linspace(293.0, 295.0, len(TEST.deviation))
     log[::4] = np.nan
-    assert "axis_temperature" not in observations_of(_logged(log)).design.conditions
+    assert "axis_temperature" not in make_observations_of(_logged(log)).design.conditions
     assert "and is left out" in _said(_logged(log))
 
 
 def test_thousands_of_targets_are_thinned_at_uneven_places_and_this_is_said() -> None:
     even = linear_test(700, 1)
-    found = thinned(observations(even, np.zeros(len(even.position))))
+    found = thin(observations(even, np.zeros(len(even.position))))
     assert len(found.design.target_positions) == MOST_TARGETS
     assert len(np.unique(np.diff(np.unique(found.design.target)))) > 1
     assert "210 of the 700 target positions" in found.remarks[-1].in_language(Language.ENGLISH)
@@ -89,7 +91,7 @@ def test_thousands_of_targets_are_thinned_at_uneven_places_and_this_is_said() ->
 def test_noise_of_a_log_is_smoothed_away() -> None:
     course = 293.0 + 2.0 * -np.expm1(-np.arange(len(TEST.deviation)) / 30.0)
     random = np.random.default_rng(1)
-    found = observations_of(_logged(course + 0.05 * random.standard_normal(len(course))))
+    found = make_observations_of(_logged(course + 0.05 * random.standard_normal(len(course))))
     left = found.design.conditions["axis_temperature"] - course
     assert np.sqrt(np.mean(left**2)) < 0.025
 
@@ -116,17 +118,17 @@ def test_a_quiet_fine_log_is_not_doubted() -> None:
 
 def test_conditions_of_other_names_are_taken_as_they_are() -> None:
     faces = np.where(TEST.approach > 0, 1.0, -1.0)
-    found = observations_of(replace(TEST, conditions={"face": faces}))
+    found = make_observations_of(replace(TEST, conditions={"face": faces}))
     assert np.array_equal(found.design.conditions["face"], faces)
 
 
 def test_without_any_reading_there_is_nothing_to_fit() -> None:
     with pytest.raises(ModelError, match="no reading has a deviation"):
-        observations_of(poor_tests()["no reading at all"])
+        make_observations_of(poor_tests()["no reading at all"])
 
 
 def test_readings_that_are_set_aside_leave_the_span_as_it_is() -> None:
-    found = observations_of(TEST)
+    found = make_observations_of(TEST)
     first_target = np.flatnonzero(found.design.target == 0)
     left = found.without(first_target)
     assert left.design.span == found.design.span

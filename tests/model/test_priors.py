@@ -12,10 +12,10 @@ from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.contrasts import contrasts_of
+from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit, fit
-from zlmreport.model.fitting.noise import NoiseSource, noise_parts, ratio_grid
-from zlmreport.model.fitting.priors import Lesson, PriorExpectation, as_text, learned
+from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts, make_ratio_grid
+from zlmreport.model.fitting.priors import Lesson, PriorExpectation, learn_priors, write_as_text
 
 _MODEL = model_of("offset", "scale-error", "backlash")
 _DESIGN = linear_test(targets=11, runs=3, seed=4)
@@ -30,7 +30,7 @@ def _scattered(design: Design, seed: int, fixed: float) -> FloatArray:
 
 
 def _learned(fits: list[Fit]) -> PriorsKeys:
-    return learned([Lesson.of(each) for each in fits])
+    return learn_priors([Lesson.of(each) for each in fits])
 
 
 def _fits(fixed: float, tests: int) -> list[Fit]:
@@ -66,9 +66,9 @@ def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> N
     expected = PriorExpectation.of(_learned(fits), AXIS)
     counts = np.full(len(ratios), 1.0 / len(ratios))  # of the test that knows nothing
     for each in fits:
-        parts = noise_parts(each.design)
-        space = contrasts_of(each.base(), parts, each.noise.weights)
-        criterion, grid = space.restricted(space.of(each.open_deviation)), ratio_grid(parts)
+        parts = list_noise_parts(each.design)
+        space = make_contrasts_of(each.base(), parts, each.noise.weights)
+        criterion, grid = space.restricted(space.of(each.open_deviation)), make_ratio_grid(parts)
         criteria = np.array([criterion(row)[0] for row in grid])
         sources = [part.source for part in parts]
         posterior = np.exp(-0.5 * (criteria - criteria.min())) * expected.probabilities(sources, grid)
@@ -80,7 +80,7 @@ def test_what_was_learned_are_the_probabilities_from_which_the_tests_come() -> N
 def test_what_a_ledger_keeps_of_a_test_teaches_the_same() -> None:
     lessons = [Lesson.of(each) for each in _fits(0.3, 3)]
     kept = [Lesson.from_json(json.loads(json.dumps(each.as_json()))) for each in lessons]
-    assert as_text(learned(kept), "ledger") == as_text(learned(lessons), "ledger")
+    assert write_as_text(learn_priors(kept), "ledger") == write_as_text(learn_priors(lessons), "ledger")
 
 
 def test_axes_with_geometry_of_their_own_teach_it_and_others_teach_that_there_is_none() -> None:
@@ -112,8 +112,8 @@ def test_an_effect_of_the_expected_size_has_more_evidence_than_one_of_another() 
 
 
 def test_ratios_of_a_file_that_are_not_tried_count_for_the_nearest() -> None:
-    parts = [part for part in noise_parts(_DESIGN) if part.source is NoiseSource.POSITION]
+    parts = [part for part in list_noise_parts(_DESIGN) if part.source is NoiseSource.POSITION]
     expected = PriorExpectation({NoiseSource.POSITION: np.array([[0.01, 0.2, 0.5], [1.0, 2.0, 1.0]])})
-    found = expected.probabilities([part.source for part in parts], ratio_grid(parts))
+    found = expected.probabilities([part.source for part in parts], make_ratio_grid(parts))
     np.testing.assert_allclose(found, [0.25, 0.0, 0.0, 0.75], atol=2e-3)
     assert np.all(found > 0)

@@ -14,7 +14,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict, diagnose
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.model.fitting.repeats import resolution
+from zlmreport.model.fitting.repeats import find_resolution
 
 _READINGS = Path(__file__).parents[1] / "data" / "controls" / "linuxcnc.csv"
 _NODES = 32
@@ -79,7 +79,7 @@ def test_pitch_error_of_a_real_control_is_named_at_every_noise(sigma: float) -> 
     [([0.4, 1.2, -0.6], 0.2), ([5.0, 10.0], 5.0), ([np.pi, np.e], 0.0), ([0.0, 0.0], 0.0)],
 )
 def test_resolution_is_the_step_of_which_readings_are_multiples(readings: list[float], step: float) -> None:
-    assert resolution(np.array(readings)) == step
+    assert find_resolution(np.array(readings)) == step
 
 
 def _of_control(axis: Axis) -> Observations:

@@ -23,14 +23,14 @@ from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.diagnosis.forms import unnamed_forms
-from zlmreport.model.diagnosis.remainder import Remainder, remainder_of
+from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.fit import Assumptions, fit
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport_plugins.effects.polynomial import Polynomial
 
 BASE = model_of("offset", "scale-error", "backlash")
@@ -48,8 +48,8 @@ def _remainder(
     """Return what is left where nothing is installed."""
     deviation = true + noise(design, seed, sigma)
     fitted = fit(model, design, deviation, Assumptions(parts=()))
-    search = SetSearch(Contest.of(design, fitted.base(), (), deviation, forms=unnamed_forms(design)))
-    return remainder_of(search, search.found(), fitted)
+    search = SetSearch(Contest.of(design, fitted.base(), (), deviation, forms=list_unnamed_forms(design)))
+    return find_remainder_of(search, search.found(), fitted)
 
 
 def _formula(left: Remainder) -> FormulaKeys:
@@ -152,7 +152,7 @@ def test_a_rotary_axis_has_its_units() -> None:
 
 
 def test_one_direction_has_no_form_of_the_reversal() -> None:
-    up = of_readings(DESIGN, np.flatnonzero(DESIGN.direction > 0))
+    up = select_readings(DESIGN, np.flatnonzero(DESIGN.direction > 0))
     bump = 6 * UM * np.exp(-4 * np.log(2) * ((up.position - 0.42) / 0.15) ** 2)
     left = _remainder(bump, up, model=model_of("offset"))
     assert left is not None

@@ -10,11 +10,11 @@ from model.worlds import lasting_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.fitting.repeats import (
     SpreadFactor,
-    apart_in_time,
-    lasting_floor,
-    noise_floor,
+    compute_weights,
+    estimate_lasting_floor,
+    estimate_noise_floor,
+    is_apart_in_time,
     spread_tests,
-    weights,
 )
 
 DESIGN = linear_test()
@@ -22,46 +22,46 @@ PENDULUM = pendulum_test()
 
 
 def test_repeats_lie_apart_in_time_by_the_linear_method_only() -> None:
-    assert apart_in_time(DESIGN)
-    assert not apart_in_time(PENDULUM)
+    assert is_apart_in_time(DESIGN)
+    assert not is_apart_in_time(PENDULUM)
 
 
 @pytest.mark.parametrize("design", [DESIGN, PENDULUM], ids=["linear", "pendulum"])
 def test_noise_floor_is_the_noise(design: object) -> None:
-    floors = [noise_floor(design, noise(design, seed)) for seed in range(30)]  # type: ignore[arg-type]
+    floors = [estimate_noise_floor(design, noise(design, seed)) for seed in range(30)]  # type: ignore[arg-type]
     # 30 tests of 168 degrees of freedom know σ to 1 %; comparing neighbours costs some of it.
     assert np.sqrt(np.mean(np.square(floors))) == pytest.approx(SIGMA, rel=0.04)
 
 
 def test_slow_drift_is_not_in_the_noise_floor() -> None:
     drift = 20e-6 * DESIGN.time / DESIGN.duration
-    found = noise_floor(DESIGN, noise(DESIGN) + drift)
-    assert found == pytest.approx(noise_floor(DESIGN, noise(DESIGN)), rel=0.05)
+    found = estimate_noise_floor(DESIGN, noise(DESIGN) + drift)
+    assert found == pytest.approx(estimate_noise_floor(DESIGN, noise(DESIGN)), rel=0.05)
 
 
 def test_noise_that_lasts_over_a_few_readings_is_in_the_lasting_floor_alone() -> None:
     readings = lasting_noise(DESIGN, 0.6)
     scatter = float(np.std(readings))
-    assert noise_floor(DESIGN, readings) < 0.75 * scatter  # type: ignore[operator]
-    assert lasting_floor(DESIGN, readings) == pytest.approx(scatter, rel=0.15)
+    assert estimate_noise_floor(DESIGN, readings) < 0.75 * scatter  # type: ignore[operator]
+    assert estimate_lasting_floor(DESIGN, readings) == pytest.approx(scatter, rel=0.15)
 
 
 def test_slow_drift_is_not_in_the_lasting_floor() -> None:
     drift = 3e-6 * np.sin(2 * np.pi * DESIGN.time / DESIGN.duration)
-    found = lasting_floor(DESIGN, noise(DESIGN) + drift)
-    assert found == pytest.approx(noise_floor(DESIGN, noise(DESIGN)), rel=0.15)
+    found = estimate_lasting_floor(DESIGN, noise(DESIGN) + drift)
+    assert found == pytest.approx(estimate_noise_floor(DESIGN, noise(DESIGN)), rel=0.15)
 
 
 def test_geometry_is_not_in_the_noise_floor() -> None:
     shape = 50e-6 * np.sin(9 * DESIGN.position) + 5e-6 * DESIGN.direction
-    assert noise_floor(DESIGN, noise(DESIGN) + shape) == pytest.approx(
-        noise_floor(DESIGN, noise(DESIGN)), rel=1e-6
+    assert estimate_noise_floor(DESIGN, noise(DESIGN) + shape) == pytest.approx(
+        estimate_noise_floor(DESIGN, noise(DESIGN)), rel=1e-6
     )
 
 
 def test_a_single_run_has_no_noise_floor() -> None:
     design = linear_test(runs=1)
-    assert noise_floor(design, noise(design)) is None
+    assert estimate_noise_floor(design, noise(design)) is None
 
 
 WIDE = (DESIGN.target >= 8) & (DESIGN.target < 14)
@@ -72,18 +72,18 @@ def _uneven(factor: float) -> FloatArray:
 
 
 def test_equal_scatter_has_equal_weights() -> None:
-    assert np.array_equal(weights(DESIGN, noise(DESIGN)), np.ones(len(DESIGN.position)))
+    assert np.array_equal(compute_weights(DESIGN, noise(DESIGN)), np.ones(len(DESIGN.position)))
 
 
 def test_targets_that_scatter_more_have_larger_variances() -> None:
-    found = weights(DESIGN, _uneven(4.0))
+    found = compute_weights(DESIGN, _uneven(4.0))
     wide, narrow = found[WIDE].mean(), found[~WIDE].mean()
     assert 6 < wide / narrow < 20  # 16 in truth, drawn to the pooled variance
     assert found.mean() == pytest.approx(1.0, rel=1e-12)
 
 
 def test_a_direction_that_scatters_more_has_larger_variances() -> None:
-    found = weights(DESIGN, noise(DESIGN) * np.where(DESIGN.direction > 0, 3.0, 1.0))
+    found = compute_weights(DESIGN, noise(DESIGN) * np.where(DESIGN.direction > 0, 3.0, 1.0))
     assert found[DESIGN.direction > 0].mean() > 5 * found[DESIGN.direction < 0].mean()
 
 
@@ -94,7 +94,7 @@ def test_scatter_that_grows_along_the_axis_is_known_at_both_ends(ends: tuple[flo
     for seed in range(30):
         design = linear_test(targets=11, seed=seed)
         way = (design.position - design.position.min()) / np.ptp(design.position)
-        found = weights(design, noise(design, seed) * first * (last / first) ** way)
+        found = compute_weights(design, noise(design, seed) * first * (last / first) ** way)
         ratios.append(found[design.target == 10].mean() / found[design.target == 0].mean())
     # In truth 44 times the variance, or its 44th part; the median of 30 estimates of ln σ² knows it to 15 %.
     assert np.median(ratios) == pytest.approx((last / first) ** 2, rel=0.45)
@@ -109,7 +109,9 @@ def test_even_scatter_grows_in_one_test_of_a_hundred() -> None:
 
 def test_readings_without_any_scatter_are_not_weighted() -> None:
     smooth = 10e-6 * np.cos(3 * DESIGN.position)
-    assert np.array_equal(weights(DESIGN, smooth + 1e-21 * noise(DESIGN)), np.ones(len(DESIGN.position)))
+    assert np.array_equal(
+        compute_weights(DESIGN, smooth + 1e-21 * noise(DESIGN)), np.ones(len(DESIGN.position))
+    )
 
 
 def test_a_fan_that_opens_with_time_is_no_scatter() -> None:

@@ -7,10 +7,10 @@ import pytest
 
 from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, model_of, noise, pendulum_test
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import effects_to_try
+from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest
-from zlmreport.model.diagnosis.forms import unnamed_forms
-from zlmreport.model.diagnosis.sets import UNUSUAL, EffectSet, SetSearch, size_costs
+from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.sets import UNUSUAL, EffectSet, SetSearch, weigh_size
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 
@@ -21,9 +21,9 @@ EMPTY = model_of("offset")
 def _contest(
     deviation: FloatArray, design: Design = DESIGN, effects: tuple[Effect, ...] = INSTALLED
 ) -> Contest:
-    tried = effects_to_try(EMPTY, design, effects).forms
+    tried = list_effects_to_try(EMPTY, design, effects).forms
     base = np.ones((len(design.position), 1))
-    return Contest.of(design, base, tried, deviation, forms=unnamed_forms(design))
+    return Contest.of(design, base, tried, deviation, forms=list_unnamed_forms(design))
 
 
 def _found(deviation: FloatArray, design: Design = DESIGN) -> EffectSet:
@@ -135,7 +135,7 @@ def test_a_screw_that_hardly_grows_is_unusual_like_one_that_grows_too_much() -> 
     screw = EFFECTS["screw-expansion"]
     (growth,) = screw.linear  # steel grows by 8 to 13 µm/(m·K); beyond 25 it is no metal of a screw
     little, usual, much, far = (
-        size_costs(screw, DESIGN, growth, each, 0.0) for each in (1e-6, 10e-6, 20e-6, 100e-6)
+        weigh_size(screw, DESIGN, growth, each, 0.0) for each in (1e-6, 10e-6, 20e-6, 100e-6)
     )
     assert usual == 0
     assert little == pytest.approx(2 * np.log(8))
@@ -145,7 +145,7 @@ def test_a_screw_that_hardly_grows_is_unusual_like_one_that_grows_too_much() -> 
 
 def test_what_is_within_its_uncertainty_of_the_usual_costs_nothing() -> None:
     (growth,) = EFFECTS["screw-expansion"].linear
-    assert size_costs(EFFECTS["screw-expansion"], DESIGN, growth, 1e-6, 4e-6) == 0
+    assert weigh_size(EFFECTS["screw-expansion"], DESIGN, growth, 1e-6, 4e-6) == 0
 
 
 def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:

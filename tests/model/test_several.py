@@ -13,7 +13,7 @@ import zlmreport as z
 from model.axis_tests import EFFECTS, INSTALLED, linear_test, model_of, noise
 from zlmreport.cli import main
 from zlmreport.errors import InputError
-from zlmreport.model.diagnosis.candidates import effects_to_try
+from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.fitting.fit import fit
 from zlmreport.plugin.registry import find_plugins
 
@@ -37,7 +37,7 @@ def test_two_joints_are_found_side_by_side() -> None:
 
 
 def test_the_next_joint_is_tried_beside_the_first() -> None:
-    forms = effects_to_try(model_of("offset", "scale-joint"), _DESIGN, INSTALLED).forms
+    forms = list_effects_to_try(model_of("offset", "scale-joint"), _DESIGN, INSTALLED).forms
     tried = {form.identifier for form in forms}
     assert {"scale-joint-2", "scale-kink"} <= tried
     assert "scale-joint" not in tried

@@ -11,7 +11,7 @@ from model.axis_tests import AXIS, EFFECTS, linear_test
 from zlmreport.language import Language, Words
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter
-from zlmreport.model.effects.sizes import asked_of, name_of, times_usual, usual_range
+from zlmreport.model.effects.sizes import ask_of, compute_times_usual, find_usual_range, name_of
 
 _DESIGN = linear_test(11, 3)
 
@@ -57,27 +57,29 @@ def _said(words: Words | None, language: Language = Language.ENGLISH) -> str | N
 def test_what_is_far_beyond_the_usual_is_asked(
     identifier: str, name: str, value: float, sentence: str | None
 ) -> None:
-    assert _said(asked_of(_parameter(identifier, name), value, AXIS)) == sentence
+    assert _said(ask_of(_parameter(identifier, name), value, AXIS)) == sentence
 
 
 def test_it_is_asked_in_german_too() -> None:
-    said = _said(asked_of(_parameter("backlash", "lost_motion"), 800e-6, AXIS), Language.GERMAN)
+    said = _said(ask_of(_parameter("backlash", "lost_motion"), 800e-6, AXIS), Language.GERMAN)
     assert said is not None
     assert said.startswith("800 µm: das 20-fache des bei einer Spindel Üblichen; ein Riemen,")
 
 
 def test_usual_is_the_range_where_nothing_else_is_said() -> None:
     size = Parameter("a", "a", Dimension.DEVIATION, Words(en="a", de="a"), -5e-6, 10e-6)
-    assert usual_range(size) == (-5e-6, 10e-6)
-    assert [times_usual(size, each) for each in (20e-6, -10e-6, 0.0)] == [2.0, 2.0, 1.0]
-    assert times_usual(replace(size, smallest=0.0), -1e-6) == np.inf
-    assert usual_range(replace(size, smallest=None, largest=None)) == (-np.inf, np.inf)
+    assert find_usual_range(size) == (-5e-6, 10e-6)
+    assert [compute_times_usual(size, each) for each in (20e-6, -10e-6, 0.0)] == [2.0, 2.0, 1.0]
+    assert compute_times_usual(replace(size, smallest=0.0), -1e-6) == np.inf
+    assert find_usual_range(replace(size, smallest=None, largest=None)) == (-np.inf, np.inf)
 
 
 def test_usual_is_another_on_a_rotary_axis() -> None:
     lost_motion = _parameter("backlash", "lost_motion")
-    assert usual_range(lost_motion, AxisKind.LINEAR) == pytest.approx((-40e-6, 40e-6))
-    assert usual_range(lost_motion, AxisKind.ROTARY) == pytest.approx(tuple(np.radians([-20, 20]) / 3600))
+    assert find_usual_range(lost_motion, AxisKind.LINEAR) == pytest.approx((-40e-6, 40e-6))
+    assert find_usual_range(lost_motion, AxisKind.ROTARY) == pytest.approx(
+        tuple(np.radians([-20, 20]) / 3600)
+    )
 
 
 @pytest.mark.parametrize(

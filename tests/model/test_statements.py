@@ -14,7 +14,7 @@ from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.remainder import Remainder
-from zlmreport.model.diagnosis.report import listed, verdict_statement
+from zlmreport.model.diagnosis.report import list_in_words, write_verdict_statement
 
 LEFT = Remainder(
     rms=1.234e-6,
@@ -31,7 +31,7 @@ LEFT = Remainder(
 
 
 def said(**changes: object) -> str:
-    return verdict_statement(replace(example_diagnosis(), **changes)).in_language(Language.ENGLISH)
+    return write_verdict_statement(replace(example_diagnosis(), **changes)).in_language(Language.ENGLISH)
 
 
 def test_the_missing_effect_is_named() -> None:
@@ -94,7 +94,7 @@ def test_what_has_no_shape_either_is_still_said_to_be_there() -> None:
 
 @pytest.mark.parametrize("verdict", Verdict)
 def test_every_verdict_has_a_german_sentence(verdict: Verdict) -> None:
-    statement = verdict_statement(replace(example_diagnosis(), verdict=verdict))
+    statement = write_verdict_statement(replace(example_diagnosis(), verdict=verdict))
     assert statement.in_language(Language.GERMAN) != statement.in_language(Language.ENGLISH)
 
 
@@ -102,4 +102,4 @@ def test_every_verdict_has_a_german_sentence(verdict: Verdict) -> None:
     ("names", "row"), [(["a"], "a"), (["a", "b"], "a and b"), (["a", "b", "c"], "a, b and c")]
 )
 def test_names_stand_in_a_row(names: list[str | Words], row: str) -> None:
-    assert listed(names).in_language(Language.ENGLISH) == row
+    assert list_in_words(names).in_language(Language.ENGLISH) == row

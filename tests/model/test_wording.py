@@ -9,7 +9,7 @@ import pytest
 
 from model.axis_tests import AXIS, linear_test
 from zlmreport.language import Language
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.effects import wording
 
@@ -32,7 +32,7 @@ ROTARY = Axis("C", kind=AxisKind.ROTARY)
     ],
 )
 def test_a_number_has_three_significant_digits(value: float, text: str) -> None:
-    assert significant_words(value).in_language(Language.ENGLISH) == text
+    assert write_significant(value).in_language(Language.ENGLISH) == text
 
 
 def test_a_period_that_rounding_errors_make_slightly_smaller_has_no_digit_more() -> None:

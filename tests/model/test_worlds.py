@@ -17,13 +17,13 @@ from model.worlds import (
 )
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
-from zlmreport.model.diagnosis.report import verdict_statement
+from zlmreport.model.diagnosis.report import write_verdict_statement
 
 _DESIGN = linear_test(15, 4)
 
 
 def _said(diagnosis: Diagnosis) -> str:
-    return verdict_statement(diagnosis).in_language(Language.ENGLISH)
+    return write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
 
 
 def test_axis_with_a_bent_scale_and_lost_motion_is_known_from_nothing() -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from zlmreport.errors import Place
-from zlmreport_step_gauge.deviations import Deviations, deviations_of
+from zlmreport_step_gauge.deviations import Deviations, compute_deviations_of
 from zlmreport_step_gauge.gauge import Side, StepGauge
-from zlmreport_step_gauge.probed import Probed, ProbedPoint, gridded
+from zlmreport_step_gauge.probed import Probed, ProbedPoint, arrange_on_grid
 from zlmreport_step_gauge.set_up import GaugeSetUp
 
 FILE = Place("probed.csv")
@@ -38,8 +38,8 @@ def touched(
 
 
 def probed(points: list[ProbedPoint], gauge: StepGauge, *sides: Side) -> Probed:
-    return gridded(points, gauge, sides or tuple(Side), place=FILE)
+    return arrange_on_grid(points, gauge, sides or tuple(Side), place=FILE)
 
 
 def deviations(points: list[ProbedPoint], set_up: GaugeSetUp, *sides: Side) -> Deviations:
-    return deviations_of(probed(points, set_up.gauge, *sides), set_up, FILE, is_corrected=False)
+    return compute_deviations_of(probed(points, set_up.gauge, *sides), set_up, FILE, is_corrected=False)

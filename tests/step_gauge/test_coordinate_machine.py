@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport_step_gauge.machines.emulated import Boxes, CoordinateMachine, errors_along
+from zlmreport_step_gauge.machines.emulated import Boxes, CoordinateMachine, make_errors_along
 
 RADIUS = 2e-3
 CUBE = Boxes(
@@ -52,7 +52,7 @@ def test_a_collision_leaves_the_tip_where_it_touched() -> None:
 
 def test_errors_of_the_machine_are_shown_along_their_line() -> None:
     x = np.array([1.0, 0.0, 0.0])
-    errors = errors_along(x, np.zeros(3), np.array([0.0, 0.2]), np.array([0.0, 20e-6]))
+    errors = make_errors_along(x, np.zeros(3), np.array([0.0, 0.2]), np.array([0.0, 20e-6]))
     touched = at(CoordinateMachine(CUBE, errors), 0.05, 0.2, 0.3).probe(np.array([0.1, 0.2, 0.3]))
     assert touched is not None
     true = 0.1 - 5e-3 - RADIUS
@@ -61,7 +61,7 @@ def test_errors_of_the_machine_are_shown_along_their_line() -> None:
 
 
 def test_errors_stay_beyond_the_ends_of_their_line() -> None:
-    errors = errors_along(
+    errors = make_errors_along(
         np.array([0.0, 1.0, 0.0]), np.zeros(3), np.array([0.0, 0.1]), np.array([1e-6, 3e-6])
     )
     points = np.array([[5.0, -1.0, 0.0], [0.0, 0.05, 7.0], [0.0, 9.0, 0.0]])

@@ -11,7 +11,7 @@ from step_gauge.gauges import gauge, set_up
 from step_gauge.probing import FILE, RADIUS, deviations, probed, touched
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError
-from zlmreport_step_gauge.deviations import RadiusSource, deviations_of, radius_uncertainty
+from zlmreport_step_gauge.deviations import RadiusSource, compute_deviations_of, compute_radius_uncertainty
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import locate
@@ -63,12 +63,14 @@ def test_the_determined_radius_takes_the_error_within_a_block_with_it() -> None:
 
 def test_the_uncertainty_of_the_radius_is_that_of_the_mean_of_the_blocks() -> None:
     # s = 1 µm of 1, 2, 3 µm, over √3
-    assert radius_uncertainty(np.array([1e-6, 2e-6, 3e-6]), GAUGE.faces[:6]) == pytest.approx(1e-6 / 3**0.5)
+    assert compute_radius_uncertainty(np.array([1e-6, 2e-6, 3e-6]), GAUGE.faces[:6]) == pytest.approx(
+        1e-6 / 3**0.5
+    )
 
 
 def test_blocks_that_happen_to_agree_leave_the_uncertainty_of_their_calibration() -> None:
     # six faces of u = 0.1 µm: √6·0.1/(2·3)
-    assert radius_uncertainty(np.full(3, 1e-6), GAUGE.faces[:6]) == pytest.approx(0.1e-6 * 6**0.5 / 6)
+    assert compute_radius_uncertainty(np.full(3, 1e-6), GAUGE.faces[:6]) == pytest.approx(0.1e-6 * 6**0.5 / 6)
 
 
 def test_points_beside_the_line_are_projected_on_it() -> None:
@@ -122,7 +124,7 @@ def test_distances_need_no_radius() -> None:
         for face in [GAUGE.face(each.face)]
         if face
     ]
-    found = deviations_of(probed(distances, GAUGE), set_up(GAUGE), FILE, is_corrected=True)
+    found = compute_deviations_of(probed(distances, GAUGE), set_up(GAUGE), FILE, is_corrected=True)
     assert np.abs(found.values).max() < 1e-3 * NANOMETRE
     assert found.direction is None
 

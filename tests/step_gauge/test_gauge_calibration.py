@@ -6,9 +6,9 @@ import pytest
 
 from step_gauge.gauges import DEPARTURES, gauge
 from zlmreport.language import Language
-from zlmreport_step_gauge.extension import gauge_calibration
+from zlmreport_step_gauge.extension import draw_gauge_calibration
 
-FIGURE = gauge_calibration(gauge())
+FIGURE = draw_gauge_calibration(gauge())
 
 
 def test_front_and_back_faces_are_curves_of_their_own_in_the_units_of_the_page() -> None:

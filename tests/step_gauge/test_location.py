@@ -13,7 +13,7 @@ from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, simulate
 from zlmreport.errors import InputError, Place
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport_step_gauge.initial_points import InitialPoints
-from zlmreport_step_gauge.location import Located, direction_of, locate
+from zlmreport_step_gauge.location import Located, compute_direction_of, locate
 
 GAUGE = gauge()
 PLACE = Place("points.csv")
@@ -81,9 +81,9 @@ def test_an_order_that_geometry_tells_is_accepted(order: list[int]) -> None:
 
 def test_the_uncertainty_of_the_direction_is_what_directions_scatter_by() -> None:
     uncertainty = 2e-6
-    true = direction_of(points(), RADIUS)
+    true = compute_direction_of(points(), RADIUS)
     many = np.array([points(uncertainty=uncertainty, seed=seed) for seed in range(400)])
-    scatter = math.sqrt(np.mean(np.sum((direction_of(many, RADIUS) - true) ** 2, axis=-1)) / 2)
+    scatter = math.sqrt(np.mean(np.sum((compute_direction_of(many, RADIUS) - true) ** 2, axis=-1)) / 2)
     stated = located(points(), uncertainty).location.direction_uncertainty
     assert stated == pytest.approx(scatter, rel=0.12)  # 3/√(2·2·400) and what the 400 leave
 

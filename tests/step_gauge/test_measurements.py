@@ -14,7 +14,7 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_step_gauge.gauge import Side
-from zlmreport_step_gauge.measurements import Sign, Targets, measurement_set
+from zlmreport_step_gauge.measurements import Sign, Targets, make_measurement_set
 from zlmreport_step_gauge.probed import ProbedPoint
 from zlmreport_step_gauge.set_up import GaugeSetUp, StatedRadius
 
@@ -37,7 +37,7 @@ def measured(
 ) -> MeasurementSet:
     taken = points or touched(GAUGE, lost)
     stated = of or set_up(GAUGE, effective_radius=STATED)
-    return measurement_set(
+    return make_measurement_set(
         probed(taken, GAUGE),
         deviations(taken, stated),
         stated,

@@ -11,7 +11,7 @@ import pytest
 from step_gauge.paths import ORIENTATIONS, planned
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.paths.path import PathKind, Probing, ProbingPath, Travel
-from zlmreport_step_gauge.paths.plan import remaining
+from zlmreport_step_gauge.paths.plan import find_remaining
 
 KINDS = list(PathKind)
 MICROMETRE = 1e-6
@@ -136,7 +136,7 @@ def test_the_first_cycle_holds_the_beginning_and_the_end_of_the_path() -> None:
 def test_what_is_left_of_a_path_begins_and_ends_as_a_path_does(kind: PathKind) -> None:
     whole = planned(blocks=3, cycles=2, kind=kind, safe_position=(0.0, 0.0, 0.4))
     done = {(each.face, each.cycle) for each in whole.path.probings} - {(4, 1), (3, 2)}
-    path = remaining(whole, done)
+    path = find_remaining(whole, done)
     assert [(each.face, each.cycle) for each in path.probings] == [(4, 1), (3, 2)]
     assert path.moves[0] == path.moves[-1] == Travel((0.0, 0.0, 0.4))
     assert {move.face for move in path.moves} == {0, 3, 4}
@@ -144,7 +144,7 @@ def test_what_is_left_of_a_path_begins_and_ends_as_a_path_does(kind: PathKind) -
 
 def test_of_a_path_that_is_done_nothing_is_left() -> None:
     whole = planned(blocks=2)
-    assert remaining(whole, {(each.face, 1) for each in whole.path.probings}).moves == ()
+    assert find_remaining(whole, {(each.face, 1) for each in whole.path.probings}).moves == ()
 
 
 def test_a_point_away_from_a_face_lies_in_front_of_it() -> None:

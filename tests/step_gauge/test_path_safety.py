@@ -10,7 +10,7 @@ import pytest
 from step_gauge.paths import PLACE, planned, step_gauge
 from zlmreport.errors import InputError
 from zlmreport_step_gauge.paths.path import PathKind
-from zlmreport_step_gauge.paths.room import least_gap, obstacles
+from zlmreport_step_gauge.paths.room import find_least_gap, make_obstacles
 
 
 def refused(**changes: object) -> str:
@@ -39,7 +39,7 @@ def test_a_tip_that_does_not_fit_runs_into_the_block_behind_it() -> None:
 
 def test_a_measuring_move_may_touch_its_own_block() -> None:
     # So what is left least is the approach; over the top are 3 mm, and 3.5 mm to the block behind.
-    assert least_gap(planned().path, planned().room)[0] == pytest.approx(2.5e-3)
+    assert find_least_gap(planned().path, planned().room)[0] == pytest.approx(2.5e-3)
 
 
 def test_blocks_outside_the_section_stand_in_the_way_too() -> None:
@@ -77,14 +77,16 @@ def test_a_message_names_five_moves_and_counts_the_rest() -> None:
 @pytest.mark.parametrize("orientation", ["x", "y", "z", "against y", "diagonal"])
 def test_turning_the_gauge_changes_no_distance(kind: PathKind, orientation: str) -> None:
     usual, turned = planned(kind=kind), planned(kind=kind, orientation=orientation)
-    assert least_gap(turned.path, turned.room)[0] == pytest.approx(least_gap(usual.path, usual.room)[0])
+    assert find_least_gap(turned.path, turned.room)[0] == pytest.approx(
+        find_least_gap(usual.path, usual.room)[0]
+    )
 
 
 class TestDistances:
     """Of a straight move from a box, held against many points of the move."""
 
     def test_by_hand(self) -> None:
-        boxes = obstacles(step_gauge(1), 1, 0.01, 0.01)
+        boxes = make_obstacles(step_gauge(1), 1, 0.01, 0.01)
         starts = np.array([[-0.02, 0.0, 0.0], [-0.02, 0.008, 0.02], [-0.02, 0.0, 0.02]])
         ends = np.array([[-0.01, 0.0, 0.0], [0.02, 0.008, 0.02], [0.02, 0.0, -0.02]])
         # before the front face; along an edge, 3 mm aside and 15 mm above it; through the block
@@ -93,7 +95,7 @@ class TestDistances:
 
     def test_by_points_of_the_move(self) -> None:
         random = np.random.default_rng(4)
-        boxes = obstacles(step_gauge(3), 2, 0.01, 0.01)
+        boxes = make_obstacles(step_gauge(3), 2, 0.01, 0.01)
         starts, ends = random.uniform(-0.05, 0.05, (2, 40, 3))
         shares = np.linspace(0.0, 1.0, 2001)[:, None, None]
         points = (starts + shares * (ends - starts))[:, :, None, :]

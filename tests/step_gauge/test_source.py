@@ -17,7 +17,7 @@ from zlmreport.measurement.measurand import ANGLE, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_step_gauge.calibration import read_calibration, section
+from zlmreport_step_gauge.calibration import cut_section, read_calibration
 from zlmreport_step_gauge.gauge import StepGauge
 from zlmreport_step_gauge.initial_points import InitialPoints
 from zlmreport_step_gauge.location import Located, locate
@@ -128,7 +128,7 @@ def test_a_sequence_that_is_no_whole_number_of_cycles_is_refused(tmp_path: Path)
 
 
 def test_a_table_of_characteristics_gives_distances_of_the_surface() -> None:
-    of = whole(gauge=section(CALIBRATED.gauge, 1, 2, HERE))
+    of = whole(gauge=cut_section(CALIBRATED.gauge, 1, 2, HERE))
     # actual minus calibrated, mean of the two parts: 10.00036 − 9.99962 and so on
     by_hand = [0.0, 0.74e-6, -0.28e-6, 1.30e-6]
     assert means(read(CALYPSO, of)) == pytest.approx(by_hand, abs=1e-9)
@@ -140,7 +140,7 @@ def test_characteristics_of_other_names_are_mapped_by_the_job(tmp_path: Path) ->
     for number, name in enumerate("ABCD", 1):
         text = text.replace(f"\tF0{number}\tY1", f"\tStep {name}\tY1")
     renamed.write_text(text, encoding="utf-8")
-    of = whole(gauge=section(CALIBRATED.gauge, 1, 2, HERE))
+    of = whole(gauge=cut_section(CALIBRATED.gauge, 1, 2, HERE))
     mapping = {f"Step {name}": number for number, name in enumerate("ABCD", 1)}
     assert means(read(renamed, of, faces=mapping)) == pytest.approx(means(read(CALYPSO, of)))
     assert "'Step A' names no face of the gauge; state measurement.source.faces" in refused(renamed, of)

@@ -16,13 +16,13 @@ from step_gauge.test_measurements import measured
 from zlmreport.evaluation.uncertainty.budget import Acts
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport_step_gauge.set_up import Expansion, GaugeSetUp, StatedRadius
-from zlmreport_step_gauge.uncertainty import gauge_contributions, parted
+from zlmreport_step_gauge.uncertainty import list_gauge_contributions, part_uncertainty
 
 GAUGE = gauge()
 
 
 def sizes(of: GaugeSetUp) -> dict[Acts, float]:
-    found = gauge_contributions(of, measured())
+    found = list_gauge_contributions(of, measured())
     return {
         acts: math.sqrt(sum(each.standard_uncertainty**2 for each in found if each.acts is acts))
         for acts in Acts
@@ -67,14 +67,14 @@ def test_the_expansion_coefficient_counts_with_the_temperature_that_is_compensat
 def test_the_two_parts_of_the_faces_are_nowhere_less_than_the_certificate(stated: list[float]) -> None:
     uncertainty: FloatArray = np.array(stated)
     distance = np.linspace(0, 1, len(stated))
-    at_each, along = parted(distance, uncertainty)
+    at_each, along = part_uncertainty(distance, uncertainty)
     assert np.all(at_each**2 + (along * distance) ** 2 >= uncertainty**2 * (1 - 1e-9))
 
 
 def test_the_two_parts_are_exact_at_the_end_where_the_uncertainty_grows() -> None:
     distance = np.linspace(0, 1, 11)
     uncertainty = 0.2 + 0.5 * 0.42 * distance
-    at_each, along = parted(distance, uncertainty)
+    at_each, along = part_uncertainty(distance, uncertainty)
     assert math.hypot(at_each, along) == pytest.approx(uncertainty[-1])
 
 

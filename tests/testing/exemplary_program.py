@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 from zlmreport.language import Words
-from zlmreport.model.planning.programs import Motion, ProgramOptions, heading
+from zlmreport.model.planning.programs import Motion, ProgramOptions, write_heading
 
 
 class ExemplaryProgram:
@@ -16,7 +16,7 @@ class ExemplaryProgram:
     options: Any = ProgramOptions
 
     def write(self, motion: Motion, options: Any) -> str:
-        lines = [*(f"SAY {text}" for text in heading(motion)), f"FEED {motion.feed:g}"]
+        lines = [*(f"SAY {text}" for text in write_heading(motion)), f"FEED {motion.feed:g}"]
         for stop in motion.in_decimals(options.decimals).stops:
             lines.append(f"GO {stop.position:.{options.decimals}f}")
             if stop.reading:

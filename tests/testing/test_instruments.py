@@ -16,7 +16,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.live.emulation.emulator import Emulator, Scene, Trouble
-from zlmreport.live.ports.dialogue import streamed
+from zlmreport.live.ports.dialogue import stream
 from zlmreport.live.ports.port import Framing, LiveConnection, Port, PortOptions
 from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.testing import InstrumentTraits, instruments
@@ -63,7 +63,7 @@ class _Gauge:
         patience: Any = SimpleNamespace(hear=lambda *_: None, check=lambda *_: None)
 
         def readings() -> Iterator[LiveReading]:
-            return streamed(port, decoder, patience, 0.05)
+            return stream(port, decoder, patience, 0.05)
 
         return LiveConnection(port, readings)
 

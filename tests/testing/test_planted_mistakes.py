@@ -12,7 +12,7 @@ import pytest
 
 from environments import imported_from
 from testing.planted import PLANTED, Changes, Planted
-from zlmreport.cli.new import skeleton_of
+from zlmreport.cli.new import make_skeleton_of
 
 #: Where the kit of a kind has its checks.
 _KITS = {
@@ -29,7 +29,7 @@ _KITS = {
 
 @cache
 def _skeleton(kind: str) -> dict[str, str]:
-    return {path: content.decode() for path, content in skeleton_of(kind, "my-plugin").items()}
+    return {path: content.decode() for path, content in make_skeleton_of(kind, "my-plugin").items()}
 
 
 def _changed(text: str, changes: Changes) -> str:

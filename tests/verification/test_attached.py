@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from zlmreport.verification.attached import compare, stated_by
+from zlmreport.verification.attached import compare, find_stated_by
 from zlmreport.verification.carrier import Carried
 from zlmreport.verification.findings import VerificationVerdict
 
@@ -22,7 +22,7 @@ def carrier(content: bytes, name: str = "CAL-1.json", relationship: str = "Data"
 def test_a_number_that_no_certificate_can_state_is_no_result(number: str) -> None:
     """No comparison decides on it, and no JSON of ours could say so."""
     with pytest.raises(ValueError, match=r"^CAL-1.json: no JSON: \S+ is no finite number$"):
-        stated_by(carrier(b'{"schema": "zlmreport/results/1", "limit": %s}' % number.encode()))
+        find_stated_by(carrier(b'{"schema": "zlmreport/results/1", "limit": %s}' % number.encode()))
 
 
 def carried(content: bytes) -> dict[str, Carried]:

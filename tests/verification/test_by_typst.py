@@ -13,7 +13,7 @@ from verification.issued import (
     with_source,
 )
 from verification.test_verify import differing
-from zlmreport.plugin.protocols import made
+from zlmreport.plugin.protocols import is_made_by
 from zlmreport.plugin.registry import DISABLE, find_plugins
 from zlmreport.verification import verify as verifying
 from zlmreport.verification.findings import Verification, VerificationVerdict
@@ -42,9 +42,9 @@ def test_another_reading_is_found(by_typst: bytes, verified: Verify) -> None:
 
 def test_the_other_renderers_documents_are_not_taken_for_its_own() -> None:
     typst = registry().renderer("pdf-typst")
-    assert made(typst, "Typst 0.15.0")
-    assert not made(typst, "zlmreport 0.1.0")
-    assert not made(registry().renderer("pdf"), "Typst 0.15.0")
+    assert is_made_by(typst, "Typst 0.15.0")
+    assert not is_made_by(typst, "zlmreport 0.1.0")
+    assert not is_made_by(registry().renderer("pdf"), "Typst 0.15.0")
 
 
 def test_where_its_renderer_is_missing_nothing_of_its_drawing_is_said_to_hold(

@@ -11,7 +11,7 @@ import pytest
 from document.certificate.documents import certificate
 from plugins.renderers.test_dcc import KEYS
 from zlmreport.errors import AccessError
-from zlmreport.verification.attached import digital_findings
+from zlmreport.verification.attached import check_digital_certificates
 from zlmreport.verification.findings import VerificationVerdict
 from zlmreport_plugins.renderers.dcc import DccRenderer
 
@@ -42,7 +42,7 @@ def carried(folder: Path, **altered: str) -> dict[str, Any]:
 
 
 def test_a_sound_one_holds_by_the_rules_and_by_the_schema(tmp_path, schema):
-    found = list(digital_findings(carried(tmp_path), schema))
+    found = list(check_digital_certificates(carried(tmp_path), schema))
 
     assert [(each.subject, each.verdict) for each in found] == [("CAL-1.xml", VerificationVerdict.HOLDS)] * 2
 
@@ -51,7 +51,7 @@ def test_one_that_breaks_a_rule_of_ptb_does_not_hold(tmp_path, schema):
     """Its measurement ends before it begins."""
     end = "<dcc:endPerformanceDate>2022-04-07"
     broken = carried(tmp_path, **{end: "<dcc:endPerformanceDate>1999-04-07"})
-    rules, _ = digital_findings(broken, schema)
+    rules, _ = check_digital_certificates(broken, schema)
 
     assert rules.verdict is VerificationVerdict.DIFFERS
     assert "not valid by PTB's rules" in rules.detail
@@ -61,14 +61,14 @@ def test_one_that_the_rules_cannot_be_held_against_does_not_hold(tmp_path, schem
     """They calculate with a date that is none."""
     end = "<dcc:endPerformanceDate>2022-04-07"
     broken = carried(tmp_path, **{end: "<dcc:endPerformanceDate>2022-04-1e308"})
-    rules, _ = digital_findings(broken, schema)
+    rules, _ = check_digital_certificates(broken, schema)
 
     assert rules.verdict is VerificationVerdict.DIFFERS
     assert "not valid by PTB's rules: Invalid date" in rules.detail
 
 
 def test_one_that_breaks_the_schema_does_not_hold_and_the_line_is_named(tmp_path):
-    _, by_schema = digital_findings(carried(tmp_path), written(tmp_path, "9.9.9"))
+    _, by_schema = check_digital_certificates(carried(tmp_path), written(tmp_path, "9.9.9"))
 
     assert by_schema.verdict is VerificationVerdict.DIFFERS
     assert "line 2" in by_schema.detail
@@ -85,18 +85,18 @@ def test_one_that_breaks_the_schema_does_not_hold_and_the_line_is_named(tmp_path
 def test_what_is_no_certificate_at_all_does_not_hold(old, new, said, tmp_path, schema):
     """No library gets it: one would end with an error of its own, or read what an entity names."""
     broken = carried(tmp_path, **{old: new})
-    (found,) = digital_findings(broken, schema)
+    (found,) = check_digital_certificates(broken, schema)
 
     assert found.verdict is VerificationVerdict.DIFFERS
     assert found.detail.startswith(said)
 
 
 def test_a_certificate_without_one_leaves_the_question_open(schema):
-    (found,) = digital_findings({"CAL-1.json": SimpleNamespace(content=b"{}")}, schema)
+    (found,) = check_digital_certificates({"CAL-1.json": SimpleNamespace(content=b"{}")}, schema)
 
     assert found.verdict is VerificationVerdict.OPEN
 
 
 def test_a_folder_without_the_schema_is_named(tmp_path):
     with pytest.raises(AccessError, match=r"holds no dcc\.xsd"):
-        list(digital_findings({}, tmp_path))
+        list(check_digital_certificates({}, tmp_path))

@@ -6,7 +6,7 @@ import pytest
 from pypdf import PdfWriter
 from pypdf.generic import DecodedStreamObject, DictionaryObject, NameObject
 
-from zlmreport.verification.marks import DrawnMark, ForeignError, marks
+from zlmreport.verification.marks import DrawnMark, ForeignError, list_marks
 
 IMAGE = DictionaryObject({NameObject("/Subtype"): NameObject("/Image")})
 
@@ -23,7 +23,7 @@ def drawn(content: str) -> list[DrawnMark]:
         "/ExtGState": DictionaryObject({NameObject("/G"): DictionaryObject()}),
     }
     page[NameObject("/Resources")] = DictionaryObject({NameObject(k): v for k, v in resources.items()})
-    return marks(page, lambda each: "image" if each == IMAGE else "other", {})
+    return list_marks(page, lambda each: "image" if each == IMAGE else "other", {})
 
 
 def test_a_line_is_its_points_its_width_and_its_colour() -> None:

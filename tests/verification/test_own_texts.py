@@ -12,7 +12,7 @@ import pytest
 from verification.issued import JOB, LABORATORY, issue, lay_out
 from zlmreport.job.keys import JobKeys
 from zlmreport.verification.findings import QuotedText, Verification, VerificationOutcome, VerificationVerdict
-from zlmreport.verification.own_texts import own_texts
+from zlmreport.verification.own_texts import quote_own_texts
 
 
 def _with(**keys: str) -> str:
@@ -115,7 +115,7 @@ def _texts_of(title: str, *symbols: str) -> list[QuotedText]:
         measurements={},
         tests={},
     )
-    texts = own_texts(cast("Any", certificate), cast("Any", job))
+    texts = quote_own_texts(cast("Any", certificate), cast("Any", job))
     return [each for each in texts if each.key == "certificate.title"]
 
 

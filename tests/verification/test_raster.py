@@ -11,7 +11,7 @@ import pytest
 from pypdf import PdfReader
 
 from verification.issued import with_page_content
-from zlmreport.cli.terminal import said
+from zlmreport.cli.terminal import say
 from zlmreport.verification import raster
 from zlmreport.verification.findings import Verification, VerificationOutcome, VerificationVerdict
 
@@ -104,7 +104,7 @@ def test_what_another_library_shifted_holds_within_the_tolerance(
         shifted = with_page_content(shifted, number, lambda content: shift + content)
     found = verified(shifted)
     assert found.outcome is outcome
-    assert "other libraries printed it" in said(found.remarks[0])
+    assert "other libraries printed it" in say(found.remarks[0])
 
 
 @pytest.mark.parametrize(

@@ -13,14 +13,20 @@ from verification.raw_forgeries import boxed, other_readings, together
 from verification.test_trust import signed
 from zlmreport.errors import Place
 from zlmreport.verification import readers
-from zlmreport.verification.carrier import opened
-from zlmreport.verification.readers import READERS, Reader, attachments_of, differences, seen_by
+from zlmreport.verification.carrier import open_pdf
+from zlmreport.verification.readers import (
+    READERS,
+    Reader,
+    digest_attachments_of,
+    find_differences,
+    read_as_seen_by,
+)
 
 
 def told(pdf: bytes) -> list[str]:
     """Return what any reader sees otherwise than pypdf takes out."""
-    carrier = opened(pdf, Place("certificate.pdf"))
-    return list(differences(pdf, attachments_of(carrier), len(carrier.reader.pages)))
+    carrier = open_pdf(pdf, Place("certificate.pdf"))
+    return list(find_differences(pdf, digest_attachments_of(carrier), len(carrier.reader.pages)))
 
 
 @pytest.mark.parametrize("printed", ["issued", "by_typst"])
@@ -57,11 +63,11 @@ def test_other_readings_behind_the_table_are_seen(issued: bytes) -> None:
 
 
 def test_a_reader_that_cannot_open_a_file_sees_nothing() -> None:
-    assert all(seen_by(each, b"%PDF-1.7\nnothing") is None for each in READERS if each.is_here)
+    assert all(read_as_seen_by(each, b"%PDF-1.7\nnothing") is None for each in READERS if each.is_here)
 
 
 def test_what_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     missing = Reader("Other", lambda _: pytest.fail("is not asked"), "zlmreport-no-such-program")
     monkeypatch.setattr(readers, "READERS", (missing,))
-    assert readers.absent() == ("Other",)
-    assert list(differences(b"", (), 0)) == []
+    assert readers.name_absent() == ("Other",)
+    assert list(find_differences(b"", (), 0)) == []

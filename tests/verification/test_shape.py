@@ -7,14 +7,14 @@ from types import SimpleNamespace
 import pytest
 from pypdf.generic import DictionaryObject, NameObject, NumberObject
 
-from zlmreport.verification.shape import strangers
+from zlmreport.verification.shape import find_strangers
 
 
 def told(key: str, *, is_signed: bool) -> list[str]:
     """Return what is said of a catalog with an entry that is none of a signature."""
     value = DictionaryObject({NameObject("/Other"): NumberObject(1)})
     reader = SimpleNamespace(trailer={"/Root": DictionaryObject({NameObject(key): value})})
-    return list(strangers(reader, is_signed=is_signed))
+    return list(find_strangers(reader, is_signed=is_signed))
 
 
 @pytest.mark.parametrize("key", ["/AcroForm", "/DSS", "/Perms", "/Extensions", "/Version"])

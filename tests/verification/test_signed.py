@@ -17,8 +17,8 @@ from document.signing.keys import NAME, PASSWORD, pkcs12_file
 from verification.issued import LABORATORY, altered, lay_out, registry, with_digit
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.report import signer_of
-from zlmreport.cli.terminal import said
+from zlmreport.cli.report import open_signer_of
+from zlmreport.cli.terminal import say
 from zlmreport.document.signing.signer import open_signer
 from zlmreport.errors import Place
 from zlmreport.job.loading import load
@@ -41,7 +41,7 @@ def sign(tmp_path_factory: pytest.TempPathFactory) -> Sign:
 
 def test_an_unsigned_certificate_holds_and_the_finding_says_so(issued: bytes, verified: Verify) -> None:
     signature = verified(issued).signature
-    assert (signature.verdict, said(signature.detail)) == (
+    assert (signature.verdict, say(signature.detail)) == (
         VerificationVerdict.OPEN,
         "not signed: nothing tells who made the file",
     )
@@ -51,7 +51,7 @@ def test_a_signed_certificate_holds_and_names_the_signer(issued: bytes, sign: Si
     found = verified(sign(issued))
     assert found.holds
     assert found.signature.verdict is VerificationVerdict.HOLDS
-    assert f"intact, by Common Name: {NAME}" in said(found.signature.detail)
+    assert f"intact, by Common Name: {NAME}" in say(found.signature.detail)
     assert {each.verdict for each in (*found.pages, *found.document)} == {VerificationVerdict.HOLDS}
 
 
@@ -68,15 +68,15 @@ def test_a_certificate_with_a_time_stamp_holds_without_a_network(
         key = pkcs12_file(tmp_path / "key.p12", certificate=own.issued())
         monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
         monkeypatch.setenv(SIGN_PASSWORD, PASSWORD)
-        with signer_of(Namespace(sign=str(key))) as signer:
+        with open_signer_of(Namespace(sign=str(key))) as signer:
             (document,) = pipeline.run(job, registry(), signer).documents
     found = verified(document.content)
     assert found.holds
     assert {each.verdict for each in (*found.pages, *found.document, *found.files)} == {
         VerificationVerdict.HOLDS
     }
-    assert "UTC by a time stamp of Common Name: Test Clock, of unknown trust" in said(found.signature.detail)
-    assert "; kept with its proofs since 20" in said(found.signature.detail)
+    assert "UTC by a time stamp of Common Name: Test Clock, of unknown trust" in say(found.signature.detail)
+    assert "; kept with its proofs since 20" in say(found.signature.detail)
 
 
 def test_a_signed_certificate_that_was_altered_before_does_not_hold(
@@ -101,10 +101,10 @@ def test_a_change_after_the_signature_is_found(issued: bytes, sign: Sign, verifi
     changed = BytesIO()
     writer.write(changed)
     found = verified(changed.getvalue())
-    assert said(found.signature.detail).startswith(
+    assert say(found.signature.detail).startswith(
         "the file is signed, but something was added after it was signed"
     )
-    assert "the page's /Rotate" in said(found.signature.detail)
+    assert "the page's /Rotate" in say(found.signature.detail)
     assert found.pages[0].verdict is VerificationVerdict.DIFFERS
 
 

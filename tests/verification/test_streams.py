@@ -7,7 +7,7 @@ import zlib
 import pytest
 from pypdf.generic import ArrayObject, DecodedStreamObject, EncodedStreamObject, NameObject
 
-from zlmreport.verification.carrier import DamagedError, TooLargeError, unpacked
+from zlmreport.verification.carrier import DamagedError, TooLargeError, unpack
 
 TEXT = b"0 0 m 10 10 l S\n" * 100
 
@@ -21,18 +21,18 @@ def packed(data: bytes, *filters: str) -> EncodedStreamObject:
 
 
 def test_a_packed_stream_is_unpacked() -> None:
-    assert unpacked(packed(zlib.compress(TEXT), "/FlateDecode"), 10_000) == TEXT
+    assert unpack(packed(zlib.compress(TEXT), "/FlateDecode"), 10_000) == TEXT
 
 
 def test_a_stream_that_is_not_packed_is_what_it_is() -> None:
     stream = DecodedStreamObject()
     stream.set_data(TEXT)
-    assert unpacked(stream, 10_000) == TEXT
+    assert unpack(stream, 10_000) == TEXT
 
 
 def test_a_stream_that_is_packed_twice_is_unpacked_twice() -> None:
     twice = zlib.compress(zlib.compress(TEXT))
-    assert unpacked(packed(twice, "/FlateDecode", "/FlateDecode"), 10_000) == TEXT
+    assert unpack(packed(twice, "/FlateDecode", "/FlateDecode"), 10_000) == TEXT
 
 
 @pytest.mark.parametrize(
@@ -40,20 +40,20 @@ def test_a_stream_that_is_packed_twice_is_unpacked_twice() -> None:
 )
 def test_a_damaged_stream_is_not_mended(data: bytes) -> None:
     with pytest.raises(DamagedError):
-        unpacked(packed(data, "/FlateDecode"), 10_000)
+        unpack(packed(data, "/FlateDecode"), 10_000)
 
 
 @pytest.mark.parametrize("most", [0, 1, len(TEXT) - 1])
 def test_a_stream_that_is_too_large_is_refused(most: int) -> None:
     with pytest.raises(TooLargeError):
-        unpacked(packed(zlib.compress(TEXT), "/FlateDecode"), most)
+        unpack(packed(zlib.compress(TEXT), "/FlateDecode"), most)
 
 
 def test_a_stream_may_be_as_large_as_is_allowed() -> None:
-    assert len(unpacked(packed(zlib.compress(TEXT), "/FlateDecode"), len(TEXT))) == len(TEXT)
+    assert len(unpack(packed(zlib.compress(TEXT), "/FlateDecode"), len(TEXT))) == len(TEXT)
 
 
 def test_a_stream_that_is_packed_otherwise_is_bounded_too() -> None:
     run = b"\x81" + b"\0"  # 128 times the same byte
     with pytest.raises(TooLargeError):
-        unpacked(packed(run * 1000 + b"\x80", "/RunLengthDecode"), 1000)
+        unpack(packed(run * 1000 + b"\x80", "/RunLengthDecode"), 1000)

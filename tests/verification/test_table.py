@@ -13,7 +13,7 @@ from verification.issued import altered
 from verification.raw_forgeries import with_packed_table
 from verification.test_trust import signed
 from zlmreport.verification.findings import VerificationVerdict
-from zlmreport.verification.table import finding, scan
+from zlmreport.verification.table import check_table, scan
 from zlmreport.verification.tokens import OddError, PdfName, Reference, read_object, read_value
 
 
@@ -33,7 +33,8 @@ def test_a_sound_file_is_read_from_its_first_to_its_last_byte(
     printed: str, saved: Callable[[bytes], bytes], request: pytest.FixtureRequest
 ) -> None:
     assert (
-        finding(saved(request.getfixturevalue(printed)), is_signed=False).verdict is VerificationVerdict.HOLDS
+        check_table(saved(request.getfixturevalue(printed)), is_signed=False).verdict
+        is VerificationVerdict.HOLDS
     )
 
 
@@ -42,8 +43,8 @@ def test_a_signature_may_add_a_revision_and_nothing_else_may(
     printed: str, request: pytest.FixtureRequest, tmp_path: Path
 ) -> None:
     pdf = signed(request.getfixturevalue(printed), tmp_path)
-    assert finding(pdf, is_signed=True).verdict is VerificationVerdict.HOLDS
-    assert "no signature" in str(finding(pdf, is_signed=False).detail)
+    assert check_table(pdf, is_signed=True).verdict is VerificationVerdict.HOLDS
+    assert "no signature" in str(check_table(pdf, is_signed=False).detail)
 
 
 def test_every_byte_between_objects_counts(issued: bytes) -> None:

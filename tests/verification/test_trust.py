@@ -19,7 +19,11 @@ from document.signing.keys import PASSWORD, certificate_of, elliptic, pkcs12_fil
 from verification.issued import READINGS, issue, lay_out
 from zlmreport.cli import main
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.document.signing.state import signature_state, trusted_by_user, trusted_certificates
+from zlmreport.document.signing.state import (
+    find_trusted_by_user,
+    read_signature_state,
+    read_trusted_certificates,
+)
 from zlmreport.errors import AccessError, InputError, Place
 
 PLACE = Place("zlmreport --trusted")
@@ -82,7 +86,7 @@ def test_a_consistent_forgery_is_never_trusted(tmp_path: Path, run: Run) -> None
 
 
 def state(pdf: bytes, trusted: Path) -> bool:
-    return signature_state(pdf, trusted_certificates(trusted, PLACE)).is_trusted
+    return read_signature_state(pdf, read_trusted_certificates(trusted, PLACE)).is_trusted
 
 
 def test_a_certificate_of_the_same_name_is_not_the_one_that_is_trusted(issued: bytes, tmp_path: Path) -> None:
@@ -112,12 +116,12 @@ def test_a_trusted_signature_is_not_trusted_after_a_change(issued: bytes, tmp_pa
 
 def test_the_users_configuration_names_who_is_trusted(tmp_path: Path) -> None:
     environment = {"XDG_CONFIG_HOME": str(tmp_path)}
-    assert trusted_by_user(environment) is None
+    assert find_trusted_by_user(environment) is None
     file = tmp_path / "zlmreport" / "config.yaml"
     file.parent.mkdir()
     file.write_text("trusted: laboratories\n")
-    assert trusted_by_user(environment) == file.parent / "laboratories"
-    assert trusted_by_user({}) is None
+    assert find_trusted_by_user(environment) == file.parent / "laboratories"
+    assert find_trusted_by_user({}) is None
 
 
 @pytest.mark.parametrize("text", ["trust: laboratories", "trusted: [a, b]", "trusted", "a: [", "- 1"])
@@ -126,17 +130,17 @@ def test_a_configuration_that_is_wrong_is_refused(tmp_path: Path, text: str) -> 
     file.parent.mkdir()
     file.write_text(text)
     with pytest.raises(InputError, match="trusted"):
-        trusted_by_user({"XDG_CONFIG_HOME": str(tmp_path)})
+        find_trusted_by_user({"XDG_CONFIG_HOME": str(tmp_path)})
 
 
 def test_what_is_no_certificate_is_refused(tmp_path: Path) -> None:
     with pytest.raises(AccessError, match="cannot be read"):
-        trusted_certificates(tmp_path / "none.pem", PLACE)
+        read_trusted_certificates(tmp_path / "none.pem", PLACE)
     with pytest.raises(InputError, match="holds no certificate"):
-        trusted_certificates(tmp_path, PLACE)
+        read_trusted_certificates(tmp_path, PLACE)
     (tmp_path / "text.pem").write_text("-----BEGIN CERTIFICATE-----\nAAAA\n-----END CERTIFICATE-----\n")
     with pytest.raises(InputError, match=r"text\.pem is no certificate"):
-        trusted_certificates(tmp_path, PLACE)
+        read_trusted_certificates(tmp_path, PLACE)
 
 
 def issued_by_authority() -> tuple[x509.Certificate, x509.Certificate]:

@@ -29,7 +29,7 @@ from verification.issued import (
     with_source,
 )
 from zlmreport import pipeline
-from zlmreport.cli.terminal import said
+from zlmreport.cli.terminal import say
 from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.verification.findings import (
     CheckedStatement,
@@ -344,10 +344,10 @@ def test_a_checksum_that_is_not_the_files_is_found(issued: bytes, verified: Veri
 def older(tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """Return the report as an earlier release made it that gave the same."""
     with pytest.MonkeyPatch.context() as patch:
-        here = pipeline.programs
+        here = pipeline.find_programs
         patch.setattr(
             pipeline,
-            "programs",
+            "find_programs",
             lambda *given: ("zlmreport 0.0.9", dict.fromkeys(here(*given)[1], "zlmreport 0.0.9")),
         )
         return issue(lay_out(tmp_path_factory.mktemp("older")))
@@ -357,7 +357,7 @@ def test_what_another_release_made_holds_if_all_of_it_is_repeated(older: bytes, 
     found = verified(older)
     assert found.outcome is VerificationOutcome.HOLDS
     assert found.identity.generator == "zlmreport 0.0.9"
-    assert tuple(map(said, found.remarks)) == (
+    assert tuple(map(say, found.remarks)) == (
         f"made by zlmreport 0.0.9; this is {GENERATOR}, and it repeats all of it in that name",
     )
 
@@ -381,7 +381,7 @@ def test_what_another_release_stated_and_this_cannot_repeat_is_not_decided(
 ) -> None:
     found = verified(change(older))
     assert (found.outcome, found.undecided) == (VerificationOutcome.UNDECIDED, (part,))
-    assert said(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
+    assert say(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
 
 
 def test_a_value_that_the_readings_do_not_give_is_wrong_in_every_release(

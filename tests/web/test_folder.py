@@ -15,7 +15,7 @@ from processes import awaited
 from web.jobs import registry
 from zlmreport.errors import InputError
 from zlmreport.language import Language
-from zlmreport.web.folder import JobFolder, JobRow, JobState, jobs_in, looked_at, row_values
+from zlmreport.web.folder import JobFolder, JobRow, JobState, collect_row, find_jobs_in, look_at
 from zlmreport.web.folder_app import FolderWorkbench
 from zlmreport.web.guard import Door
 
@@ -118,7 +118,7 @@ def test_being_due_soon_hides_nothing_worse(state: JobState) -> None:
 
 def test_the_interval_counts_from_the_day_of_the_measurement(job: Path) -> None:
     job.write_text(f"{job.read_text('utf-8')}\nfleet: {{interval: 180}}\n", "utf-8")
-    row, _ = looked_at(JobRow("", ""), job, registry())
+    row, _ = look_at(JobRow("", ""), job, registry())
     assert row.due == dt.date(2027, 5, 17)
 
 
@@ -136,7 +136,7 @@ def test_a_limit_that_is_not_met_is_said(job: Path) -> None:
         "  - iso230-2:2014", "  - {standard: 'iso230-2:2014', tolerances: {A: 5}}"
     )
     job.write_text(text, "utf-8")
-    row, _ = looked_at(JobRow("", ""), job, registry())
+    row, _ = look_at(JobRow("", ""), job, registry())
     assert row.state is JobState.NOT_MET, row.problems
 
 
@@ -146,21 +146,21 @@ def test_only_jobs_are_listed(job: Path) -> None:
     hidden = folder / ".old"
     hidden.mkdir()
     shutil.copy(job, hidden)
-    assert jobs_in(folder) == (job,)
+    assert find_jobs_in(folder) == (job,)
 
 
 def test_a_folder_without_a_job_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no job or machine file lies here"):
-        jobs_in(tmp_path)
+        find_jobs_in(tmp_path)
 
 
 def test_a_job_without_an_error_model_is_listed_and_does_not_open() -> None:
     circle = Path(__file__).parents[2] / "configs" / "circle" / "certificate.yaml"
-    row, _ = looked_at(JobRow("", ""), circle, registry())
+    row, _ = look_at(JobRow("", ""), circle, registry())
     assert row.state is not JobState.FAILS, row.problems
     assert "no installed effect acts on that" in row.closed
 
 
 def test_a_state_is_told_in_german() -> None:
     row = JobRow("k", "x.yaml", JobState.OVERDUE, due=dt.date(2026, 11, 1))
-    assert row_values(row, Language.GERMAN)["words"] == "überfällig"
+    assert collect_row(row, Language.GERMAN)["words"] == "überfällig"

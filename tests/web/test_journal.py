@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 from zlmreport.errors import AccessError
-from zlmreport.web.journal import BenchJournal, JournalStep, entry, undoable
+from zlmreport.web.journal import BenchJournal, JournalStep, find_undoable, make_entry
 
 CONTENTS = [b"a", b"b", b"c"]
 
 
 def made(first: int, action: str = "add", subject: str = "offset") -> JournalStep:
     """Return the record of a step from one content to the next."""
-    return entry(action, subject, (CONTENTS[first], CONTENTS[first + 1]), (2.0, 1.0))
+    return make_entry(action, subject, (CONTENTS[first], CONTENTS[first + 1]), (2.0, 1.0))
 
 
 def test_what_is_written_is_read_again(tmp_path: Path) -> None:
@@ -49,11 +49,11 @@ def test_a_record_that_cannot_be_written_is_said(tmp_path: Path) -> None:
 
 def test_the_last_step_can_be_undone_and_then_the_one_before() -> None:
     steps = (made(0), made(1))
-    assert undoable(steps, steps[1].after) is steps[1]
-    back = entry("undo", "add offset", (CONTENTS[2], CONTENTS[1]), (1.0, 2.0))
-    assert undoable((*steps, back), back.after) is steps[0]
+    assert find_undoable(steps, steps[1].after) is steps[1]
+    back = make_entry("undo", "add offset", (CONTENTS[2], CONTENTS[1]), (1.0, 2.0))
+    assert find_undoable((*steps, back), back.after) is steps[0]
 
 
 def test_nothing_can_be_undone_on_a_job_that_is_another_now() -> None:
-    assert undoable((made(0),), "other") is None
-    assert undoable((), "other") is None
+    assert find_undoable((made(0),), "other") is None
+    assert find_undoable((), "other") is None

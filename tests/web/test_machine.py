@@ -15,7 +15,7 @@ from environments import ROOT
 from web.jobs import registry
 from zlmreport.errors import InputError
 from zlmreport.language import Language
-from zlmreport.web.folder import JobRow, JobState, is_machine, looked_at
+from zlmreport.web.folder import JobRow, JobState, is_machine, look_at
 from zlmreport.web.guard import Door
 from zlmreport.web.machine_app import MachineWorkbench
 from zlmreport.web.machine_bench import MachineBench
@@ -169,7 +169,7 @@ def test_a_line_in_another_place_is_drawn_over_its_place(machine: Path) -> None:
 def test_a_folder_lists_a_machine_and_says_what_is_wrong_with_one(machine: Path) -> None:
     assert is_machine(machine)
     assert not is_machine(machine.with_name("circle-xy.yaml"))
-    row, files = looked_at(JobRow("key", PLACE), machine, registry())
+    row, files = look_at(JobRow("key", PLACE), machine, registry())
     assert (row.state, row.axis.in_language(Language.ENGLISH), row.closed) == (
         JobState.FINE,
         "Machine, axes XYFZ",
@@ -177,7 +177,7 @@ def test_a_folder_lists_a_machine_and_says_what_is_wrong_with_one(machine: Path)
     )
     assert machine.with_name("circle-xy.csv") in files
     machine.write_text(machine.read_text("utf-8").replace("XYFZ ", "XYZ "), "utf-8")
-    row, _ = looked_at(row, machine, registry())
+    row, _ = look_at(row, machine, registry())
     assert row.state is JobState.FAILS
     assert "'XYZ' is no chain" in row.problems[0]
 

@@ -24,12 +24,12 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.model.diagnosis.faults import DataFault, FaultKind
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 from zlmreport.model.diagnosis.study import Fitted, Study
-from zlmreport.model.effects.design import at_positions
+from zlmreport.model.effects.design import place_at_positions
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.app import Workbench
-from zlmreport.web.effect_page import sketch
-from zlmreport.web.texts import TEXTS, texts
-from zlmreport.web.view import diagnosed, results, view
+from zlmreport.web.effect_page import draw_sketch
+from zlmreport.web.texts import TEXTS, collect_texts
+from zlmreport.web.view import collect_diagnosed, make_results, make_view
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +38,8 @@ def page() -> dict[str, Any]:
     workbench = Workbench.of([EXAMPLE / "job.yaml"], registry())
     loaded = workbench.bench.loaded()
     return {
-        **view(workbench.bench, loaded, Language.ENGLISH),
-        **results(workbench.bench, loaded, Language.ENGLISH),
+        **make_view(workbench.bench, loaded, Language.ENGLISH),
+        **make_results(workbench.bench, loaded, Language.ENGLISH),
     }
 
 
@@ -85,7 +85,7 @@ def test_a_part_of_the_model_is_drawn_as_finely_as_the_whole(browser: TestClient
         x = np.array(curve["x"])
         assert (x[0], x[-1]) == (200, 201.5)
         assert len(x) >= 480
-        at = at_positions(fitted.design, 1e-3 * x, Approach(curve["direction"]))
+        at = place_at_positions(fitted.design, 1e-3 * x, Approach(curve["direction"]))
         assert curve["y"] == pytest.approx(1e6 * fitted.value_at(at), abs=2e-6)
 
 
@@ -107,7 +107,7 @@ def test_the_page_is_plain_values(page: dict[str, Any]) -> None:
 
 
 def test_the_page_is_told_of_in_german(workbench: Workbench) -> None:
-    german = view(workbench.bench, workbench.bench.loaded(), Language.GERMAN)
+    german = make_view(workbench.bench, workbench.bench.loaded(), Language.GERMAN)
     assert german["subject"] == "Achse X, Example Machine Works Example axis, EXAMPLE-X-7"
     floor = german["error"][1]
     assert (floor["name"], floor["value"]) == ("Grundrauschen", "0,480 µm")
@@ -116,8 +116,8 @@ def test_the_page_is_told_of_in_german(workbench: Workbench) -> None:
 
 @pytest.mark.parametrize("language", Language)
 def test_every_word_of_the_page_exists(language: Language) -> None:
-    assert all(texts(language).values())
-    assert texts(language).keys() == TEXTS.keys()
+    assert all(collect_texts(language).values())
+    assert collect_texts(language).keys() == TEXTS.keys()
 
 
 def test_no_word_is_there_for_nothing() -> None:
@@ -129,7 +129,7 @@ def test_no_word_is_there_for_nothing() -> None:
 @pytest.mark.parametrize("effect", registry().effects, ids=lambda effect: effect.identifier)
 def test_every_effect_has_a_sketch_of_one_unit(effect: Any) -> None:
     for design in (each for each in full_designs().values() if effect.untestable(each) is None):
-        found = sketch(effect, design, Language.ENGLISH)
+        found = draw_sketch(effect, design, Language.ENGLISH)
         assert found is not None
         assert np.mean(np.square(found["y"])) == pytest.approx(1.0, abs=1e-4)
         break
@@ -275,7 +275,9 @@ def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study:
     diagnosis = study.diagnosis(registry().effects)
     name = "screw_temperature"
     follows = Failure(ResidualTest.CONDITION, 1e-9, same(name), same("they follow"), condition=name)
-    found = diagnosed(replace(diagnosis, failures=(follows,)), study, registry().effects, Language.ENGLISH)
+    found = collect_diagnosed(
+        replace(diagnosis, failures=(follows,)), study, registry().effects, Language.ENGLISH
+    )
     (failure,) = found["failures"]
     assert failure["axis"] == "screw_temperature"
     assert failure["where"] == "Temperature of the screw"
@@ -286,7 +288,7 @@ def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Stu
     diagnosis = study.diagnosis(registry().effects)
     off = Failure(ResidualTest.OUTLIERS, 1e-9, same("here"), same("it stands off"))
     flagged = replace(diagnosis, failures=(off,), outliers=np.array([7, 9]))
-    found = diagnosed(flagged, study, registry().effects, Language.ENGLISH)
+    found = collect_diagnosed(flagged, study, registry().effects, Language.ENGLISH)
     assert found["failures"][0]["readings"] == [7, 9]
 
 
@@ -295,7 +297,7 @@ def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None
         FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file")
     )
     diagnosis = replace(study.diagnosis(registry().effects), faults=(fault,))
-    (found,) = diagnosed(diagnosis, study, registry().effects, Language.ENGLISH)["faults"]
+    (found,) = collect_diagnosed(diagnosis, study, registry().effects, Language.ENGLISH)["faults"]
     assert (found["statement"], found["remedy"]) == ("run 3 looks swapped", "correct the file")
     runs = study.measurements.run[found["readings"]]
     assert len(runs) == 2 * 21

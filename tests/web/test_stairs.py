@@ -12,7 +12,7 @@ from web.jobs import registry
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.web.naming import Naming
-from zlmreport.web.stairs import stairs, with_stairs
+from zlmreport.web.stairs import add_stairs, make_stairs
 
 STEP: dict[str, Any] = {
     "effect": "backlash",
@@ -26,13 +26,13 @@ STEP: dict[str, Any] = {
 def test_each_step_says_how_far_the_error_falls(job: Path) -> None:
     steps = [STEP, {**STEP, "effect": "screw-pitch", "rms_before": 1.0, "rms_after": 0.5}]
     effects = registry().effects
-    first, second = stairs(steps, load(job, registry()), registry(), Naming.of(effects, Language.GERMAN))
+    first, second = make_stairs(steps, load(job, registry()), registry(), Naming.of(effects, Language.GERMAN))
     assert (first["name"], first["before"], first["after"]) == ("+ Umkehrspanne", "4,00 µm", "1,00 µm")
     assert (first["share"], second["share"], second["floor"]) == (0.25, 0.125, 0.125)
 
 
 def test_what_goes_out_again_has_a_minus_and_an_unknown_noise_no_mark(job: Path) -> None:
-    (step,) = stairs(
+    (step,) = make_stairs(
         [{**STEP, "removed": True, "noise_rms": None}],
         load(job, registry()),
         registry(),
@@ -47,7 +47,7 @@ def test_an_effect_is_named_with_its_unusual_keys_alone(job: Path) -> None:
 
     def of(settings: dict[str, Any]) -> str:
         steps = [{**STEP, "effect": "polynomial", "settings": settings}]
-        return str(stairs(steps, load(job, registry()), registry(), names)[0]["argument"])
+        return str(make_stairs(steps, load(job, registry()), registry(), names)[0]["argument"])
 
     assert of(usual) == "polynomial"
     assert of({**usual, "order": 5}) == 'polynomial: {"order": 5}'
@@ -55,7 +55,7 @@ def test_an_effect_is_named_with_its_unusual_keys_alone(job: Path) -> None:
 
 def test_what_is_no_build_stays_as_it_is(job: Path) -> None:
     state = {"state": "making", "seconds": 1.0}
-    assert with_stairs(state, load(job, registry()), registry(), Language.ENGLISH) == state
+    assert add_stairs(state, load(job, registry()), registry(), Language.ENGLISH) == state
 
 
 def test_a_build_is_a_proposal_whose_steps_are_taken_one_by_one(job: Path, browser: TestClient) -> None:

@@ -20,7 +20,7 @@ from zlmreport.plugin.circle_effect import (
     Searched,
     pair_words,
 )
-from zlmreport_plugins.circle_effects.shared import differences
+from zlmreport_plugins.circle_effects.shared import find_differences
 
 
 class ServoLag(CircleEffect):
@@ -54,7 +54,7 @@ class ServoMismatch(CircleEffect):
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
         """Return the difference of lags of neighbouring axes."""
         terms = []
-        for name, share in differences(design):
+        for name, share in find_differences(design):
             lag = share[design.first] - share[design.second]
             column = 0.5 * design.sense * design.feed * lag * np.sin(2 * design.angle)
             one, other = name.split("-")
@@ -66,24 +66,24 @@ class ServoMismatch(CircleEffect):
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say who lags behind whom."""
         for each in estimates:
-            early, late = _axes(each)
+            early, late = _list_axes(each)
             early, late = (early, late) if each.value < 0 else (late, early)
-            time, u = _pair(each, abs(each.value))
+            time, u = _write_pair(each, abs(each.value))
             yield _LAGS.given(late=late, early=early, time=time, u=u)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say that drives follow alike."""
         for each in estimates:
-            one, other = _axes(each)
-            time, u = _pair(each, each.value)
+            one, other = _list_axes(each)
+            time, u = _write_pair(each, each.value)
             yield _ALIKE.given(one=one, other=other, time=time, u=u)
 
 
-def _axes(estimate: Estimate) -> list[str]:
+def _list_axes(estimate: Estimate) -> list[str]:
     return estimate.name.replace("T_", "").split("-")
 
 
-def _pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
+def _write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
     return pair_words(estimate.unit.from_si(value), estimate.unit.from_si(estimate.expanded_uncertainty))
 
 
@@ -129,5 +129,5 @@ class DriveCompliance(CircleEffect):
                 design.centripetal * sum(share[axis] * design.wave(axis) ** 2 for axis in design.axes),
                 low=-1e-4, high=1e-4, usual=1e-5,
             )
-            for name, share in differences(design)
+            for name, share in find_differences(design)
         ]  # fmt: skip

@@ -20,7 +20,7 @@ from zlmreport.plugin.circle_effect import (
     SearchedParameter,
     pair_words,
 )
-from zlmreport_plugins.circle_effects.shared import differences
+from zlmreport_plugins.circle_effects.shared import find_differences
 
 
 class ScaleMismatch(CircleEffect):
@@ -41,7 +41,7 @@ class ScaleMismatch(CircleEffect):
                 design.radius * sum(share[axis] * design.wave(axis) ** 2 for axis in design.axes),
                 low=-1e-3, high=1e-3, usual=20e-6,
             )
-            for name, share in differences(design)
+            for name, share in find_differences(design)
         ]  # fmt: skip
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
@@ -49,18 +49,18 @@ class ScaleMismatch(CircleEffect):
         for each in estimates:
             one, other = each.name.split("-")
             longer, shorter = (one, other) if each.value > 0 else (other, one)
-            value, u = _pair(each, abs(each.value))
+            value, u = _write_pair(each, abs(each.value))
             yield _LONGER.given(longer=longer, shorter=shorter, value=value, u=u)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say that scales agree."""
         for each in estimates:
             one, other = each.name.split("-")
-            value, u = _pair(each, each.value)
+            value, u = _write_pair(each, each.value)
             yield _AGREE.given(one=one, other=other, value=value, u=u)
 
 
-def _pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
+def _write_pair(estimate: Estimate, value: float) -> tuple[Words, Words]:
     unit = estimate.unit
     return pair_words(unit.from_si(value), unit.from_si(estimate.expanded_uncertainty))
 
@@ -96,17 +96,17 @@ class Squareness(CircleEffect):
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how far the axes are out of square."""
-        yield from _of_planes(estimates, _OUT_OF_SQUARE)
+        yield from _say_of_planes(estimates, _OUT_OF_SQUARE)
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say that the axes are square."""
-        yield from _of_planes(estimates, _SQUARE)
+        yield from _say_of_planes(estimates, _SQUARE)
 
 
-def _of_planes(estimates: Sequence[Estimate], words: Words) -> Iterator[Words]:
+def _say_of_planes(estimates: Sequence[Estimate], words: Words) -> Iterator[Words]:
     planes = {name: plane for plane, (name, _) in _SQUARENESS.items()}
     for each in estimates:
-        value, u = _pair(each, each.value)
+        value, u = _write_pair(each, each.value)
         plane = planes[each.name]
         yield words.given(one=plane[0], other=plane[1], name=each.name, value=value, u=u)
 
@@ -179,11 +179,11 @@ class CyclicError(CircleEffect):
         for axis in design.axes:
             wave = design.wave(axis)
             phase = 2.0 * np.pi * (centres[:, axis] + design.radius * wave) / searched[0]
-            terms += _sine_and_cosine(AXES[axis], wave, phase)
+            terms += _make_sine_and_cosine(AXES[axis], wave, phase)
         return terms
 
 
-def _sine_and_cosine(axis: str, wave: FloatArray, phase: FloatArray) -> list[CircleTerm]:
+def _make_sine_and_cosine(axis: str, wave: FloatArray, phase: FloatArray) -> list[CircleTerm]:
     return [
         CircleTerm(f"{axis} {name}", MICROMETRE, wave * turned, axis, low=-1e-4, high=1e-4, usual=2e-6)
         for name, turned in (("sin", np.sin(phase)), ("cos", np.cos(phase)))

@@ -27,7 +27,7 @@ _LARGEST_LOST_MOTION = 5e-4  # m
 _ALIKE, _EACH_END = 0.0, 1.0
 
 
-def _lost_motion(design: CircleDesign, low: float, high: float, ends: float) -> Iterator[CircleTerm]:
+def _make_lost_motion(design: CircleDesign, low: float, high: float, ends: float) -> Iterator[CircleTerm]:
     """Yield −½B·d·cosθ of each axis, sinθ of the second; between two ends B goes over from one to other."""
     for axis in design.axes:
         wave = design.wave(axis)
@@ -39,7 +39,7 @@ def _lost_motion(design: CircleDesign, low: float, high: float, ends: float) -> 
             yield CircleTerm(name, MICROMETRE, share * column, AXES[axis], low=low, high=high, usual=5e-6)
 
 
-def _ends(_: CircleDesign) -> list[Searched]:
+def _search_ends(_: CircleDesign) -> list[Searched]:
     return [(_ALIKE,), (_EACH_END,)]
 
 
@@ -56,16 +56,16 @@ class CircleBacklash(CircleEffect):
 
     def grid(self, design: CircleDesign) -> list[Searched]:
         """Return both ends alike, and each its own."""
-        return _ends(design)
+        return _search_ends(design)
 
     def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
         """Return the lost motion of each axis, or of each of its ends."""
-        return list(_lost_motion(design, 0.0, _LARGEST_LOST_MOTION, searched[0]))
+        return list(_make_lost_motion(design, 0.0, _LARGEST_LOST_MOTION, searched[0]))
 
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how much lost motion there might be."""
         for each in estimates:
-            value, u = _pair(each)
+            value, u = _write_pair(each)
             yield _NO_BACKLASH.given(axis=each.name, value=value, u=u)
 
 
@@ -81,21 +81,21 @@ class OverCompensation(CircleEffect):
 
     def grid(self, design: CircleDesign) -> list[Searched]:
         """Return both ends alike, and each its own."""
-        return _ends(design)
+        return _search_ends(design)
 
     def terms(self, design: CircleDesign, searched: Searched) -> list[CircleTerm]:
         """Return the lost motion of each axis, or of each of its ends."""
-        return list(_lost_motion(design, -_LARGEST_LOST_MOTION, 0.0, searched[0]))
+        return list(_make_lost_motion(design, -_LARGEST_LOST_MOTION, 0.0, searched[0]))
 
     def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say which axis is over-compensated."""
         for each in estimates:
             if each.value < -each.expanded_uncertainty:
-                value, u = _pair(each)
+                value, u = _write_pair(each)
                 yield _OVER.given(axis=each.name, value=value, u=u)
 
 
-def _pair(estimate: Estimate) -> tuple[Words, Words]:
+def _write_pair(estimate: Estimate) -> tuple[Words, Words]:
     unit = estimate.unit
     return pair_words(unit.from_si(estimate.value), unit.from_si(estimate.expanded_uncertainty))
 
@@ -127,29 +127,33 @@ class LateralPlay(CircleEffect):
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how much play there might be."""
         for each in estimates:
-            value, u = _pair(each)
+            value, u = _write_pair(each)
             yield _NO_PLAY.given(axis=each.name, value=value, u=u)
 
 
 _NO_PLAY = Words("no lateral play of {axis}: {value} ± {u} µm")
 
 
-def _let_go(since: FloatArray, width: float) -> FloatArray:
+def _compute_let_go(since: FloatArray, width: float) -> FloatArray:
     """Return what an axis leaves that decays back: exp(−φ/w)."""
     return np.asarray(np.exp(-since / width))
 
 
-def _stand_still(since: FloatArray, width: float) -> FloatArray:
+def _compute_stand_still(since: FloatArray, width: float) -> FloatArray:
     """Return what an axis leaves that stands still, φ²/w², until it lets go at w and falls back."""
     return np.where(since < width, (since / width) ** 2, np.exp(-(since - width) / (width / 3.0)))
 
 
-def _rise_and_fall(since: FloatArray, width: float) -> FloatArray:
+def _compute_rise_and_fall(since: FloatArray, width: float) -> FloatArray:
     """Return what an axis leaves that is held and comes back as gently: ½(1 − cos(π·φ/w)) up to 2w."""
     return np.where(since < 2.0 * width, 0.5 * (1.0 - np.cos(np.pi * since / width)), 0.0)
 
 
-_SHAPES: tuple[Callable[[FloatArray, float], FloatArray], ...] = (_let_go, _stand_still, _rise_and_fall)
+_SHAPES: tuple[Callable[[FloatArray, float], FloatArray], ...] = (
+    _compute_let_go,
+    _compute_stand_still,
+    _compute_rise_and_fall,
+)
 _WIDTHS = tuple(np.radians([2.0, 4.0, 7.0, 12.0, 20.0]).tolist())
 _CONSTANT, _WITH_ACCELERATION = 0.0, 1.0
 

@@ -31,10 +31,10 @@ class CentreOffset(CircleEffect):
 
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
         """Return a·cosθ + b·sinθ of each turn."""
-        return list(_centres(design))
+        return list(_make_centres(design))
 
 
-def _centres(design: CircleDesign) -> Iterator[CircleTerm]:
+def _make_centres(design: CircleDesign) -> Iterator[CircleTerm]:
     for turn in design.turns.tolist():
         own = design.turn == turn
         test = design.tests[int(design.test[own][0])]

@@ -11,7 +11,7 @@ from zlmreport.plugin import FloatArray
 from zlmreport.plugin.circle_effect import AXES, CircleDesign
 
 
-def differences(design: CircleDesign) -> Iterator[tuple[str, FloatArray]]:
+def find_differences(design: CircleDesign) -> Iterator[tuple[str, FloatArray]]:
     """Yield differences of neighbouring axes with the share that each axis has in one unit of them.
 
     The mean of all axes is nobody's difference: it is the radius'.

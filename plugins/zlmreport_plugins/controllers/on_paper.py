@@ -41,7 +41,7 @@ def _refuse_more_than(rows: int, table: CompensationTable) -> None:
         raise InputError.at(table.place, f"the control takes {rows} rows; state a longer step")
 
 
-def _columns(table: CompensationTable) -> tuple[list[float], FloatArray, FloatArray]:
+def _make_columns(table: CompensationTable) -> tuple[list[float], FloatArray, FloatArray]:
     """Return positions, mm or °, and the deviations forward and reverse in the same unit; refuse a fall."""
     unit = table.axis.position_unit
     positions = [round(unit.from_si(each), 6) for each in table.positions.tolist()]
@@ -50,7 +50,7 @@ def _columns(table: CompensationTable) -> tuple[list[float], FloatArray, FloatAr
     return positions, unit.from_si(table.forward), unit.from_si(table.reverse)
 
 
-def _decoded(
+def _decode(
     table: CompensationTable, positions: Iterable[float], forward: Iterable[float], reverse: Iterable[float]
 ) -> CompensationTable:
     to_si = table.axis.position_unit.to_si
@@ -60,9 +60,9 @@ def _decoded(
     return replace(table, positions=grid, forward=up, reverse=down)
 
 
-def _increments(table: CompensationTable, quantum: float, largest: int, remedy: str) -> list[int]:
+def _make_increments(table: CompensationTable, quantum: float, largest: int, remedy: str) -> list[int]:
     """Return −Δe of each interval in whole quanta; the running sum is rounded, so that nothing drifts."""
-    _, forward, reverse = _columns(table)
+    _, forward, reverse = _make_columns(table)
     mean = (forward + reverse) / 2
     sums = np.round(-(mean - mean[0]) / quantum).astype(int)
     steps: list[int] = np.diff(sums).tolist()
@@ -74,10 +74,10 @@ def _increments(table: CompensationTable, quantum: float, largest: int, remedy: 
     return steps
 
 
-def _summed(table: CompensationTable, steps: Iterable[int], quantum: float) -> CompensationTable:
+def _sum_increments(table: CompensationTable, steps: Iterable[int], quantum: float) -> CompensationTable:
     sums = -quantum * np.concatenate([[0.0], np.cumsum(list(steps))])
     positions = table.axis.position_unit.from_si(table.positions)
-    return _decoded(table, positions.tolist(), sums.tolist(), sums.tolist())
+    return _decode(table, positions.tolist(), sums.tolist(), sums.tolist())
 
 
 class _Cross:
@@ -155,7 +155,7 @@ class Siemens840d(_OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the one file."""
-        positions, forward, reverse = _columns(table)
+        positions, forward, reverse = _make_columns(table)
         name = options.axis or f"{table.axis.name}1"
         mean = ((forward + reverse) / 2).tolist()
         lines = ["%_N_AX_EEC_INI", "CHANDATA(1)"]
@@ -176,7 +176,7 @@ class Siemens840d(_OnPaper):
         (step,) = re.findall(rf"STEP\[0,\w+\]={_NUMBER}", text)
         (first,) = re.findall(rf"MIN\[0,\w+\]={_NUMBER}", text)
         positions = [float(first) + float(step) * row for row in range(len(values))]
-        return _decoded(table, positions, values, values)
+        return _decode(table, positions, values, values)
 
 
 class Siemens840dCec(_Cross, _OnPaper):
@@ -200,7 +200,7 @@ class Siemens840dCec(_Cross, _OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:
         """Return the one file: table 0 acts in the positive direction, table 1 in the negative."""
-        positions, *values = _columns(table)
+        positions, *values = _make_columns(table)
         name = options.axis or f"{table.axis.name}1"
         lines = ["%_N_NC_CEC_INI", "CHANDATA(1)"]
         for number, (column, direction) in enumerate(zip(values, (1, -1), strict=True)):
@@ -226,7 +226,7 @@ class Siemens840dCec(_Cross, _OnPaper):
         (step,) = re.findall(rf"STEP\[0\]={_NUMBER}", text)
         (first,) = re.findall(rf"MIN\[0\]={_NUMBER}", text)
         positions = [float(first) + float(step) * row for row in range(len(columns[0]))]
-        return _decoded(table, positions, *columns)
+        return _decode(table, positions, *columns)
 
 
 class Isg(_OnPaper):
@@ -240,7 +240,7 @@ class Isg(_OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the one file; set positions are in whole 0.1 µm (0.0001°), too."""
-        positions, forward, reverse = _columns(table)
+        positions, forward, reverse = _make_columns(table)
         lines = [
             "kopf.achs_nr 1",
             f"kopf.log_achs_name {table.axis.name}",
@@ -264,7 +264,7 @@ class Isg(_OnPaper):
             [int(each) / 1e4 for each in re.findall(rf"\]\.{name} (-?\d+)", files[".lis"])]
             for name in ("setpoint", "pos", "neg")
         )
-        return _decoded(table, *found)
+        return _decode(table, *found)
 
 
 class FanucOptions(Options):
@@ -308,16 +308,16 @@ class Fanuc(_OnPaper):
         quantum, rows = options.magnification * 1e-3, len(table.positions)
         remedy = "raise magnification (3623), or state a shorter step"
         if options.reverse is None:
-            return {".txt": self._file({options.reference: _increments(table, quantum, 7, remedy)})}
+            return {".txt": self._file({options.reference: _make_increments(table, quantum, 7, remedy)})}
         if abs(options.reverse - options.reference) < rows:
             raise InputError.at(
                 table.place,
                 f"the rows of both directions overlap: {rows} from {options.reference} and from "
                 f"{options.reverse}; state another reverse",
             )
-        _, forward, reverse = _columns(table)
+        _, forward, reverse = _make_columns(table)
         steps = {
-            first: _increments(replace(table, forward=column, reverse=column), quantum, 7, remedy)
+            first: _make_increments(replace(table, forward=column, reverse=column), quantum, 7, remedy)
             for first, column in ((options.reference, table.forward), (options.reverse, table.reverse))
         }
         apart = round(-float(reverse[0] - forward[0]) / quantum)
@@ -337,10 +337,10 @@ class Fanuc(_OnPaper):
         steps = [int(each) for each in re.findall(r"N\d+P(-?\d+)", files[".txt"])]
         quantum = options.magnification * 1e-3
         if options.reverse is None:
-            return _summed(table, steps, quantum)
+            return _sum_increments(table, steps, quantum)
         half = len(steps) // 2
         (apart,) = re.findall(r"^3627 (-?\d+)", files["-parameters.txt"], re.MULTILINE)
-        forward, reverse = (_summed(table, part, quantum) for part in (steps[:half], steps[half:]))
+        forward, reverse = (_sum_increments(table, part, quantum) for part in (steps[:half], steps[half:]))
         offset = table.axis.position_unit.to_si(-int(apart) * quantum)
         return replace(forward, reverse=read_only_floats(reverse.forward + offset))
 
@@ -356,13 +356,13 @@ class Mitsubishi(_OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the increments, one a line, to be typed in at the control."""
-        steps = _increments(table, 0.5e-3, 127, "state a shorter step")
+        steps = _make_increments(table, 0.5e-3, 127, "state a shorter step")
         return {"-increments.txt": "".join(f"{row} {step}\n" for row, step in enumerate(steps, start=1))}
 
     def read(self, files: Mapping[str, str], table: CompensationTable, options: Any) -> CompensationTable:  # noqa: ARG002
         """Return the sums of the increments."""
         steps = [int(line.split()[1]) for line in files["-increments.txt"].splitlines()]
-        return _summed(table, steps, 0.5e-3)
+        return _sum_increments(table, steps, 0.5e-3)
 
 
 class Heidenhain(_OnPaper):
@@ -395,7 +395,7 @@ class Heidenhain(_OnPaper):
             "[END]",
         ]
         lines = [f"BEGIN {name}_AXIS .COM", f"NR AXISPOS  BACKLASH  {name}"]
-        for row, (at, up, down) in enumerate(zip(*_columns(table), strict=True)):
+        for row, (at, up, down) in enumerate(zip(*_make_columns(table), strict=True)):
             lines.append(f"{row}     {at:+.4f}   {float(down - up) + 0.0:+.4f}   {float(up) + 0.0:+.4f}")
         return {
             ".COM": "".join(f"{line}\n" for line in (*lines, "[END]")),
@@ -406,7 +406,7 @@ class Heidenhain(_OnPaper):
         """Return the rows."""
         rows = [[float(each) for each in line.split()] for line in files[".COM"].splitlines()[2:-1]]
         _, positions, play, forward = zip(*rows, strict=True)
-        return _decoded(table, positions, forward, [up + gap for up, gap in zip(forward, play, strict=True)])
+        return _decode(table, positions, forward, [up + gap for up, gap in zip(forward, play, strict=True)])
 
 
 class Etalon(_OnPaper):
@@ -417,7 +417,7 @@ class Etalon(_OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the one file; its section is named by the axis: EXX for X."""
-        positions, forward, reverse = _columns(table)
+        positions, forward, reverse = _make_columns(table)
         rows = [
             f"{at:.6g} {each + 0.0:.6f}"
             for at, each in zip(positions, ((forward + reverse) / 2).tolist(), strict=True)
@@ -433,7 +433,7 @@ class Etalon(_OnPaper):
         """Return the grid points."""
         rows = [line.split() for line in files["-etalon.txt"].splitlines()[2:-1]]
         values = [float(each) for _, each in rows]
-        return _decoded(table, [float(at) for at, _ in rows], values, values)
+        return _decode(table, [float(at) for at, _ in rows], values, values)
 
 
 class Beckhoff(_OnPaper):
@@ -446,7 +446,7 @@ class Beckhoff(_OnPaper):
 
     def files(self, table: CompensationTable, options: Any) -> Mapping[str, str]:  # noqa: ARG002
         """Return the elements of each direction as structured text."""
-        positions, forward, reverse = _columns(table)
+        positions, forward, reverse = _make_columns(table)
         return {
             end: "".join(
                 f"(fPos := {at:.6f}, fCompensation := {0.0 - each:.6f}),\n"
@@ -459,7 +459,7 @@ class Beckhoff(_OnPaper):
         """Return the elements."""
         pattern = rf"fPos := {_NUMBER}, fCompensation := {_NUMBER}"
         forward, reverse = (re.findall(pattern, files[end]) for end in ("-positive.st", "-negative.st"))
-        return _decoded(
+        return _decode(
             table,
             [float(at) for at, _ in forward],
             [-float(each) for _, each in forward],

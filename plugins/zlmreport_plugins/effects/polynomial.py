@@ -66,7 +66,7 @@ class Polynomial(Effect):
     def __init__(self, order: int = 3) -> None:
         self.settings = PolynomialOptions(order=order)
         self.order = order
-        self.linear = tuple(_coefficient(power) for power in range(order + 1))
+        self.linear = tuple(_make_coefficient(power) for power in range(order + 1))
 
     @property
     def confusions(self) -> tuple[Confusion, ...]:  # type: ignore[override]  # read where it is asked for
@@ -92,7 +92,7 @@ class Polynomial(Effect):
         return np.vander(scaled, self.order + 1, increasing=True)
 
 
-def _coefficient(power: int) -> Parameter:
+def _make_coefficient(power: int) -> Parameter:
     bound = _LARGEST if power > 1 else None
     return Parameter(
         f"c{power}",

@@ -68,13 +68,13 @@ _TEXT = re.compile(rb"\x02([^\r\n]*(?:\r\n[^\r\n]+)*)\r\n")
 STEPS_PER_UNIT = {PrintedUnit.MILLIMETRE: 1e4, PrintedUnit.INCH: 1e5}
 
 
-def position_in(answer: bytes) -> int | None:
+def find_position_in(answer: bytes) -> int | None:
     """Return a current position (``A0200``) in steps of the display; None if the answer is no such thing."""
     found = _POSITION.fullmatch(answer)
     return int(found[1] + found[2]) if found else None
 
 
-def printed_in(answer: bytes) -> Printed | None:
+def find_printed_in(answer: bytes) -> Printed | None:
     """Return a printed value (Ctrl-B, ``F0200``); None if the answer is no such thing."""
     found = _PRINT.fullmatch(answer)
     if not found:
@@ -89,7 +89,7 @@ def printed_in(answer: bytes) -> Printed | None:
     return Printed(value, unit)
 
 
-def text_in(answer: bytes) -> str | None:
+def find_text_in(answer: bytes) -> str | None:
     """Return a text (``A0000``, ``A0301`` and others), its lines in one; None if the answer is not whole."""
     found = _TEXT.fullmatch(answer)
     return " ".join(found[1].decode("ascii", "replace").split()) if found else None
@@ -212,7 +212,7 @@ class Nd28x:
                 f"look whether its interface is set to {framing}",
                 time.monotonic(),
             )
-            return readings_at_rate(options.rate, lambda: _reading(port, options, patience))
+            return readings_at_rate(options.rate, lambda: _ask_for_reading(port, options, patience))
 
         return LiveConnection(port, readings)
 
@@ -221,12 +221,12 @@ class Nd28x:
         return Nd28xEmulator(scene)
 
 
-def _reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReading:
+def _ask_for_reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReading:
     """Ask for a reading."""
     wait = options.timeout / 8 + _BITS / options.baud_rate
-    position = ask_instrument(port, CURRENT_POSITION, position_in, wait)
+    position = ask_instrument(port, CURRENT_POSITION, find_position_in, wait)
     now = time.monotonic()
-    printed = ask_instrument(port, PRINT, printed_in, wait)
+    printed = ask_instrument(port, PRINT, find_printed_in, wait)
     heard_at = time.monotonic()
     for answer in (position, printed):
         if isinstance(answer, bytes):
@@ -236,7 +236,7 @@ def _reading(port: Port, options: Nd28xOptions, patience: Patience) -> LiveReadi
         return unreadable_reading(now, "the display did not answer, or not clearly")
     if printed.unit is PrintedUnit.FAULT:
         patience.understand(heard_at)
-        text = ask_instrument(port, ERROR_TEXT, text_in, wait)
+        text = ask_instrument(port, ERROR_TEXT, find_text_in, wait)
         said = f" ({text})" if isinstance(text, str) and text else ""
         return LiveReading(
             float("nan"),

@@ -46,10 +46,10 @@ class HtmlRenderer:
         allowed = [f"script-src {script_fingerprint(script)}"] if script else []
         setting = HtmlSetting(
             style=_style(certificate.paper, certificate.look.accent, with_linked=bool(script))
-            + own_style(certificate.look, lambda font: _data_address(font, "font/sfnt"))
-            + _foot(certificate.page_words),
+            + own_style(certificate.look, lambda font: _make_data_address(font, "font/sfnt"))
+            + _write_foot(certificate.page_words),
             drawings=tuple(figure_to_svg(figure, certificate.language) for figure in certificate.figures),
-            logo=_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
+            logo=_make_data_address(logo, letterhead.logo_type) if letterhead and logo else "",
             policy="; ".join([*_ALLOWED, *allowed]),
             script=script,
             is_for_screens=True,
@@ -66,28 +66,28 @@ def _style(paper: str, accent: str, *, with_linked: bool) -> str:
         style_sheet,
     )
 
-    faces = font_face_rules(lambda face: _data_address(font_file(f"{face.stem}.woff2"), "font/woff2"))
+    faces = font_face_rules(lambda face: _make_data_address(font_file(f"{face.stem}.woff2"), "font/woff2"))
     sheets = f"{faces}\n{style_sheet('tokens', 'certificate', 'screen', paper, accent=accent)}"
     return f"{sheets}\n{linked_style()}" if with_linked else sheets
 
 
-def _foot(words: PageWords) -> str:
+def _write_foot(words: PageWords) -> str:
     """Return the rule for the foot of pages that a browser prints: number of the document and of the page."""
-    number, page, of = (_css_text(each) for each in (words.number, f"{words.page} ", f" {words.of} "))
+    number, page, of = (_write_css_text(each) for each in (words.number, f"{words.page} ", f" {words.of} "))
     return (
         f"\n@page {{ @bottom-left {{ content: {number}; font: 7.5pt sans-serif }} "
         f"@bottom-right {{ content: {page} counter(page) {of} counter(pages); font: 7.5pt sans-serif }} }}"
     )
 
 
-def _css_text(text: str) -> str:
+def _write_css_text(text: str) -> str:
     """Return a text as CSS has it, every sign that could mean anything in CSS or HTML as its number."""
     return (
         '"' + "".join(each if each.isalnum() or each == " " else f"\\{ord(each):06x}" for each in text) + '"'
     )
 
 
-def _data_address(content: bytes, media_type: str) -> str:
+def _make_data_address(content: bytes, media_type: str) -> str:
     return f"data:{media_type};base64,{b64encode(content).decode('ascii')}"
 
 

@@ -93,18 +93,18 @@ class PlateCsv:
         """Return the keys by which a file may be read, if it has readings of the lines of a plate."""
         options = PlateCsvOptions(file=file, foot=_USUAL_FOOT)
         try:
-            table = _table(options)
-            columns = _columns(table, options, Place(str(file)))
+            table = _read_table(options)
+            columns = _find_columns(table, options, Place(str(file)))
         except InputError:
             return []
         cells = Cells(table, decimal_sign(table, [columns[READING].index], ""), "", options.words_for_missing)
         said = (cells.word(row, columns[LINE], str) for row in table.rows)
-        names = {_line(name): name for name in said if name}
+        names = {_fold_line_name(name): name for name in said if name}
         tests = tuple(name for name in FLATNESS.test_names if name in names)
         if not tests:
             return []
         others = [said for name, said in names.items() if name not in tests]
-        asks = [_FOOT_ASKED, _SENSE_ASKED, *(_no_line_asked(others) if others else ())]
+        asks = [_FOOT_ASKED, _SENSE_ASKED, *(_say_no_line_asked(others) if others else ())]
         keys = {"foot": _USUAL_FOOT}
         return [SourceProposal(keys, tuple(asks), quantity=LINE_OF_A_PLATE, tests=tests)]
 
@@ -123,8 +123,8 @@ class PlateCsv:
                 context.place,
                 f"the feet of a carriage are not {options.foot:g} mm apart; 'foot' is in millimetres",
             )
-        table = _table(options)
-        columns = _columns(table, options, context.place)
+        table = _read_table(options)
+        columns = _find_columns(table, options, context.place)
         numbers = [columns[READING].index]
         sign = options.stated_decimal_sign or decimal_sign(table, numbers, options.thousands_signs)
         cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
@@ -137,35 +137,35 @@ class PlateCsv:
             value = cells.number(row, columns[READING])
             if name is None or station is None or run is None or value is None:
                 continue
-            names.setdefault(_line(name), name)
-            if _line(name) == _line(axis.name):
+            names.setdefault(_fold_line_name(name), name)
+            if _fold_line_name(name) == _fold_line_name(axis.name):
                 place = table.place(row, columns[READING].index)
                 readings.append(Reading(place, station * foot, Approach.POSITIVE, run, side * value))
         problems = [*table.problems, *cells.problems]
         if not readings and not problems:
             near = did_you_mean(axis.name, list(names.values()))
             problems.append(Problem(table.source.place(), f"there is no line {quoted(axis.name)}; {near}"))
-        problems += _gaps(readings, foot)
+        problems += _find_gaps(readings, foot)
         provenance = Provenance(self.identifier, (table.source.source,))
         return collect_readings(readings, axis, provenance, place=table.source.place(), problems=problems)
 
 
-def _line(name: str) -> str:
+def _fold_line_name(name: str) -> str:
     """Return the name of a line as it is compared: whatever its hyphen and its case."""
     return name.strip().upper().replace("–", "-").replace("−", "-").replace("_", "-").replace(" ", "")
 
 
-def _no_line_asked(names: list[str]) -> Iterator[str]:
+def _say_no_line_asked(names: list[str]) -> Iterator[str]:
     shown = ", ".join(map(quoted, names[:8]))
     yield f"What is {shown}? The lines of a union jack are {', '.join(LINES)}; other ones are left out."
 
 
-def _table(options: PlateCsvOptions) -> TextTable:
+def _read_table(options: PlateCsvOptions) -> TextTable:
     text = read_text(options.file, options.encoding, options.sheet)
     return read_table(text, options, lambda name: folded(heading_of(name).name) in options.column_names)
 
 
-def _columns(table: TextTable, options: PlateCsvOptions, place: Place) -> dict[str, TextColumn]:
+def _find_columns(table: TextTable, options: PlateCsvOptions, place: Place) -> dict[str, TextColumn]:
     among = read_headings(table, options)
     found: dict[str, Heading] = {
         name: heading
@@ -182,7 +182,7 @@ def _columns(table: TextTable, options: PlateCsvOptions, place: Place) -> dict[s
     }
 
 
-def _gaps(readings: list[Reading], foot: float) -> Iterator[Problem]:
+def _find_gaps(readings: list[Reading], foot: float) -> Iterator[Problem]:
     """Yield the first station of a line that is left out: heights are sums, and none goes on beyond it."""
     by_station = {round(each.target_position / foot): each for each in readings}
     for number, (station, reading) in enumerate(sorted(by_station.items()), 1):

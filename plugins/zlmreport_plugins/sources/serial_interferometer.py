@@ -62,14 +62,14 @@ class Part:
     left_out: int  #: How many readings the others have.
 
 
-def counted(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
+def count_readings(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, ...]]:
     """Return the readings that count, by the numbers of their visits, and what was left out.
 
     Readings of two attempts are not mixed, for each has a datum of its own. The attempt with the most
     readings counts, of equals the last: a rule that no reading's value has a part in.
     """
     by_part: dict[int, dict[int, list[Taken]]] = defaultdict(lambda: defaultdict(list))
-    for taken in _taken(history.entries):
+    for taken in _select_taken(history.entries):
         by_part[taken.event.visit.part][taken.event.attempt].append(taken)
     readings: dict[int, Taken] = {}
     parts = []
@@ -84,11 +84,11 @@ def counted(history: JournalHistory) -> tuple[Mapping[int, Taken], tuple[Part, .
     return readings, tuple(parts)
 
 
-def _taken(entries: Iterable[JournalEntry]) -> Iterable[Taken]:
+def _select_taken(entries: Iterable[JournalEntry]) -> Iterable[Taken]:
     return (Taken(entry, entry.event) for entry in entries if isinstance(entry.event, ReadingRecorded))
 
 
-def remarks(
+def list_remarks(
     history: JournalHistory, taken: Mapping[int, Taken], parts: Sequence[Part], axis: Axis
 ) -> Iterator[Words]:
     """Yield what a reader of the results must know of a capture."""
@@ -109,18 +109,18 @@ def remarks(
         yield Words(
             "The reading of a visit is the last standstill of at least {settle} s before the axis left."
         ).given(settle=header.settings.settle)
-    yield _datum(header.datum, axis)
+    yield _say_datum(header.datum, axis)
     held = sum(isinstance(entry.event, BeamHeld) for entry in history.entries)
     if held:
         yield Words(
             "The beam was broken for a moment {held} times while the axis stood still; each time the "
             "display showed afterwards what it had shown before."
         ).given(held=held)
-    yield from _failed_displays(history)
-    yield from _interruptions(history, axis)
-    yield from _closure(history, axis)
-    yield from _repetitions(parts)
-    yield from _orders(history)
+    yield from _say_failed_displays(history)
+    yield from _say_interruptions(history, axis)
+    yield from _say_closure(history, axis)
+    yield from _say_repetitions(parts)
+    yield from _say_orders(history)
     missing = len(header.visits) - len(taken)
     if missing:
         yield Words("{missing} of {all} visits of the plan have no reading.").given(
@@ -130,7 +130,7 @@ def remarks(
         yield Words("The operator closed the test before the plan was done.")
 
 
-def _failed_displays(history: JournalHistory) -> Iterator[Words]:
+def _say_failed_displays(history: JournalHistory) -> Iterator[Words]:
     """Yield how often a display was switched, and how sure it was which visit a reading is."""
     events = [entry.event for entry in history.entries]
     switched = sum(isinstance(event, ScaleChanged) for event in events)
@@ -146,7 +146,7 @@ def _failed_displays(history: JournalHistory) -> Iterator[Words]:
         ).given(count=len(shares), share=math.floor(1000 * min(shares)) / 10)
 
 
-def _datum(datum: float | None, axis: Axis) -> Words:
+def _say_datum(datum: float | None, axis: Axis) -> Words:
     if datum is None:
         return Words("Positions are counted from the instrument's own zero.")
     return Words(
@@ -154,7 +154,7 @@ def _datum(datum: float | None, axis: Axis) -> Words:
     ).given(position=axis.position_unit.from_si(datum), unit=axis.position_unit.symbol)
 
 
-def _closure(history: JournalHistory, axis: Axis) -> Iterator[Words]:
+def _say_closure(history: JournalHistory, axis: Axis) -> Iterator[Words]:
     """Yield by how much the datum was another one at the end, and which readings that marks."""
     since: list[int] = []
     for entry in history.entries:
@@ -172,7 +172,7 @@ def _closure(history: JournalHistory, axis: Axis) -> Iterator[Words]:
             )
 
 
-def _interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
+def _say_interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
     events = [entry.event for entry in history.entries]
     lost = sum(isinstance(event, ZeroLost | DatumMoved) for event in events)
     resumed = sum(isinstance(event, CaptureResumed) for event in events)
@@ -193,7 +193,7 @@ def _interruptions(history: JournalHistory, axis: Axis) -> Iterator[Words]:
         ).given(count=lost)
 
 
-def _repetitions(parts: Sequence[Part]) -> Iterator[Words]:
+def _say_repetitions(parts: Sequence[Part]) -> Iterator[Words]:
     for part in parts:
         if part.attempts > 1:
             yield Words(
@@ -203,7 +203,7 @@ def _repetitions(parts: Sequence[Part]) -> Iterator[Words]:
             ).given(part=part.number, attempts=part.attempts, attempt=part.attempt, left_out=part.left_out)
 
 
-def _orders(history: JournalHistory) -> Iterator[Words]:
+def _say_orders(history: JournalHistory) -> Iterator[Words]:
     """Yield what the operator ordered and said, for a choice among readings is nobody's secret."""
     visit = 0
     for entry in history.entries:
@@ -240,18 +240,18 @@ class SerialInterferometer:
         place = Place(str(options.journal))
         history = read_journal(options.journal)
         if history is None or not history.progress.is_over:
-            raise AccessError.at(place, _unfinished(history))
+            raise AccessError.at(place, _say_unfinished(history))
         _demand_axis(history.header, context.axis, place)
-        taken, parts = counted(history)
+        taken, parts = count_readings(history)
         provenance = Provenance(
-            self.identifier, (history.file,), tuple(remarks(history, taken, parts, context.axis))
+            self.identifier, (history.file,), tuple(list_remarks(history, taken, parts, context.axis))
         )
-        readings = _readings(history, taken, place)
+        readings = _list_readings(history, taken, place)
         found = collect_readings(readings, context.axis, provenance, place=place)
         return replace(found, datum=history.header.datum)
 
 
-def _unfinished(history: JournalHistory | None) -> str:
+def _say_unfinished(history: JournalHistory | None) -> str:
     if history is None:
         return f"holds nothing yet; '{_COMMAND}' begins the capture"
     progress = history.progress
@@ -270,12 +270,12 @@ def _demand_axis(header: JournalHeader, axis: Axis, place: Place) -> None:
         )
 
 
-def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place) -> Iterator[Reading]:
+def _list_readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place) -> Iterator[Reading]:
     """Yield the visits in the order in which they were taken; those that were not have no deviation."""
     listed, moments, moment = history.header.visits, {}, 0.0
     for visit in listed:
         if visit.number in taken:
-            moment = _moment(taken[visit.number])
+            moment = _find_moment(taken[visit.number])
         moments[visit.number] = moment
     for visit in sorted(listed, key=lambda visit: moments[visit.number]):
         found = taken.get(visit.number)
@@ -293,7 +293,7 @@ def _readings(history: JournalHistory, taken: Mapping[int, Taken], place: Place)
             )
 
 
-def _moment(taken: Taken) -> float:
+def _find_moment(taken: Taken) -> float:
     """Return when a reading was taken, s from the start of the capture."""
     return taken.entry.elapsed - taken.event.late
 

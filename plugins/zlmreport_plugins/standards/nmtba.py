@@ -162,7 +162,7 @@ class Nmtba:
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold the requirements against the test."""
-        return findings(measurements)
+        return check_requirements(measurements)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the parameters, and X̄_j and P_sj by position."""
@@ -181,7 +181,7 @@ _ONE_DIRECTION_ONLY = Words(
 )
 
 
-def findings(measurements: MeasurementSet) -> Iterator[Finding]:
+def check_requirements(measurements: MeasurementSet) -> Iterator[Finding]:
     """Yield the requirements, held against the test.
 
     The recommendation's own numbers have not been read; only what its formulas need is asked.
@@ -211,7 +211,7 @@ def mean_deviation(statistics: PositionStatistics) -> FloatArray:
     total = np.where(count > 0, count * statistics.mean, 0.0).sum(axis=-2)
     with np.errstate(invalid="ignore"):
         mean = total / count.sum(axis=-2)
-    return np.where(_lacks_a_direction(statistics), np.nan, mean)
+    return np.where(_find_lacking_a_direction(statistics), np.nan, mean)
 
 
 def position_spread(statistics: PositionStatistics, mean: FloatArray) -> FloatArray:
@@ -251,7 +251,7 @@ def offset(upper: FloatArray, lower: FloatArray) -> FloatArray:
     return -(largest_over_positions(upper) + smallest_over_positions(lower)) / 2
 
 
-def _lacks_a_direction(statistics: PositionStatistics) -> BoolArray:
+def _find_lacking_a_direction(statistics: PositionStatistics) -> BoolArray:
     """Tell where a test of both directions has readings of only one, shape (..., position)."""
     lacks: BoolArray = np.any(statistics.count == 0, axis=-2)
     return lacks & statistics.is_bidirectional[..., np.newaxis]

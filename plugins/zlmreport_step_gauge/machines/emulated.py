@@ -18,7 +18,7 @@ from zlmreport.plugin import FloatArray, InputError
 from zlmreport.plugin.extension import Job
 from zlmreport_step_gauge.calibration import read_calibration
 from zlmreport_step_gauge.gauge import StepGauge
-from zlmreport_step_gauge.paths.plan import PlannedPath, path_of_job
+from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path_of_job
 
 #: Returns the error of the machine at true points, shape (..., 3), m: what is shown − where it is.
 Errors: TypeAlias = Callable[[FloatArray], FloatArray]
@@ -27,12 +27,12 @@ Errors: TypeAlias = Callable[[FloatArray], FloatArray]
 _HALVINGS = 40
 
 
-def no_errors(points: FloatArray) -> FloatArray:
+def give_no_errors(points: FloatArray) -> FloatArray:
     """Return the errors of a perfect machine."""
     return np.zeros_like(points)
 
 
-def errors_along(
+def make_errors_along(
     direction: FloatArray, origin: FloatArray, positions: FloatArray, deviations: FloatArray
 ) -> Errors:
     """Return errors that act along a line.
@@ -73,7 +73,7 @@ class CoordinateMachine:
     """The machine."""
 
     boxes: Boxes  #: What stands on it.
-    errors: Errors = no_errors  #: Of the machine.
+    errors: Errors = give_no_errors  #: Of the machine.
     effective_radius: float = 2e-3  #: Of the tip when it touches, m.
     noise: float = 0.0  #: Standard deviation of a coordinate at a touch, m.
     #: First and last position in x, y and z, m.
@@ -142,7 +142,7 @@ PRETRAVEL = 1.5e-6
 _FAR = 100.0
 
 
-def machine_of_job(job: Job, *, scale_error: float, noise: float) -> CoordinateMachine:
+def make_machine_of_job(job: Job, *, scale_error: float, noise: float) -> CoordinateMachine:
     """Return the machine.
 
     `job`: With a step gauge that is located by initial points; its faces stand where they were calibrated.
@@ -155,11 +155,11 @@ def machine_of_job(job: Job, *, scale_error: float, noise: float) -> CoordinateM
     keys = job.own_keys("step_gauge")
     if keys is None:
         raise InputError.at(job.place_of("step_gauge"), "there is no step gauge; state step_gauge")
-    planned = path_of_job(job, keys)
+    planned = plan_path_of_job(job, keys)
     gauge = read_calibration(keys.calibration).gauge
     machine = CoordinateMachine(
-        boxes=_boxes(gauge, planned),
-        errors=errors_along(
+        boxes=_make_boxes(gauge, planned),
+        errors=make_errors_along(
             planned.frame.axes[0],
             planned.frame.origin,
             np.array([-_FAR, _FAR]),
@@ -175,22 +175,22 @@ def machine_of_job(job: Job, *, scale_error: float, noise: float) -> CoordinateM
     return machine
 
 
-def _boxes(gauge: StepGauge, planned: PlannedPath) -> Boxes:
+def _make_boxes(gauge: StepGauge, planned: PlannedPath) -> Boxes:
     """Return the blocks with their faces where they were calibrated, and the base."""
     lower, upper = planned.obstacles.lower.copy(), planned.obstacles.upper.copy()
-    ends = {block: _ends(gauge, block) for block in planned.obstacles.blocks}
+    ends = {block: _find_ends(gauge, block) for block in planned.obstacles.blocks}
     first = planned.path.probings[0].face
     origin = sum(ends[(first + 1) // 2]) / 2
     for index, (low, high) in enumerate(ends.values()):
         lower[index, 0], upper[index, 0] = low - origin, high - origin
-    return Boxes(planned.frame.origin, planned.frame.axes, _kept(lower), _kept(upper))
+    return Boxes(planned.frame.origin, planned.frame.axes, _keep(lower), _keep(upper))
 
 
-def _ends(gauge: StepGauge, block: int) -> tuple[float, float]:
+def _find_ends(gauge: StepGauge, block: int) -> tuple[float, float]:
     low, high = sorted(face.distance for face in gauge.faces if face.block == block)
     return low, high
 
 
-def _kept(array: FloatArray) -> FloatArray:
+def _keep(array: FloatArray) -> FloatArray:
     array.setflags(write=False)
     return array

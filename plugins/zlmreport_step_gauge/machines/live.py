@@ -18,7 +18,7 @@ from zlmreport.plugin import (
 )
 from zlmreport.plugin.extension import Command, CommandHost, CommandOption, Happening, LiveRun
 from zlmreport_step_gauge.keys import STANDARD_PORT
-from zlmreport_step_gauge.machines.emulated import machine_of_job
+from zlmreport_step_gauge.machines.emulated import make_machine_of_job
 from zlmreport_step_gauge.machines.run import LiveProbing, run_probing
 from zlmreport_step_gauge.machines.server import DmeServer, PointFault
 from zlmreport_step_gauge.machines.session import MachineError
@@ -29,7 +29,7 @@ IPPDME = "ippdme"
 _PER_METRE = 1e-6  # of µm/m
 
 
-def live_run(probing: LiveProbing) -> LiveRun:
+def make_live_run(probing: LiveProbing) -> LiveRun:
     """Return a run of a machine as ``zlmreport capture`` shows it."""
     machine = probing.machine
     return LiveRun(
@@ -79,7 +79,7 @@ def _emulate(values: Mapping[str, Any], host: CommandHost) -> int:
         )
     job = host.load(values["job"])
     scale_error = values["scale-error"]
-    machine = machine_of_job(
+    machine = make_machine_of_job(
         job, scale_error=scale_error * _PER_METRE, noise=MICROMETRE.to_si(values["noise"])
     )
     tool = getattr(getattr(job.source.options, "machine", None), "tool", None)

@@ -30,8 +30,14 @@ from zlmreport_step_gauge.machines.session import (
     read_data,
 )
 from zlmreport_step_gauge.paths.path import Point, Probing, ProbingPath
-from zlmreport_step_gauge.paths.plan import PlannedPath, path_of_job, remaining
-from zlmreport_step_gauge.paths.programs import beginning, command, coordinates, direction, plain
+from zlmreport_step_gauge.paths.plan import PlannedPath, find_remaining, plan_path_of_job
+from zlmreport_step_gauge.paths.programs import (
+    write_beginning,
+    write_command,
+    write_coordinates,
+    write_direction,
+    write_plain,
+)
 
 _COLUMNS = "face,cycle,x,y,z,i,j,k"
 _FINGERPRINT = "# path "
@@ -78,8 +84,13 @@ class Journal:
 
     def take(self, probing: Probing, centre: Point, others: Mapping[str, float]) -> None:
         """Write a point: the tip's centre, m, and as a remark what else the machine reported with it."""
-        row = [str(probing.face), str(probing.cycle), *coordinates(centre, 5), *direction(probing.normal)]
-        told = ", ".join(f"{plain(name)} {value:.9g}" for name, value in others.items())
+        row = [
+            str(probing.face),
+            str(probing.cycle),
+            *write_coordinates(centre, 5),
+            *write_direction(probing.normal),
+        ]
+        told = ", ".join(f"{write_plain(name)} {value:.9g}" for name, value in others.items())
         remark = [f"# face {probing.face}, cycle {probing.cycle}: {told}"] if told else []
         self._append(",".join(row), *remark)
         self.done.add((probing.face, probing.cycle))
@@ -98,10 +109,10 @@ class Journal:
 
     def _head(self) -> tuple[str, ...]:
         radius = MILLIMETRE.from_si(self._path.tip_radius)
-        what = f"{plain(self._path.gauge)}, job {plain(self._path.number)}"
+        what = f"{write_plain(self._path.gauge)}, job {write_plain(self._path.number)}"
         return (
             f"# {what}; I++ DME, centres of the tip, mm, nominal radius {radius:.6g} mm",
-            f"{_FINGERPRINT}{fingerprint(self._path)}",
+            f"{_FINGERPRINT}{digest_path(self._path)}",
             _COLUMNS,
         )
 
@@ -112,7 +123,7 @@ class Journal:
         head = list(self._head())
         if lines[1:3] == head[1:]:
             self._file.cut(len(whole) + len(end))
-            return {_key(line) for line in lines[3:] if not line.startswith("#")}
+            return {_read_key(line) for line in lines[3:] if not line.startswith("#")}
         if lines == head[: len(lines)]:  # nothing but a part of the head
             self._file.cut(0)
             return set()
@@ -123,12 +134,12 @@ class Journal:
         )
 
 
-def _key(line: str) -> Key:
+def _read_key(line: str) -> Key:
     face, cycle, _ = line.split(",", 2)
     return int(face), int(cycle)
 
 
-def fingerprint(path: ProbingPath) -> str:
+def digest_path(path: ProbingPath) -> str:
     """Return what tells one path from another."""
     text = repr((path.gauge, path.tip_radius, path.moves))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -159,7 +170,7 @@ class LiveProbing:
     result: Path  #: Where the table of points goes, which the job's data source reads.
 
 
-def live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:
+def find_live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:
     """Return what a job asks to be probed live; None if its data source is none that a machine probes for.
 
     Raises `AccessError` if a file of the gauge cannot be read; `InputError` if no machine is stated, or the
@@ -175,7 +186,7 @@ def live_probing(job: Job, keys: StepGaugeKeys) -> LiveProbing | None:
             "a step gauge is probed by a machine; state measurement.source.machine, such as "
             "{host: 192.168.1.20, tool: RefTool}",
         )
-    return LiveProbing(path_of_job(job, keys), machine, result)
+    return LiveProbing(plan_path_of_job(job, keys), machine, result)
 
 
 def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
@@ -188,12 +199,12 @@ def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
     whole = probing.planned.path
     with Journal(probing.result, whole) as journal:
         watcher.begun(len(journal.done), len(whole.probings))
-        path = remaining(probing.planned, journal.done)
+        path = find_remaining(probing.planned, journal.done)
         missed: dict[Probing, MachineError] = {}
         if path.probings:
             missed = _probe(path, probing.machine, journal, watcher)
         if missed:
-            raise AccessError(_problems(missed, journal.part))
+            raise AccessError(_find_problems(missed, journal.part))
         return journal.finish()
 
 
@@ -204,13 +215,13 @@ def _probe(
     missed: dict[Probing, MachineError] = {}
     with Connection(machine.host, machine.port) as connection:
         session = Session(connection, machine.timeout, watcher.told)
-        with _stopped_on_interrupt(session):
-            session.begin(beginning(path, machine.tool))
+        with _stop_on_interrupt(session):
+            session.begin(write_beginning(path, machine.tool))
             for move in path.moves:
                 if not isinstance(move, Probing):
-                    session.order(command(move))
+                    session.order(write_command(move))
                     continue
-                point = _touched(session, move, connection.place)
+                point = _touch_face(session, move, connection.place)
                 if isinstance(point, MachineError):
                     missed[move] = point
                     watcher.missed(move, point)
@@ -222,11 +233,11 @@ def _probe(
     return missed
 
 
-def _touched(
+def _touch_face(
     session: Session, probing: Probing, place: Place
 ) -> tuple[Point, Mapping[str, float]] | MachineError:
     """Measure towards a face; return the tip's centre and what else is reported, or why there is none."""
-    outcome = session.ask(command(probing))
+    outcome = session.ask(write_command(probing))
     for error in outcome.errors:
         if is_missed_face(error):
             if error.is_in_the_way:
@@ -255,7 +266,7 @@ def _touched(
 
 
 @contextlib.contextmanager
-def _stopped_on_interrupt(session: Session) -> Iterator[None]:
+def _stop_on_interrupt(session: Session) -> Iterator[None]:
     """Stop the machine when the operator interrupts the run."""
     try:
         yield
@@ -265,7 +276,7 @@ def _stopped_on_interrupt(session: Session) -> Iterator[None]:
         raise
 
 
-def _problems(missed: Mapping[Probing, MachineError], part: Path) -> Iterator[Problem]:
+def _find_problems(missed: Mapping[Probing, MachineError], part: Path) -> Iterator[Problem]:
     for probing, error in missed.items():
         yield Problem(
             Place(str(part)),

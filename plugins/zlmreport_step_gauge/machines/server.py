@@ -113,11 +113,11 @@ class DmeServer:
         if found is None:
             tag = line[:5] if re.match(r"\d{5} ", line) else "E0000"
             self._is_stuck = True
-            yield from _refused(tag, _PROTOCOL_ERROR, "Unknown")
+            yield from _answer_refused(tag, _PROTOCOL_ERROR, "Unknown")
             return
         tag, name, arguments = found.group("tag", "name", "arguments")
         if tag in {"00000", "E0000"}:
-            yield from _refused(tag, _ILLEGAL_TAG, name)
+            yield from _answer_refused(tag, _ILLEGAL_TAG, name)
             return
         yield f"{tag} &"
         try:
@@ -127,8 +127,8 @@ class DmeServer:
                 return
             self._is_stuck = True
             if trouble is _STOPPED:
-                yield f"E0000 ! {_error(trouble, 'Server')}"
-            yield f"{tag} ! {_error(trouble, name)}"
+                yield f"E0000 ! {_write_error(trouble, 'Server')}"
+            yield f"{tag} ! {_write_error(trouble, name)}"
         else:
             yield from (f"{tag} # {text}" for text in data)
         yield f"{tag} %"
@@ -189,14 +189,14 @@ class DmeServer:
         named = _GO_TO.fullmatch(arguments)
         if named is None:
             raise _ARGUMENTS
-        self._travel(_metres(named.groups()))
+        self._travel(_read_metres(named.groups()))
         yield from ()
 
     def _measure(self, arguments: str) -> Iterator[str]:
         named = _MEASURE.fullmatch(arguments)
         if named is None:
             raise _ARGUMENTS
-        nominal = _metres(named.groups()[:3])
+        nominal = _read_metres(named.groups()[:3])
         normal = np.array([float(each) for each in named.groups()[3:]])
         length = float(np.linalg.norm(normal))
         self._demand(abs(length - 1) < 1e-3, _ARGUMENTS)
@@ -253,15 +253,15 @@ class DmeServer:
             raise trouble
 
 
-def _metres(texts: tuple[str, ...]) -> FloatArray:
+def _read_metres(texts: tuple[str, ...]) -> FloatArray:
     return np.array([float(each) for each in texts]) / _PER_METRE
 
 
-def _refused(tag: str, trouble: _Trouble, name: str) -> Iterator[str]:
+def _answer_refused(tag: str, trouble: _Trouble, name: str) -> Iterator[str]:
     """Yield the answers to a line that is no command."""
-    yield f"{tag} ! {_error(trouble, name)}"
+    yield f"{tag} ! {_write_error(trouble, name)}"
     yield f"{tag} %"
 
 
-def _error(trouble: _Trouble, name: str) -> str:
+def _write_error(trouble: _Trouble, name: str) -> str:
     return f'Error({trouble.severity}, {trouble.number:04d}, {name}, "{trouble.text}")'

@@ -143,7 +143,7 @@ def is_missed_face(error: MachineError) -> bool:
     return error.number in {NO_TOUCH, NO_SURFACE}
 
 
-def advice(error: MachineError) -> str:
+def say_advice(error: MachineError) -> str:
     """Return what the operator can do."""
     return _ADVICE.get(error.number, "look at the machine, and start again")
 
@@ -202,7 +202,7 @@ class Session:
 
     def fail(self, error: MachineError) -> NoReturn:
         """Raise the error of the machine, with what the operator can do."""
-        raise AccessError.at(self._connection.place, f"the machine stopped: {error}; {advice(error)}")
+        raise AccessError.at(self._connection.place, f"the machine stopped: {error}; {say_advice(error)}")
 
     def ask(self, command: str) -> SessionOutcome:
         """Give a command, and return how it ended."""
@@ -297,7 +297,7 @@ class Connection:
         except OSError as error:
             raise AccessError.at(
                 self.place,
-                f"the machine's server cannot be reached ({_said(error)}); is it started, and are host and "
+                f"the machine's server cannot be reached ({_say(error)}); is it started, and are host and "
                 "port right?",
             ) from error
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -316,7 +316,7 @@ class Connection:
         try:
             self._socket.sendall(f"{line}\r\n".encode("ascii"))
         except OSError as error:
-            raise self._lost(_said(error)) from error
+            raise self._lost(_say(error)) from error
 
     def receive(self, patience: float) -> str | None:
         """Return the next line without its end; None if none comes within a time, s."""
@@ -330,7 +330,7 @@ class Connection:
             except TimeoutError:
                 return None
             except OSError as error:
-                raise self._lost(_said(error)) from error
+                raise self._lost(_say(error)) from error
             if not data:
                 raise self._lost("it has hung up")
             self._rest += data
@@ -345,5 +345,5 @@ class Connection:
         return AccessError([Problem(self.place, message)])
 
 
-def _said(error: OSError) -> str:
+def _say(error: OSError) -> str:
     return " ".join(str(error.strerror or error).split())[:200]

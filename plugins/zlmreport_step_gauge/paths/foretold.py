@@ -33,9 +33,9 @@ from zlmreport.plugin.standard import Role
 from zlmreport_step_gauge.gauge import Side
 from zlmreport_step_gauge.keys import StepGaugeKeys
 from zlmreport_step_gauge.paths.path import PathKind, Point, Probing, ProbingPath
-from zlmreport_step_gauge.paths.plan import PlannedPath, path_of_job
-from zlmreport_step_gauge.paths.room import least_gap
-from zlmreport_step_gauge.paths.views import Note, Touch, View, path_views
+from zlmreport_step_gauge.paths.plan import PlannedPath, plan_path_of_job
+from zlmreport_step_gauge.paths.room import find_least_gap
+from zlmreport_step_gauge.paths.views import Note, Touch, View, make_path_views
 
 SCHEMA = "zlmreport/probing-path/1"
 _MINUTE = 60.0
@@ -45,7 +45,7 @@ _KINDS = {
 }
 
 
-def foretold(job: Job, keys: StepGaugeKeys) -> ExtensionPlan:
+def foretell(job: Job, keys: StepGaugeKeys) -> ExtensionPlan:
     """Return the plan of the path over the step gauge of a job; its points need not exist."""
     if "plan" in job.tree.entries:
         raise InputError.at(
@@ -53,34 +53,34 @@ def foretold(job: Job, keys: StepGaugeKeys) -> ExtensionPlan:
             "plan is about a test of target positions, and this job has a step gauge, whose path is "
             "step_gauge.path; take one of them out",
         )
-    planned = path_of_job(job, keys)
+    planned = plan_path_of_job(job, keys)
     path = planned.path
     faces = {probing.face for probing in path.probings}
     cycles = "1 cycle" if planned.settings.cycles == 1 else f"{planned.settings.cycles} cycles"
     return ExtensionPlan(
         heading=(path.number, f"{path.gauge}: {len(faces)} faces, {cycles}, {len(path.probings)} points"),
         parts=(
-            ("gauge", f"faces {min(faces)} to {max(faces)}, mm", tuple(_of_gauge(planned))),
+            ("gauge", f"faces {min(faces)} to {max(faces)}, mm", tuple(_say_of_gauge(planned))),
             (
                 "path",
                 f"{planned.settings.kind.value}, {_KINDS[planned.settings.kind]}",
-                tuple(_of_path(planned)),
+                tuple(_say_of_path(planned)),
             ),
         ),
-        values=_values(planned),
+        values=_collect_values(planned),
         subject=lambda place: replace(path, place=place),
-        files=lambda: _files(planned, job.keys.certificate.language),
+        files=lambda: _make_files(planned, job.keys.certificate.language),
         files_in_words="a picture of the path",
         next_step="look at the picture, probe the gauge",
     )
 
 
-def _files(planned: PlannedPath, language: Language) -> dict[str, str]:
+def _make_files(planned: PlannedPath, language: Language) -> dict[str, str]:
     """Return the picture of the path, and its moves as a table."""
-    from zlmreport_step_gauge.paths.foretold import path_svg  # noqa: PLC0415 (brings the typeface)
+    from zlmreport_step_gauge.paths.foretold import draw_path  # noqa: PLC0415 (brings the typeface)
 
     return {
-        "path.svg": path_svg(planned, language),
+        "path.svg": draw_path(planned, language),
         "path.csv": "".join(f"{line}\n" for line in _rows(planned.path)),
     }
 
@@ -94,22 +94,22 @@ def _rows(path: ProbingPath) -> Iterator[str]:
         normal = [f"{each:.7f}" for each in move.normal] if isinstance(move, Probing) else ["", "", ""]
         kind = "measure" if is_probing else "move"
         which = [str(each or "") for each in (move.face, move.cycle)]
-        yield ",".join([str(number), kind, *which, *(f"{_mm(at):.5f}" for at in point), *normal])
+        yield ",".join([str(number), kind, *which, *(f"{_write_mm(at):.5f}" for at in point), *normal])
 
 
-def _of_gauge(planned: PlannedPath) -> Iterator[str]:
+def _say_of_gauge(planned: PlannedPath) -> Iterator[str]:
     path = planned.path
     last = max(probing.face for probing in path.probings)
-    ends = [_said(probing.target) for probing in (path.probings[0], _of_face(path, last))]
+    ends = [_write_point(probing.target) for probing in (path.probings[0], _find_probing_of_face(path, last))]
     yield f"from {ends[0]} to {ends[1]}"
     yield f"direction ({', '.join(fixed_number(each, 6) for each in planned.frame.axes[0].tolist())})"
 
 
-def _of_path(planned: PlannedPath) -> Iterator[str]:
+def _say_of_path(planned: PlannedPath) -> Iterator[str]:
     path = planned.path
     yield "each cycle takes front faces on the way forward and back faces on the way back"
     yield ", ".join(
-        f"{name} {general_number(_mm(value))} mm"
+        f"{name} {general_number(_write_mm(value))} mm"
         for name, value in (
             ("tip radius", path.tip_radius),
             ("clearance", planned.settings.clearance),
@@ -117,9 +117,9 @@ def _of_path(planned: PlannedPath) -> Iterator[str]:
             ("retract", path.retract),
         )
     )
-    gap, name = least_gap(path, planned.room)
-    yield f"free of collisions: the tip stays {fixed_number(_mm(gap), 2)} mm from {name}"
-    speed, measuring = (general_number(_mm(each)) for each in (path.speed, path.measuring_speed))
+    gap, name = find_least_gap(path, planned.room)
+    yield f"free of collisions: the tip stays {fixed_number(_write_mm(gap), 2)} mm from {name}"
+    speed, measuring = (general_number(_write_mm(each)) for each in (path.speed, path.measuring_speed))
     minutes = max(1, round(path.duration / _MINUTE))
     yield (
         f"{len(path.moves)} moves, {fixed_number(path.length, 2)} m at {speed} mm/s, "
@@ -127,22 +127,22 @@ def _of_path(planned: PlannedPath) -> Iterator[str]:
     )
 
 
-def _of_face(path: ProbingPath, face: int) -> Probing:
+def _find_probing_of_face(path: ProbingPath, face: int) -> Probing:
     return next(probing for probing in path.probings if probing.face == face)
 
 
-def _said(point: Point) -> str:
-    return f"({', '.join(fixed_number(_mm(at), 3) for at in point)})"
+def _write_point(point: Point) -> str:
+    return f"({', '.join(fixed_number(_write_mm(at), 3) for at in point)})"
 
 
-def _mm(length: float) -> float:
+def _write_mm(length: float) -> float:
     return MILLIMETRE.from_si(length)
 
 
-def _values(planned: PlannedPath) -> dict[str, Any]:
+def _collect_values(planned: PlannedPath) -> dict[str, Any]:
     """Return a path as plain values for JSON, mm and s."""
     path = planned.path
-    gap, name = least_gap(path, planned.room)
+    gap, name = find_least_gap(path, planned.room)
     return {
         "schema": SCHEMA,
         "certificate": {"number": path.number},
@@ -152,15 +152,15 @@ def _values(planned: PlannedPath) -> dict[str, Any]:
         "cycles": planned.settings.cycles,
         "faces": sorted({probing.face for probing in path.probings}),
         "direction": planned.frame.axes[0].tolist(),
-        "travelled": _mm(path.length),
+        "travelled": _write_mm(path.length),
         "duration": path.duration,
-        "least_gap": {"value": _mm(gap), "beside": name},
+        "least_gap": {"value": _write_mm(gap), "beside": name},
         "moves": [
             {
                 "kind": "measure" if isinstance(move, Probing) else "move",
                 "face": move.face or None,
                 "cycle": move.cycle or None,
-                "to": [_mm(at) for at in (move.target if isinstance(move, Probing) else move.to)],
+                "to": [_write_mm(at) for at in (move.target if isinstance(move, Probing) else move.to)],
                 "normal": list(move.normal) if isinstance(move, Probing) else None,
             }
             for move in path.moves
@@ -220,26 +220,26 @@ class _Placed:
         return np.stack([x, y], axis=-1)
 
 
-def path_svg(planned: PlannedPath, language: Language) -> str:
+def draw_path(planned: PlannedPath, language: Language) -> str:
     """Return the picture of a path as an SVG image."""
-    views = path_views(planned)
-    boxes = [_extent(view) for view in views]
+    views = make_path_views(planned)
+    boxes = [_find_extent(view) for view in views]
     scales = [min((GRAPH_WIDTH - 2 * _EDGE) / wide, _TALLEST / high) for _, (wide, high) in boxes]
     heights = [scale * high for scale, (_, (_, high)) in zip(scales, boxes, strict=True)]
     total = _LEGEND + sum(heights) + len(views) * (_HEADING + _VIEW_GAP)
-    canvas = SvgCanvas(GRAPH_WIDTH, total, _alternative(planned).in_language(language))
-    _legend(canvas, language)
+    canvas = SvgCanvas(GRAPH_WIDTH, total, _describe_in_words(planned).in_language(language))
+    _draw_legend(canvas, language)
     top = _LEGEND
     for view, (lowest, (wide, _)), scale, height in zip(views, boxes, scales, heights, strict=True):
         top += _HEADING
-        _heading(canvas, view, top, scale, language)
+        _draw_heading(canvas, view, top, scale, language)
         placed = _Placed(view, scale, (GRAPH_WIDTH - scale * wide) / 2, top + height, lowest)
         _draw(canvas, placed, language)
         top += height + _VIEW_GAP
     return canvas.image()
 
 
-def _extent(view: View) -> tuple[tuple[float, float], tuple[float, float]]:
+def _find_extent(view: View) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lower left corner of a view, and its width and height, mm."""
     notes = np.reshape([note.at for note in view.notes], (-1, 2))
     parts = [view.base, view.blocks, view.edges, view.way, view.arrows, notes]
@@ -253,28 +253,28 @@ def _draw(canvas: Canvas, placed: _Placed, language: Language) -> None:
     view = placed.view
     for kind, sides, style in (("base", view.base, _BASE), ("block", view.blocks, _BLOCK)):
         for side in sides:
-            canvas.outline(kind, [*_polyline(placed(side)), ("Z", ())], *style)
+            canvas.outline(kind, [*_draw_polyline(placed(side)), ("Z", ())], *style)
     for edge in view.edges:
-        canvas.outline("working volume", _polyline(placed(edge)), _EXTENSION, None)
-    canvas.outline("path", _polyline(placed(view.way)), _PATH, None)
+        canvas.outline("working volume", _draw_polyline(placed(edge)), _EXTENSION, None)
+    canvas.outline("path", _draw_polyline(placed(view.way)), _PATH, None)
     for touch in view.touches:
-        _touch(canvas, placed, touch)
+        _draw_touch(canvas, placed, touch)
     for arrow in view.arrows:
         start, end = placed(arrow)
-        _arrow(canvas, "axis", start, end, _DIMENSION)
+        _draw_arrow(canvas, "axis", start, end, _DIMENSION)
     for note in view.notes:
         _note(canvas, placed, note, language)
 
 
-def _touch(canvas: Canvas, placed: _Placed, touch: Touch) -> None:
+def _draw_touch(canvas: Canvas, placed: _Placed, touch: Touch) -> None:
     colour = _COLOURS[touch.side]
     start, end = placed(touch.start), placed(touch.end)
     stroke = Stroke(colour, 0.35)
-    canvas.outline("tip", list(_circle(end, placed.scale * touch.radius)), stroke, Fill(colour, 0.12))
-    _arrow(canvas, f"touch {touch.side.name.lower()}", start, end, Stroke(colour, 0.9))
+    canvas.outline("tip", list(_draw_circle(end, placed.scale * touch.radius)), stroke, Fill(colour, 0.12))
+    _draw_arrow(canvas, f"touch {touch.side.name.lower()}", start, end, Stroke(colour, 0.9))
 
 
-def _arrow(canvas: Canvas, kind: str, start: FloatArray, end: FloatArray, stroke: Stroke) -> None:
+def _draw_arrow(canvas: Canvas, kind: str, start: FloatArray, end: FloatArray, stroke: Stroke) -> None:
     way = end - start
     length = float(np.hypot(*way))
     if not length:
@@ -282,9 +282,9 @@ def _arrow(canvas: Canvas, kind: str, start: FloatArray, end: FloatArray, stroke
     along = way / length
     head = min(_LONGEST_HEAD, 0.7 * length)
     base, aside = end - head * along, 0.35 * head * np.array([-along[1], along[0]])
-    canvas.outline(kind, _polyline(np.array([start, base])), stroke, None)
+    canvas.outline(kind, _draw_polyline(np.array([start, base])), stroke, None)
     corners = np.array([end, base + aside, base - aside])
-    canvas.outline(kind, [*_polyline(corners), ("Z", ())], None, Fill(stroke.colour))
+    canvas.outline(kind, [*_draw_polyline(corners), ("Z", ())], None, Fill(stroke.colour))
 
 
 def _note(canvas: Canvas, placed: _Placed, note: Note, language: Language) -> None:
@@ -295,54 +295,54 @@ def _note(canvas: Canvas, placed: _Placed, note: Note, language: Language) -> No
     if note.side is None:
         corners = np.array([[left, y + 2], [left + label.width, y + 2]])
         box = np.concatenate([corners, corners[::-1] - [0.0, label.height]])
-        canvas.outline("ground", [*_polyline(box), ("Z", ())], None, _GROUND)
+        canvas.outline("ground", [*_draw_polyline(box), ("Z", ())], None, _GROUND)
     baseline = y if note.side is None else y + label.rise
-    _text(canvas, "note", label, left=left, baseline=baseline, side=note.side)
+    _place_text(canvas, "note", label, left=left, baseline=baseline, side=note.side)
 
 
-def _text(  # noqa: PLR0913 - what, in which colour, and where
+def _place_text(  # noqa: PLR0913 - what, in which colour, and where
     canvas: Canvas, kind: str, label: TextLabel, *, left: float, baseline: float, side: Side | None = None
 ) -> None:
     runs = [TextRun(run.text, run.face, run.size, left + run.x, baseline + run.y) for run in label.runs]
     canvas.text(kind, runs, INK_COLOUR if side is None else _COLOURS[side], 0.0)
 
 
-def _heading(canvas: Canvas, view: View, top: float, scale: float, language: Language) -> None:
+def _draw_heading(canvas: Canvas, view: View, top: float, scale: float, language: Language) -> None:
     """Write from where one looks, and draw how long a round length is."""
     label = plain_label(view.heading.in_language(language), GRAPH_TEXT_SIZE, FontFace.SEMIBOLD)
     baseline = top - _HEADING / 2
-    _text(canvas, "heading", label, left=_EDGE, baseline=baseline)
+    _place_text(canvas, "heading", label, left=_EDGE, baseline=baseline)
     ticks, decimals = round_ticks(0.0, GRAPH_WIDTH / scale, _BAR_PART)
     length = ticks[1] - ticks[0]
     right, left = GRAPH_WIDTH - _EDGE, GRAPH_WIDTH - _EDGE - scale * length
     ends = [[left, baseline - 2], [left, baseline + 2], [left, baseline], [right, baseline]]
     ends += [[right, baseline - 2], [right, baseline + 2]]
-    canvas.outline("scale", _polyline(np.array(ends)), _FRAME, None)
+    canvas.outline("scale", _draw_polyline(np.array(ends)), _FRAME, None)
     value = fixed_number(length, decimals, language.decimal_sign)
     text = plain_label(f"{value} {MILLIMETRE.symbol}", GRAPH_TEXT_SIZE)
-    _text(canvas, "scale", text, left=left - 4.0 - text.width, baseline=baseline + text.rise)
+    _place_text(canvas, "scale", text, left=left - 4.0 - text.width, baseline=baseline + text.rise)
 
 
-def _legend(canvas: Canvas, language: Language) -> None:
+def _draw_legend(canvas: Canvas, language: Language) -> None:
     left, height = _EDGE, _LEGEND / 2
     ends = np.array([[0.0, height], [18.0, height]])
     entries = [("path", _WAY, None), *(("touch", words, side) for side, words in _TOUCHES.items())]
     for kind, words, side in entries:
         start, end = ends + np.array([left, 0.0])
         if side is None:
-            canvas.outline(kind, _polyline(np.array([start, end])), _PATH, None)
+            canvas.outline(kind, _draw_polyline(np.array([start, end])), _PATH, None)
         else:
-            _arrow(canvas, kind, start, end, Stroke(_COLOURS[side], 0.9))
+            _draw_arrow(canvas, kind, start, end, Stroke(_COLOURS[side], 0.9))
         label = plain_label(words.in_language(language), GRAPH_TEXT_SIZE)
-        _text(canvas, "legend", label, left=left + 22.0, baseline=height + label.rise)
+        _place_text(canvas, "legend", label, left=left + 22.0, baseline=height + label.rise)
         left += 22.0 + label.width + 16.0
 
 
-def _polyline(points: FloatArray) -> list[Segment]:
+def _draw_polyline(points: FloatArray) -> list[Segment]:
     return [("L" if number else "M", (x, y)) for number, (x, y) in enumerate(points.tolist())]
 
 
-def _circle(centre: FloatArray, radius: float) -> Iterator[Segment]:
+def _draw_circle(centre: FloatArray, radius: float) -> Iterator[Segment]:
     """Yield a circle as four cubic curves."""
     reach = 0.5523 * radius
     x, y = centre.tolist()
@@ -354,7 +354,7 @@ def _circle(centre: FloatArray, radius: float) -> Iterator[Segment]:
     yield "Z", ()
 
 
-def _alternative(planned: PlannedPath) -> Words:
+def _describe_in_words(planned: PlannedPath) -> Words:
     path = planned.path
     return _ALTERNATIVE.given(
         faces=len({probing.face for probing in path.probings}),

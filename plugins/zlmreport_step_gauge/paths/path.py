@@ -57,7 +57,7 @@ class Probing:
 
     def away(self, distance: float) -> Point:
         """Return the point in front of the face at a distance from it, m."""
-        return shifted(self.target, self.normal, distance)
+        return shift(self.target, self.normal, distance)
 
 
 Move: TypeAlias = Travel | Probing
@@ -134,7 +134,7 @@ class ProbingPath:
             yield math.dist(*step) / (self.measuring_speed if isinstance(move, Probing) else self.speed)
 
 
-def shifted(point: Point, direction: Point, distance: float) -> Point:
+def shift(point: Point, direction: Point, distance: float) -> Point:
     """Return the point at a distance, m, in the direction of a unit vector."""
     x, y, z = (at + distance * by for at, by in zip(point, direction, strict=True))
     return x, y, z

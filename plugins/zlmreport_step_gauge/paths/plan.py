@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from zlmreport.plugin import MICROMETRE, MILLIMETRE, InputError, Place, Problem
 from zlmreport.plugin.extension import Job
-from zlmreport_step_gauge.calibration import read_calibration, section
+from zlmreport_step_gauge.calibration import cut_section, read_calibration
 from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
 from zlmreport_step_gauge.initial_points import read_initial_points
 from zlmreport_step_gauge.keys import ProbingPathKeys, StepGaugeKeys
@@ -22,9 +22,9 @@ from zlmreport_step_gauge.paths.room import (
     GaugeFrame,
     Obstacles,
     Room,
-    block_ends,
+    find_block_ends,
     is_free,
-    obstacles,
+    make_obstacles,
     refuse_collisions,
 )
 
@@ -86,7 +86,7 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
     frame = GaugeFrame.of(location)
     width, height = size
     first = section.blocks[0]
-    boxes = obstacles(gauge, first, width, height)
+    boxes = make_obstacles(gauge, first, width, height)
     beside = settings.clearance + settings.tip_radius
     level = 0.0 if settings.depth is None else height / 2 - settings.depth
     stations = _Stations(
@@ -98,11 +98,11 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
         reach=settings.approach + settings.tip_radius,
     )
     room = Room(frame, boxes, settings.tip_radius, settings.stylus_allowance, settings.working_volume)
-    inner = list(_inner(section, settings, stations, sum(block_ends(gauge, first)) / 2))
+    inner = list(_plan_inner(section, settings, stations, sum(find_block_ends(gauge, first)) / 2))
     path = ProbingPath(
         number=number,
         gauge=" ".join(part for part in (gauge.name, gauge.serial) if part),
-        moves=with_ends(inner, settings, room),
+        moves=add_ends(inner, settings, room),
         tip_radius=settings.tip_radius,
         approach=settings.approach,
         search=settings.search,
@@ -116,7 +116,9 @@ def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
     return PlannedPath(path, settings, frame, room)
 
 
-def _inner(section: StepGauge, settings: PathSettings, stations: _Stations, origin: float) -> Iterator[Move]:
+def _plan_inner(
+    section: StepGauge, settings: PathSettings, stations: _Stations, origin: float
+) -> Iterator[Move]:
     """Yield the moves from the first face to the last one that is probed."""
     fronts = [face for face in section.faces if face.side is Side.FRONT]
     backs = [face for face in reversed(section.faces) if face.side is Side.BACK]
@@ -135,7 +137,7 @@ def _inner(section: StepGauge, settings: PathSettings, stations: _Stations, orig
             yield Travel(stations.passing(before), face.number, cycle)
 
 
-def remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> ProbingPath:
+def find_remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> ProbingPath:
     """Return a path without the faces of the cycles that are done.
 
     All moves to a face and away from it begin and end where the tip passes the blocks, so that those of
@@ -146,33 +148,33 @@ def remaining(planned: PlannedPath, done: Collection[tuple[int, int]]) -> Probin
     left = [move for move in planned.path.moves if move.cycle and (move.face, move.cycle) not in done]
     if not left:
         return replace(planned.path, moves=())
-    path = replace(planned.path, moves=with_ends(left, planned.settings, planned.room))
+    path = replace(planned.path, moves=add_ends(left, planned.settings, planned.room))
     refuse_collisions(path, planned.room)
     return path
 
 
-def with_ends(inner: Sequence[Move], settings: PathSettings, room: Room) -> tuple[Move, ...]:
+def add_ends(inner: Sequence[Move], settings: PathSettings, room: Room) -> tuple[Move, ...]:
     """Return moves with those to the first of their points and from the last.
 
     The tip goes straight from the safe position and back to it where that is free by the clearance, and else
     by way of the point over the first or the last one, at the clearance over the blocks.
     """
     first, last = _end(inner[0]), _end(inner[-1])
-    return (*reversed(list(_way(first, settings, room))), *inner, *_way(last, settings, room))
+    return (*reversed(list(_plan_way(first, settings, room))), *inner, *_plan_way(last, settings, room))
 
 
-def _way(point: Point, settings: PathSettings, room: Room) -> Iterator[Move]:
+def _plan_way(point: Point, settings: PathSettings, room: Room) -> Iterator[Move]:
     """Yield the moves from a point to the safe position."""
     safe = settings.safe_position
     if safe is None or not is_free(room, point, safe, settings.clearance):
-        above = _above(point, settings, room)
+        above = _find_above(point, settings, room)
         if above != point:
             yield Travel(above)
     if safe is not None:
         yield Travel(safe)
 
 
-def _above(point: Point, settings: PathSettings, room: Room) -> Point:
+def _find_above(point: Point, settings: PathSettings, room: Room) -> Point:
     """Return the point over the blocks that lies above another."""
     along, across, upward = room.frame.to_gauge(point).tolist()
     over = float(room.obstacles.upper[0, 2]) + settings.clearance + settings.tip_radius
@@ -183,7 +185,7 @@ def _end(move: Move) -> Point:
     return move.to if isinstance(move, Travel) else move.target
 
 
-def path_of_job(job: Job, keys: StepGaugeKeys) -> PlannedPath:
+def plan_path_of_job(job: Job, keys: StepGaugeKeys) -> PlannedPath:
     """Return the path over the step gauge of a job.
 
     Raises `AccessError` if a file cannot be read; `InputError` if the job says too little, the gauge cannot
@@ -198,7 +200,7 @@ def path_of_job(job: Job, keys: StepGaugeKeys) -> PlannedPath:
     if problems or keys.initial_points is None or keys.tip_radius is None:
         raise InputError(problems)
     gauge = read_calibration(keys.calibration).gauge
-    part = section(gauge, keys.first_block, keys.last_block, place)
+    part = cut_section(gauge, keys.first_block, keys.last_block, place)
     radius = MILLIMETRE.to_si(keys.tip_radius)
     located = locate(
         read_initial_points(keys.initial_points),
@@ -211,7 +213,7 @@ def path_of_job(job: Job, keys: StepGaugeKeys) -> PlannedPath:
         gauge,
         part,
         located.location,
-        _settings(keys, keys.path, radius),
+        _make_settings(keys, keys.path, radius),
         size=(
             gauge.block_width or max(float(block.width) for block in touched),
             gauge.block_height or max(float(block.height) for block in touched),
@@ -221,7 +223,7 @@ def path_of_job(job: Job, keys: StepGaugeKeys) -> PlannedPath:
     )
 
 
-def _settings(keys: StepGaugeKeys, path: ProbingPathKeys, radius: float) -> PathSettings:
+def _make_settings(keys: StepGaugeKeys, path: ProbingPathKeys, radius: float) -> PathSettings:
     metres = MILLIMETRE.to_si
     safe, volume = path.safe_position, path.working_volume
     return PathSettings(

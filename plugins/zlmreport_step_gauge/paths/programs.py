@@ -20,27 +20,27 @@ _LONGEST_NAME = 32
 _NOT_PLAIN = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
-def coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
+def write_coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
     """Write a point, m, in mm; zero has no sign.
 
     >>> coordinates((0.290865, -1e-9, 0.4), 3)
     ('290.865', '0.000', '400.000')
     """
-    x, y, z = (_fixed(MILLIMETRE.from_si(at), decimals) for at in point)
+    x, y, z = (_write_fixed(MILLIMETRE.from_si(at), decimals) for at in point)
     return x, y, z
 
 
-def direction(vector: Point) -> tuple[str, str, str]:
+def write_direction(vector: Point) -> tuple[str, str, str]:
     """Write a unit vector.
 
     >>> direction((0.0006, -0.99999982, 0.0))
     ('0.0006000', '-0.9999998', '0.0000000')
     """
-    i, j, k = (_fixed(each, _DIRECTION_DIGITS) for each in vector)
+    i, j, k = (_write_fixed(each, _DIRECTION_DIGITS) for each in vector)
     return i, j, k
 
 
-def plain(text: str) -> str:
+def write_plain(text: str) -> str:
     """Return a user's text as every language takes it: short, ASCII, without quotes.
 
     >>> plain("CAL-2026's")
@@ -49,14 +49,14 @@ def plain(text: str) -> str:
     return _NOT_PLAIN.sub("_", text)[:_LONGEST_NAME]
 
 
-def _fixed(value: float, decimals: int) -> str:
+def _write_fixed(value: float, decimals: int) -> str:
     return f"{round(value, decimals) + 0.0:.{decimals}f}"
 
 
 _DECIMALS = 5
 
 
-def beginning(path: ProbingPath, tool: str | None) -> Iterator[str]:
+def write_beginning(path: ProbingPath, tool: str | None) -> Iterator[str]:
     """Yield the commands of I++ DME before the first move; without a tool, the machine keeps the one it has.
 
     Lengths are mm, speeds mm/s. Approach and retract are sent as distances of the tip's surface from the
@@ -83,19 +83,19 @@ def beginning(path: ProbingPath, tool: str | None) -> Iterator[str]:
     yield "OnPtMeasReport(X(), Y(), Z(), IJK())"
 
 
-def command(move: Move) -> str:
+def write_command(move: Move) -> str:
     """Return the command of I++ DME for a move.
 
     ``GoTo`` moves the tip's centre; ``PtMeas`` touches the nominal point of a surface whose outward normal is
     IJK, and what it reports is the centre of the tip.
     """
     if isinstance(move, Travel):
-        return f"GoTo({_at(coordinates(move.to, _DECIMALS))})"
-    normal = ", ".join(direction(move.normal))
-    return f"PtMeas({_at(coordinates(move.target, _DECIMALS))}, IJK({normal}))"
+        return f"GoTo({_write_at(write_coordinates(move.to, _DECIMALS))})"
+    normal = ", ".join(write_direction(move.normal))
+    return f"PtMeas({_write_at(write_coordinates(move.target, _DECIMALS))}, IJK({normal}))"
 
 
-def _at(texts: tuple[str, str, str]) -> str:
+def _write_at(texts: tuple[str, str, str]) -> str:
     return ", ".join(f"{axis}({text})" for axis, text in zip("XYZ", texts, strict=True))
 
 
@@ -128,22 +128,22 @@ class MvMs:
 
     def write(self, path: ProbingPath, options: Any) -> str:
         """Return the program."""
-        return "".join(f"{line}\n" for line in _mv_ms(path, options))
+        return "".join(f"{line}\n" for line in _write_mv_ms(path, options))
 
 
-def _mv_ms(path: ProbingPath, options: MvMsOptions) -> Iterator[str]:
+def _write_mv_ms(path: ProbingPath, options: MvMsOptions) -> Iterator[str]:
     for number, move in enumerate(path.moves):
         if isinstance(move, Probing):
-            yield _mv_ms_line("MS", move.target, options)
+            yield _write_mv_ms_line("MS", move.target, options)
         else:
-            yield _mv_ms_line("MV", move.to, options)
+            yield _write_mv_ms_line("MV", move.to, options)
         if isinstance(move, Probing) or number == 0:
             yield "PO 1 ;"
     yield "END;"
 
 
-def _mv_ms_line(word: str, point: Point, options: MvMsOptions) -> str:
-    return " ".join([word, *(f"{each:>11}" for each in coordinates(point, options.decimals)), ";"])
+def _write_mv_ms_line(word: str, point: Point, options: MvMsOptions) -> str:
+    return " ".join([word, *(f"{each:>11}" for each in write_coordinates(point, options.decimals)), ";"])
 
 
 _SECONDS_A_MINUTE = 60.0
@@ -177,39 +177,41 @@ class Dmis:
 
     def write(self, path: ProbingPath, options: Any) -> str:
         """Return the program."""
-        return "".join(f"{line}\n" for statement in _dmis(path, options) for line in _continued(statement))
+        return "".join(
+            f"{line}\n" for statement in _write_dmis(path, options) for line in _continue_lines(statement)
+        )
 
 
-def _dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
-    name = plain(path.number)
+def _write_dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
+    name = write_plain(path.number)
     yield f"DMISMN/'{name}',4.0"
     yield f"FILNAM/'{name}'"
-    yield f"$$ {plain(path.gauge)}, {len(path.probings)} points"
+    yield f"$$ {write_plain(path.gauge)}, {len(path.probings)} points"
     yield "UNITS/MM,ANGDEC"
     yield f"DID(OUT)=DEVICE/STOR,'{name}.dmo'"
     yield "OPEN/DID(OUT),FDATA,DMIS,OUTPUT"
     yield "D(MCS)=DATSET/MCS"
     yield f"PRCOMP/{'ON' if path.radius_correction else 'OFF'}"
-    diameter = _mm(2 * path.tip_radius)
+    diameter = _write_mm(2 * path.tip_radius)
     yield f"S(TIP)=SNSDEF/PROBE,FIXED,CART,0.0,0.0,0.0,0.0,0.0,-1.0,{diameter}"
     yield "SNSLCT/S(TIP)"
-    yield f"SNSET/APPRCH,{_mm(path.approach)}"
-    yield f"SNSET/SEARCH,{_mm(path.search)}"
-    yield f"SNSET/RETRCT,{_mm(path.retract)}"
+    yield f"SNSET/APPRCH,{_write_mm(path.approach)}"
+    yield f"SNSET/SEARCH,{_write_mm(path.search)}"
+    yield f"SNSET/RETRCT,{_write_mm(path.retract)}"
     yield f"FEDRAT/POSVEL,MPM,{path.speed * _SECONDS_A_MINUTE:.3f}"
     yield "MODE/PROG,MAN"
     for move in path.moves:
         if isinstance(move, Probing):
-            yield from _measured(move, options)
+            yield from _write_measured(move, options)
         else:
-            yield f"GOTO/{','.join(coordinates(move.to, options.decimals))}"
+            yield f"GOTO/{','.join(write_coordinates(move.to, options.decimals))}"
     yield "CLOSE/DID(OUT)"
     yield "ENDFIL"
 
 
-def _measured(probing: Probing, options: DmisOptions) -> Iterator[str]:
+def _write_measured(probing: Probing, options: DmisOptions) -> Iterator[str]:
     label = f"F{probing.face:03d}_{probing.cycle}"
-    where = ",".join([*coordinates(probing.target, options.decimals), *direction(probing.normal)])
+    where = ",".join([*write_coordinates(probing.target, options.decimals), *write_direction(probing.normal)])
     yield f"F({label})=FEAT/POINT,CART,{where}"
     yield f"MEAS/POINT,F({label}),1"
     yield f"PTMEAS/CART,{where}"
@@ -217,7 +219,7 @@ def _measured(probing: Probing, options: DmisOptions) -> Iterator[str]:
     yield f"OUTPUT/FA({label})"
 
 
-def _continued(statement: str) -> Iterator[str]:
+def _continue_lines(statement: str) -> Iterator[str]:
     """Yield a statement in lines that are not too long: all but the last end in a comma and the sign."""
     while len(statement) > _LONGEST_LINE:
         end = statement.rindex(",", 0, _LONGEST_LINE - len(_CONTINUATION)) + 1
@@ -226,7 +228,7 @@ def _continued(statement: str) -> Iterator[str]:
     yield statement
 
 
-def _mm(length: float) -> str:
+def _write_mm(length: float) -> str:
     return f"{MILLIMETRE.from_si(length):.3f}"
 
 
@@ -256,15 +258,15 @@ class IppDme:
 
     def write(self, path: ProbingPath, options: Any) -> str:
         """Return the program."""
-        commands = [*beginning(path, options.tool), *map(command, path.moves)]
+        commands = [*write_beginning(path, options.tool), *map(write_command, path.moves)]
         if len(commands) >= _LAST_TAG:
             raise InputError.at(
                 path.place, f"{len(commands)} commands are more than can be numbered; state fewer cycles"
             )
-        return "".join(f"{line}\r\n" for line in _ippdme(commands))
+        return "".join(f"{line}\r\n" for line in _write_ippdme(commands))
 
 
-def _ippdme(commands: list[str]) -> Iterator[str]:
+def _write_ippdme(commands: list[str]) -> Iterator[str]:
     step = _STEP if _STEP * len(commands) < _LAST_TAG else 1
     for number, text in enumerate(commands, start=1):
         yield f"{number * step:05d} {text}"

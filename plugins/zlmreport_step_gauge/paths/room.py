@@ -33,7 +33,7 @@ class Room:
 
 def is_free(room: Room, start: Point, end: Point, clearance: float) -> bool:
     """Return whether the tip stays clear of everything on a straight move, by a distance, m."""
-    return bool((_gaps(room, np.array([start]), np.array([end])) >= clearance - _ROUNDING).all())
+    return bool((_measure_gaps(room, np.array([start]), np.array([end])) >= clearance - _ROUNDING).all())
 
 
 def refuse_collisions(path: ProbingPath, room: Room) -> None:
@@ -43,7 +43,7 @@ def refuse_collisions(path: ProbingPath, room: Room) -> None:
 
     Raises `InputError` with the moves and the faces to which they lead.
     """
-    problems = [*_outside(path, room), *_collisions(path, room)]
+    problems = [*_find_outside(path, room), *_find_collisions(path, room)]
     if len(problems) > _NAMED:
         more = f"{len(problems) - _NAMED} more moves of the path cannot be made"
         problems = [*problems[:_NAMED], Problem(path.place, more)]
@@ -51,15 +51,15 @@ def refuse_collisions(path: ProbingPath, room: Room) -> None:
         raise InputError(problems)
 
 
-def least_gap(path: ProbingPath, room: Room) -> tuple[float, str]:
+def find_least_gap(path: ProbingPath, room: Room) -> tuple[float, str]:
     """Return how near the tip's surface comes to what it does not measure, m, and to what."""
-    gaps = _gaps_of_path(path, room)
+    gaps = _measure_gaps_of_path(path, room)
     nearest = int(gaps.min(axis=0).argmin())
     return float(gaps[:, nearest].min()), room.obstacles.names[nearest]
 
 
-def _collisions(path: ProbingPath, room: Room) -> Iterator[Problem]:
-    gaps = _gaps_of_path(path, room)
+def _find_collisions(path: ProbingPath, room: Room) -> Iterator[Problem]:
+    gaps = _measure_gaps_of_path(path, room)
     for index in np.flatnonzero((gaps < room.allowance - _ROUNDING).any(axis=1)).tolist():
         nearest = int(gaps[index].argmin())
         gap = float(gaps[index, nearest])
@@ -68,17 +68,17 @@ def _collisions(path: ProbingPath, room: Room) -> Iterator[Problem]:
         finds = f"the tip runs into {name}" if gap <= _ROUNDING else left
         yield Problem(
             path.place,
-            f"{_said(index + 2, path.moves[index + 1], path.stops[index + 1])}: {finds}, and "
+            f"{_say_collision(index + 2, path.moves[index + 1], path.stops[index + 1])}: {finds}, and "
             f"{MILLIMETRE.from_si(room.allowance):.3g} mm must stay free; change approach, clearance or "
             "safe_position, or take a smaller tip",
         )
 
 
-def _gaps_of_path(path: ProbingPath, room: Room) -> FloatArray:
+def _measure_gaps_of_path(path: ProbingPath, room: Room) -> FloatArray:
     """Return what is left beside the tip on each move after the first, m; infinite for what it measures."""
     stops = np.array(path.stops)
     moves, of_move = np.unique(np.hstack([stops[:-1], stops[1:]]), axis=0, return_inverse=True)
-    gaps = _gaps(room, moves[:, :3], moves[:, 3:])[of_move.ravel()]  # a cycle is like the next
+    gaps = _measure_gaps(room, moves[:, :3], moves[:, 3:])[of_move.ravel()]  # a cycle is like the next
     numbers = np.array([*room.obstacles.blocks, 0])
     for index, (before, move) in enumerate(pairwise(path.moves)):
         touched = move if isinstance(move, Probing) else before
@@ -87,7 +87,7 @@ def _gaps_of_path(path: ProbingPath, room: Room) -> FloatArray:
     return gaps
 
 
-def _outside(path: ProbingPath, room: Room) -> Iterator[Problem]:
+def _find_outside(path: ProbingPath, room: Room) -> Iterator[Problem]:
     if room.volume is None:
         return
     for number, (move, stop) in enumerate(zip(path.moves, path.stops, strict=True), start=1):
@@ -96,13 +96,13 @@ def _outside(path: ProbingPath, room: Room) -> Iterator[Problem]:
                 low, high = MILLIMETRE.from_si(first), MILLIMETRE.from_si(last)
                 yield Problem(
                     path.place,
-                    f"{_said(number, move, stop)}: {name} leaves the working volume, {low:g} to {high:g} mm; "
-                    "move the gauge, or choose a smaller clearance",
+                    f"{_say_collision(number, move, stop)}: {name} leaves the working volume, "
+                    f"{low:g} to {high:g} mm; move the gauge, or choose a smaller clearance",
                 )
                 break
 
 
-def _said(number: int, move: Move, stop: Point) -> str:
+def _say_collision(number: int, move: Move, stop: Point) -> str:
     where = ", ".join(f"{MILLIMETRE.from_si(at):.3f}" for at in stop)
     if not move.face:
         return f"move {number}, to ({where}) mm"
@@ -110,7 +110,7 @@ def _said(number: int, move: Move, stop: Point) -> str:
     return f"{kind} {number} at face {move.face}, to ({where}) mm"
 
 
-def _gaps(room: Room, starts: FloatArray, ends: FloatArray) -> FloatArray:
+def _measure_gaps(room: Room, starts: FloatArray, ends: FloatArray) -> FloatArray:
     """Return what is left between the tip's surface and each obstacle on straight moves, m."""
     own = room.frame.to_gauge
     return room.obstacles.distances(own(starts), own(ends)) - room.tip_radius
@@ -201,14 +201,14 @@ class Obstacles:
         return distance
 
 
-def obstacles(gauge: StepGauge, first_block: int, width: float, height: float) -> Obstacles:
+def make_obstacles(gauge: StepGauge, first_block: int, width: float, height: float) -> Obstacles:
     """Return the boxes of a gauge.
 
     `gauge`: The whole gauge: blocks outside the section that is used stand in the way, too.
     `first_block`: Number of the block whose centre is the origin.
     `width`, `height`: Of the blocks, m.
     """
-    ends = {block: block_ends(gauge, block) for block in gauge.blocks}
+    ends = {block: find_block_ends(gauge, block) for block in gauge.blocks}
     origin = sum(ends[first_block]) / 2
     lower = [(low - origin, -width / 2, -height / 2) for low, _ in ends.values()]
     upper = [(high - origin, width / 2, height / 2) for _, high in ends.values()]
@@ -217,7 +217,7 @@ def obstacles(gauge: StepGauge, first_block: int, width: float, height: float) -
     return Obstacles(tuple(ends), read_only_floats(lower), read_only_floats(upper))
 
 
-def block_ends(gauge: StepGauge, block: int) -> tuple[float, float]:
+def find_block_ends(gauge: StepGauge, block: int) -> tuple[float, float]:
     """Return the nominal distances of a block's faces from the reference face, m."""
     low, high = sorted(face.nominal for face in gauge.faces if face.block == block)
     return low, high

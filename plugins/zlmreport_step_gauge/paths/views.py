@@ -88,7 +88,7 @@ class _Eye:
         return depth
 
 
-def path_views(planned: PlannedPath) -> tuple[View, ...]:
+def make_path_views(planned: PlannedPath) -> tuple[View, ...]:
     """Return the views of the first cycle of a path."""
     along, across, upward = planned.frame.axes
     from_right = np.array([along, upward, -across])
@@ -98,13 +98,13 @@ def path_views(planned: PlannedPath) -> tuple[View, ...]:
         else (_FROM_ABOVE, _Eye(np.array([along, -across, -upward])))
     )
     return (
-        _at_gauge(planned, _AXONOMETRIC, _Eye(_turned(*_AT_GAUGE) @ from_right)),
-        _at_gauge(planned, *right_angled),
-        _in_machine(planned),
+        _view_at_gauge(planned, _AXONOMETRIC, _Eye(_turn_view(*_AT_GAUGE) @ from_right)),
+        _view_at_gauge(planned, *right_angled),
+        _view_in_machine(planned),
     )
 
 
-def _turned(azimuth: float, elevation: float) -> FloatArray:
+def _turn_view(azimuth: float, elevation: float) -> FloatArray:
     """Return the rows of an axonometric view, from those of a view from the side."""
     cosine, sine = math.cos(azimuth), math.sin(azimuth)
     level = np.array([[cosine, 0.0, -sine], [0.0, 1.0, 0.0], [sine, 0.0, cosine]])
@@ -113,28 +113,28 @@ def _turned(azimuth: float, elevation: float) -> FloatArray:
     return tilted
 
 
-def _at_gauge(planned: PlannedPath, heading: Words, eye: _Eye) -> View:
+def _view_at_gauge(planned: PlannedPath, heading: Words, eye: _Eye) -> View:
     moves = planned.path.first_cycle
     points = np.array([stop for move, stop in moves if move.face])
     return View(
         heading=heading,
-        base=_sides(planned, eye, slice(-1, None)),
-        blocks=_sides(planned, eye, slice(-1)),
+        base=_order_sides(planned, eye, slice(-1, None)),
+        blocks=_order_sides(planned, eye, slice(-1)),
         edges=np.empty((0, 2, 2)),
         way=read_only_floats(eye.sees(points)),
-        touches=tuple(_touches(planned, eye)),
+        touches=tuple(_draw_touches(planned, eye)),
         arrows=np.empty((0, 2, 2)),
-        notes=tuple(_numbers(planned, eye)),
+        notes=tuple(_place_numbers(planned, eye)),
     )
 
 
-def _in_machine(planned: PlannedPath) -> View:
-    eye = _Eye(_turned(*_AT_MACHINE) @ np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]))
+def _view_in_machine(planned: PlannedPath) -> View:
+    eye = _Eye(_turn_view(*_AT_MACHINE) @ np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]]))
     way = np.array([stop for _, stop in planned.path.first_cycle])
     volume = planned.settings.working_volume
     corners = eye.sees(np.array(list(product(*volume)))) if volume else np.empty((0, 2))
     edges = [corners[list(edge)] for edge in _EDGES if volume]
-    base, blocks = _sides(planned, eye, slice(-1, None)), _sides(planned, eye, slice(-1))
+    base, blocks = _order_sides(planned, eye, slice(-1, None)), _order_sides(planned, eye, slice(-1))
     drawn = np.concatenate([each.reshape(-1, 2) for each in (eye.sees(way), corners, base, blocks)])
     length = _AXIS_LENGTH * float(np.ptp(drawn, axis=0).max())
     # in the corner of the volume from which its axes count, or else beside everything
@@ -158,12 +158,12 @@ def _in_machine(planned: PlannedPath) -> View:
     )
 
 
-def _sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
+def _order_sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
     """Return the sides of some boxes that look at the eye, from back to front."""
     boxes = planned.obstacles
     found = []
     for low, high in zip(boxes.lower[which], boxes.upper[which], strict=True):
-        corners = np.array([_in(planned, corner) for corner in product(*zip(low, high, strict=True))])
+        corners = np.array([_move_into(planned, corner) for corner in product(*zip(low, high, strict=True))])
         middle = corners.mean(axis=0)
         for numbers in _SIDES:
             side = corners[list(numbers)]
@@ -173,15 +173,15 @@ def _sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
     return read_only_floats([side for _, side in found])
 
 
-def _touches(planned: PlannedPath, eye: _Eye) -> Iterator[Touch]:
+def _draw_touches(planned: PlannedPath, eye: _Eye) -> Iterator[Touch]:
     path = planned.path
-    for probing in _probings(planned):
+    for probing in _list_probings(planned):
         ends = [probing.away(path.approach + path.tip_radius), probing.away(path.tip_radius)]
         start, end = eye.sees(np.array(ends))
-        yield Touch(_side(probing), start, end, MILLIMETRE.from_si(path.tip_radius))
+        yield Touch(_find_side(probing), start, end, MILLIMETRE.from_si(path.tip_radius))
 
 
-def _numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
+def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
     """Yield the numbers of faces: on the right side of the base, or from above beside the blocks."""
     boxes = planned.obstacles
     away = MILLIMETRE.to_si(_NUMBERS_AWAY)
@@ -189,20 +189,20 @@ def _numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
     across, upward = boxes.upper[0, 1], boxes.lower[0, 2] - away
     if from_above:
         across, upward = boxes.lower[0, 1] - away, boxes.upper[0, 2]
-    for probing in _probings(planned):
+    for probing in _list_probings(planned):
         along = planned.frame.to_gauge(probing.target)[0]
-        at = eye.sees(np.array(_in(planned, (along, across, upward))))
-        yield Note(same_in_all_languages(str(probing.face)), at, _side(probing))
+        at = eye.sees(np.array(_move_into(planned, (along, across, upward))))
+        yield Note(same_in_all_languages(str(probing.face)), at, _find_side(probing))
 
 
-def _probings(planned: PlannedPath) -> Iterator[Probing]:
+def _list_probings(planned: PlannedPath) -> Iterator[Probing]:
     return (move for move, _ in planned.path.first_cycle if isinstance(move, Probing))
 
 
-def _side(probing: Probing) -> Side:
+def _find_side(probing: Probing) -> Side:
     return Side.FRONT if probing.face % 2 else Side.BACK
 
 
-def _in(planned: PlannedPath, corner: tuple[float, ...]) -> Point:
+def _move_into(planned: PlannedPath, corner: tuple[float, ...]) -> Point:
     """Return a point of the gauge in the coordinates of the machine."""
     return planned.frame.to_machine(*corner)

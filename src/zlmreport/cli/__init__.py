@@ -16,9 +16,9 @@ from typing import TextIO
 
 from zlmreport.cli.arguments import parse
 from zlmreport.cli.terminal import print_problems
-from zlmreport.cli.watch import watched
+from zlmreport.cli.watch import watch
 from zlmreport.errors import AccessError, ZlmreportError
-from zlmreport.files import confined, reason
+from zlmreport.files import confine, say_reason
 
 #: What a shell sees of a program that these signals ended.
 _INTERRUPTED = 128 + 2
@@ -44,7 +44,7 @@ def watched_main() -> int:
         PRESENCE.use(memory)
 
     # who completes a line ends the process by himself, and loads no plugin of anybody
-    code = None if "_ARGCOMPLETE" in os.environ else watched(main, use)
+    code = None if "_ARGCOMPLETE" in os.environ else watch(main, use)
     return main() if code is None else code
 
 
@@ -64,7 +64,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         command, options = parse(sys.argv[1:] if arguments is None else arguments)
         module = importlib.import_module(f"zlmreport.cli.{_TOGETHER.get(command, command)}")
         run = getattr(module, command.split()[-1] if command in _TOGETHER else "run")
-        with confined(options.confine):
+        with confine(options.confine):
             code: int = run(options)
         sys.stdout.flush()
     except SystemExit:  # by argparse, after --help and --version
@@ -81,7 +81,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         _forget_standard_output()
         where = error.filename or "the standard output"
-        print(f"{where}: cannot be read or written: {reason(error)}", file=sys.stderr)
+        print(f"{where}: cannot be read or written: {say_reason(error)}", file=sys.stderr)
         return AccessError.exit_code
     return code
 

@@ -15,29 +15,35 @@ from pathlib import Path
 from zlmreport import pipeline
 from zlmreport.cli.capture_display import Display, JsonLines, LiveDisplay, PlainLines, is_watched, visit_named
 from zlmreport.cli.capture_steered import SteeredLines
-from zlmreport.cli.jobs import requirements
-from zlmreport.cli.terminal import Colour, shown_path, visible
+from zlmreport.cli.jobs import tell_requirements
+from zlmreport.cli.terminal import Colour, make_visible, show_path
 from zlmreport.document.certificate.clauses import demand_mandatory_items
 from zlmreport.document.writer import Writer
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.live.capture.events import DatumMoved, Ended, Event, Interrupted, Resumed, Unclear, ZeroLost
 from zlmreport.live.capture.follower import Follower
-from zlmreport.live.capture.journal import History, Journal, captured, demand_nothing_captured, read_history
+from zlmreport.live.capture.journal import (
+    History,
+    Journal,
+    capture as captured,
+    demand_nothing_captured,
+    read_history,
+)
 from zlmreport.live.capture.of_job import (
     Assignment,
-    assignment_of,
     demand_same_test,
-    header_of,
-    instrument_of,
-    options_of,
+    find_instrument_of,
+    find_options_of,
+    make_assignment_of,
+    make_header_of,
 )
 from zlmreport.live.ports.ahead import ReadAhead
 from zlmreport.live.ports.reading import LiveReading
-from zlmreport.model.planning.plan import as_measured, propose
+from zlmreport.model.planning.plan import make_as_measured, propose
 from zlmreport.plugin.extending import Happening, LiveRun
 from zlmreport.plugin.protocols import Connection
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -74,7 +80,7 @@ def run(options: Namespace) -> int:
         if live:
             return _run_live(live, options)
     if options.journal:
-        job = _with_journal(job, options.journal)
+        job = _replace_journal(job, options.journal)
     asked = assignment(job, registry)
     if options.end:
         _close(job, asked, options.job)
@@ -84,7 +90,7 @@ def run(options: Namespace) -> int:
     words = TypedAnswers(options.answer, options.retake)
     capture(job, asked, registry, display, options.job, resume=resume, words=words)
     if not (options.json or options.steered):
-        print(f"next: zlmreport {shown_path(options.job)}")
+        print(f"next: zlmreport {show_path(options.job)}")
     return 0
 
 
@@ -109,19 +115,19 @@ def _run_live(live: LiveRun, options: Namespace) -> int:
         return 0
     print(live.heading, flush=True)
     result = live.run(_tell)
-    print(shown_path(result))
-    print(f"next: zlmreport {shown_path(options.job)}")
+    print(show_path(result))
+    print(f"next: zlmreport {show_path(options.job)}")
     return 0
 
 
 def _tell(happening: Happening) -> None:
-    line = visible(happening.line)
+    line = make_visible(happening.line)
     print(f"  {Colour.YELLOW.of(happening.warning)}  {line}" if happening.warning else line, flush=True)
 
 
-def _with_journal(job: Job, journal: Path) -> Job:
+def _replace_journal(job: Job, journal: Path) -> Job:
     """Return a job with another journal; the data source says later if it has none."""
-    options = options_of(job)
+    options = find_options_of(job)
     if options is None:
         return job
     named = options.model_copy(update={"journal": journal})
@@ -134,20 +140,20 @@ def _close(job: Job, asked: Assignment, path: Path) -> None:
     with Journal.continued(asked.options.journal) as journal:
         taken, visits = journal.progress.taken, len(journal.progress.visits)
         journal.append(Ended(), journal.elapsed)
-    print(f"closed after {taken} of {counted(visits, 'visit')}; what was not taken is missing")
-    print(f"next: zlmreport {shown_path(path)}")
+    print(f"closed after {taken} of {count_in_words(visits, 'visit')}; what was not taken is missing")
+    print(f"next: zlmreport {show_path(path)}")
 
 
 def assignment(job: Job, registry: Registry) -> Assignment:
     """Return what a job asks to be captured; raise `InputError` if it is nothing, or makes no sense."""
-    return assignment_of(job, propose(job, pipeline.standards(job, registry)).plan)
+    return make_assignment_of(job, propose(job, pipeline.choose_standards(job, registry)).plan)
 
 
 def awaits_capture(job: Job) -> bool:
     """Tell whether the readings of a job are captured live, and are not all there yet."""
-    if options_of(job) is None:
+    if find_options_of(job) is None:
         return False
-    history = _history(job)
+    history = _read_history(job)
     return history is None or not history.progress.is_over
 
 
@@ -155,18 +161,18 @@ def demand_capturable(job: Job, registry: Registry) -> None:
     """Refuse a job whose certificate would lack something, or whose capture makes no sense."""
     demand_mandatory_items(job)
     assignment(job, registry)
-    instrument_of(job)
+    find_instrument_of(job)
 
 
-def planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
+def tell_planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     """Yield the lines on a job that awaits its capture: what its standards ask of the test as planned."""
     plan = assignment(job, registry).plan
-    test = as_measured(job.axis, plan.method, plan.targets, plan.runs)
+    test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     writer = Writer.of(test, Language.ENGLISH)
     yield f"{Colour.BOLD.of(str(path))}  the job is sound; its readings are still to be captured"
-    for standard, options in pipeline.standards(job, registry):
-        yield from requirements(standard.designation, standard.requirements(test, options), writer)
-    yield f"  next: zlmreport capture {shown_path(path)}{' --resume' if _has_begun(job) else ''}"
+    for standard, options in pipeline.choose_standards(job, registry):
+        yield from tell_requirements(standard.designation, standard.requirements(test, options), writer)
+    yield f"  next: zlmreport capture {show_path(path)}{' --resume' if _has_begun(job) else ''}"
 
 
 def capture_if_watched(job: Job, registry: Registry, path: Path) -> None:
@@ -178,13 +184,13 @@ def capture_if_watched(job: Job, registry: Registry, path: Path) -> None:
 
 
 def _has_begun(job: Job) -> bool:
-    history = _history(job)
+    history = _read_history(job)
     return history is not None and history.has_readings
 
 
-def _history(job: Job) -> History | None:
+def _read_history(job: Job) -> History | None:
     """Return what was captured so far; None for nothing."""
-    options = options_of(job)
+    options = find_options_of(job)
     if options is None or not options.journal.exists():
         return None
     return read_history(options.journal)
@@ -210,22 +216,22 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
         demand_answer(assignment, words.answer)
     else:
         demand_nothing_captured(assignment.options.journal)
-    choice = instrument_of(job)
+    choice = find_instrument_of(job)
     with registry.instrument(choice.identifier).open(choice.options) as connection:
         display.wait()
         readings = ReadAhead(connection.readings())
         first = next(readings)  # an instrument that is not there leaves no journal
-        go_on = f"zlmreport capture {shown_path(path)} --resume"
-        with _journal(job, assignment, resume=resume, words=words) as journal:
+        go_on = f"zlmreport capture {show_path(path)} --resume"
+        with _open_journal(job, assignment, resume=resume, words=words) as journal:
             try:
-                _sittings(readings, first, connection, assignment, journal, display)
+                _follow_sittings(readings, first, connection, assignment, journal, display)
             except KeyboardInterrupt:
-                journal.append(Interrupted("ended by the user"), _elapsed_now(journal))
+                journal.append(Interrupted("ended by the user"), _measure_elapsed(journal))
                 display.leave(f"ended; go on with: {go_on}")
                 raise
             except AccessError as error:
                 problem = error.problems[0]
-                journal.append(Interrupted(problem.message), _elapsed_now(journal))
+                journal.append(Interrupted(problem.message), _measure_elapsed(journal))
                 raise AccessError.at(problem.place, f"{problem.message}; go on with: {go_on}") from error
 
 
@@ -255,23 +261,23 @@ def demand_answer(assignment: Assignment, answer: str) -> None:
     visit_named(answer, history.progress, Place("--answer"))
 
 
-def _journal(job: Job, assignment: Assignment, *, resume: bool, words: TypedAnswers) -> Journal:
+def _open_journal(job: Job, assignment: Assignment, *, resume: bool, words: TypedAnswers) -> Journal:
     path = assignment.options.journal
     if not resume:
-        return Journal.begun(path, header_of(job, assignment, dt.datetime.now(dt.UTC)))
+        return Journal.begun(path, make_header_of(job, assignment, dt.datetime.now(dt.UTC)))
     journal = Journal.continued(path)
     if words.answer:
         visit = visit_named(words.answer, journal.progress, Place("--answer"))
-        now = _elapsed_now(journal)
+        now = _measure_elapsed(journal)
         for event in Follower(journal.progress, assignment.settings).told(visit, now - journal.asked):
             journal.append(event, now)
-    journal.append(Resumed(), _elapsed_now(journal))
+    journal.append(Resumed(), _measure_elapsed(journal))
     if words.retake:
-        journal.append(journal.progress.retake(words.retake, _RETAKE), _elapsed_now(journal))
+        journal.append(journal.progress.retake(words.retake, _RETAKE), _measure_elapsed(journal))
     return journal
 
 
-def _sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and who is told
+def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and who is told
     readings: ReadAhead,
     first: LiveReading,
     connection: Connection,
@@ -281,8 +287,8 @@ def _sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and who is t
 ) -> None:
     """Follow the axis until the test is over; between two sittings the operator sees to what went wrong."""
     while not journal.progress.is_over:
-        clock = _clock(journal)
-        follower = Follower(journal.progress, assignment.settings, last=_last_visit(journal, clock))
+        clock = _make_clock(journal)
+        follower = Follower(journal.progress, assignment.settings, last=_find_last_visit(journal, clock))
         display.begin(follower)
         show = partial(display.show, follower)
         event: Event | None = None
@@ -296,25 +302,25 @@ def _sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and who is t
             return
         if isinstance(event, Unclear):
             for each in follower.told(display.ask(event, journal.progress)):
-                journal.append(each, _elapsed_now(journal))
+                journal.append(each, _measure_elapsed(journal))
                 display.tell(each)
             if journal.progress.is_over:
                 return
         else:
             display.see_to(event, journal.progress.after(Resumed()))
-        journal.append(Resumed(), _elapsed_now(journal))
+        journal.append(Resumed(), _measure_elapsed(journal))
         readings = ReadAhead(connection.readings())
         first = next(readings)
 
 
-def _last_visit(journal: Journal, clock: Callable[[float], float]) -> float | None:
+def _find_last_visit(journal: Journal, clock: Callable[[float], float]) -> float | None:
     """Return when the last visit was, by the clock of the readings: the program may have run on since."""
     if journal.visited is None or journal.progress.zero is None:
         return None
     return journal.visited - clock(0.0)
 
 
-def _clock(journal: Journal) -> Callable[[float], float]:
+def _make_clock(journal: Journal) -> Callable[[float], float]:
     """Return the way from the time of a reading to s from the start of the capture.
 
     Within a sitting it is the steady clock of the readings that counts: the clock of the computer may be set.
@@ -322,12 +328,12 @@ def _clock(journal: Journal) -> Callable[[float], float]:
     """
     for _ in range(_TRIES):
         before = time.monotonic()
-        elapsed = _elapsed_now(journal)
+        elapsed = _measure_elapsed(journal)
         if time.monotonic() - before < _TOGETHER:
             break
     offset = elapsed - before
     return lambda moment: moment + offset
 
 
-def _elapsed_now(journal: Journal) -> float:
+def _measure_elapsed(journal: Journal) -> float:
     return max(journal.elapsed, (dt.datetime.now(dt.UTC) - journal.header.started).total_seconds())

@@ -12,11 +12,18 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
-from zlmreport.cli.capture_lines import SIDES, AxisWriter, duration, halted, line_on, what_to_do
-from zlmreport.cli.terminal import Colour, visible
+from zlmreport.cli.capture_lines import (
+    SIDES,
+    AxisWriter,
+    list_what_to_do,
+    tell_event,
+    tell_halted,
+    write_duration,
+)
+from zlmreport.cli.terminal import Colour, make_visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.live.capture.events import (
     Commented,
     Elsewhere,
@@ -168,22 +175,24 @@ class PlainLines:
 
     def wait(self) -> None:
         """Say whose test it is, while the instrument is awaited."""
-        number, axis = (visible(text) for text in (self._job.keys.certificate.number, self._job.axis.name))
-        visits = counted(len(self._assignment.visits), "visit")
+        number, axis = (
+            make_visible(text) for text in (self._job.keys.certificate.number, self._job.axis.name)
+        )
+        visits = count_in_words(len(self._assignment.visits), "visit")
         method = self._assignment.plan.method
-        rest = duration(self._assignment.remaining_time(0))
+        rest = write_duration(self._assignment.remaining_time(0))
         self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits}, {rest}")
 
     def begin(self, follower: Follower) -> None:
         """Say what is to be done."""
-        for number, step in enumerate(what_to_do(follower.progress, self._writer), start=1):
+        for number, step in enumerate(list_what_to_do(follower.progress, self._writer), start=1):
             self._line(f"{number}. {step}")
 
     def tell(self, event: Event) -> None:
         """Print a line on an event."""
-        line = line_on(event, len(self._assignment.visits), self._writer)
+        line = tell_event(event, len(self._assignment.visits), self._writer)
         if line:
-            self._line(visible(line))
+            self._line(make_visible(line))
 
     def keys(self) -> AbstractContextManager[None]:
         """Take no orders."""
@@ -195,15 +204,15 @@ class PlainLines:
 
     def see_to(self, event: Event | None, progress: Progress) -> None:
         """Raise `AccessError` with what is to be seen to."""
-        steps = ", then ".join(what_to_do(progress, self._writer, event))
-        raise AccessError.at(Place("zlmreport capture"), f"{halted(event, self._writer)}; {steps}")
+        steps = ", then ".join(list_what_to_do(progress, self._writer, event))
+        raise AccessError.at(Place("zlmreport capture"), f"{tell_halted(event, self._writer)}; {steps}")
 
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:  # noqa: ARG002
         """Raise `AccessError` with what may be answered."""
         raise AccessError.at(
             Place("zlmreport capture"),
-            f"{halted(question, self._writer)}; nothing is filed: stop the program, look where it is, and "
-            "state --answer with the number of the visit, or none",
+            f"{tell_halted(question, self._writer)}; nothing is filed: stop the program, look where it is, "
+            "and state --answer with the number of the visit, or none",
         )
 
     def leave(self, message: str) -> None:
@@ -247,7 +256,7 @@ class LiveDisplay(PlainLines):
 
     def tell(self, event: Event) -> None:
         """Print a line on an event, and ring: once for a reading, twice and in colour for what is wrong."""
-        line = visible(line_on(event, len(self._assignment.visits), self._writer))
+        line = make_visible(tell_event(event, len(self._assignment.visits), self._writer))
         is_wrong = isinstance(event, _WRONG) or (isinstance(event, Elsewhere) and event.factor is not None)
         if line:
             self._line(Colour.RED.of(line) if is_wrong else line)
@@ -265,8 +274,8 @@ class LiveDisplay(PlainLines):
                 self._say(error.problems[0].message)
         self._due = reading.time + _BEAT
         width = shutil.get_terminal_size().columns - 1
-        lines = [*panel(reading, follower, self._assignment, self._writer), self._keyboard.line]
-        shown = [visible(line)[:width] for line in lines]
+        lines = [*show_panel(reading, follower, self._assignment, self._writer), self._keyboard.line]
+        shown = [make_visible(line)[:width] for line in lines]
         print(self._back(), *(f"{line}\n" for line in shown), sep="", end="", flush=True)
         self._shown = len(shown)
 
@@ -274,8 +283,8 @@ class LiveDisplay(PlainLines):
         """Print what is wrong, and what to do, and wait until the operator has done it."""
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
-        self._say(halted(event, self._writer))
-        self._line(f"First {what_to_do(progress, self._writer, event)[0]}.")
+        self._say(tell_halted(event, self._writer))
+        self._line(f"First {list_what_to_do(progress, self._writer, event)[0]}.")
         try:
             input("Press Enter when that is done, Ctrl-C to stop: ")
         except EOFError as error:
@@ -284,7 +293,7 @@ class LiveDisplay(PlainLines):
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
         """Ring, and ask which visit a stop is until there is an answer."""
         print(_BELL, end="", flush=True)
-        self._say(halted(question, self._writer))
+        self._say(tell_halted(question, self._writer))
         self._line("Stop the program and look where it is.")
         while True:
             try:
@@ -305,7 +314,7 @@ class LiveDisplay(PlainLines):
 
     def _say(self, message: str) -> None:
         """Print a message that is to be heeded."""
-        for line in textwrap.wrap(visible(message), shutil.get_terminal_size().columns - 1):
+        for line in textwrap.wrap(make_visible(message), shutil.get_terminal_size().columns - 1):
             self._line(Colour.RED.of(line))
 
     def _back(self) -> str:
@@ -313,7 +322,7 @@ class LiveDisplay(PlainLines):
         return (_UP.format(self._shown) if self._shown else "") + "\r" + _CLEAR_BELOW
 
 
-def panel(
+def show_panel(
     reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter
 ) -> Iterator[str]:
     """Yield what is next, what the instrument reads, and how far the test has come."""
@@ -325,7 +334,7 @@ def panel(
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)
     bar = "█" * full + "░" * (_BAR - full)
-    rest = duration(assignment.remaining_time(done))
+    rest = write_duration(assignment.remaining_time(done))
     yield f"done   {bar}  {done} of {planned}, {planned - done} to go, {rest}"
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isclose
 
-from zlmreport.language.formatting import MINUS, fixed_number
+from zlmreport.language.formatting import MINUS, write_fixed_number
 from zlmreport.live.capture.events import (
     BeamHeld,
     Closed,
@@ -59,7 +59,7 @@ class AxisWriter:
     def position(self, value: float, decimals: int = 3) -> str:
         """Write a position in mm or °."""
         unit = self.axis.position_unit
-        return with_unit(fixed_number(unit.from_si(value), decimals), unit.symbol)
+        return with_unit(write_fixed_number(unit.from_si(value), decimals), unit.symbol)
 
     def deviation(self, value: float) -> str:
         """Write a deviation in µm or ″, with its sign."""
@@ -69,14 +69,14 @@ class AxisWriter:
     def fine(self, value: float) -> str:
         """Write a small length in µm or ″."""
         unit = self.axis.deviation_unit
-        return with_unit(fixed_number(unit.from_si(value), 2), unit.symbol)
+        return with_unit(write_fixed_number(unit.from_si(value), 2), unit.symbol)
 
     def visit(self, visit: ListedVisit) -> str:
         """Name a visit: ``run 2 ↑  150.000 mm``."""
         return f"run {visit.run} {visit.approach.arrow} {self.position(visit.position):>12}"
 
 
-def line_on(event: Event, visits: int, writer: AxisWriter) -> str:
+def tell_event(event: Event, visits: int, writer: AxisWriter) -> str:
     """Return what an operator reads of an event; nothing for those that only a display shows."""
     match event:
         case DatumTaken(position=position):
@@ -93,10 +93,10 @@ def line_on(event: Event, visits: int, writer: AxisWriter) -> str:
             deviation = writer.deviation(event.deviation)
             return f"{number:8} {writer.visit(visit)}  {deviation:>12}  range {writer.fine(mean.range)}"
         case _:
-            return _out_of_order(event, writer)
+            return _tell_out_of_order(event, writer)
 
 
-def _out_of_order(event: Event, writer: AxisWriter) -> str:
+def _tell_out_of_order(event: Event, writer: AxisWriter) -> str:
     line = ""
     match event:
         case Passed(visit=visit, seconds=seconds, drift=drift):
@@ -113,11 +113,11 @@ def _out_of_order(event: Event, writer: AxisWriter) -> str:
         case NotNext(target=target, approach=approach, visit=visit):
             line = f"OTHER    target {target} {approach.arrow} is not next; next is {writer.visit(visit)}"
         case _:
-            line = _out_of_sight(event, writer)
+            line = _tell_out_of_sight(event, writer)
     return line
 
 
-def _out_of_sight(event: Event, writer: AxisWriter) -> str:
+def _tell_out_of_sight(event: Event, writer: AxisWriter) -> str:
     line = ""
     match event:
         case TrackLost(silence=silence):
@@ -129,19 +129,19 @@ def _out_of_sight(event: Event, writer: AxisWriter) -> str:
         case Elsewhere(position=position, factor=None):
             line = f"no target at {writer.position(position)}, where it stands; is the datum right?"
         case Elsewhere(position=position, factor=float(factor)):
-            line = f"DISPLAY  {writer.position(position)} is no target, {misread(factor)}"
+            line = f"DISPLAY  {writer.position(position)} is no target, {tell_misread(factor)}"
         case _:
-            line = _asked_and_told(event, writer)
+            line = _tell_asked_and_told(event, writer)
     return line
 
 
-def _asked_and_told(event: Event, writer: AxisWriter) -> str:
+def _tell_asked_and_told(event: Event, writer: AxisWriter) -> str:
     line = ""
     match event:
         case Unclear(expected=float(expected), candidates=((ListedVisit() as visit, _), *_)):
-            line = f"DOUBT    {writer.visit(visit)}: {_departs(event.position - expected, writer)}"
+            line = f"DOUBT    {writer.visit(visit)}: {_tell_departure(event.position - expected, writer)}"
         case Unclear(target=target, approach=approach):
-            line = f"WHERE?   target {target} {approach.arrow}: {candidates(event)}"
+            line = f"WHERE?   target {target} {approach.arrow}: {write_candidates(event)}"
         case Presumed(visit=visit, share=share):
             line = f"likely   {writer.visit(visit)}: {100 * share:.1f} % sure, and taken for it"
         case Placed(visit=visit):
@@ -157,11 +157,11 @@ def _asked_and_told(event: Event, writer: AxisWriter) -> str:
     return line
 
 
-def halted(event: Event | None, writer: AxisWriter) -> str:
+def tell_halted(event: Event | None, writer: AxisWriter) -> str:
     """Return why nothing more is taken, and what that means for what was."""
     match event:
         case ZeroLost() | ScaleChanged():
-            return _fails(event, writer)
+            return _tell_failure(event, writer)
         case MovedBeforeDatum(position=position):
             return (
                 f"the axis moved before the reading at {writer.position(position)} was taken for its datum, "
@@ -171,9 +171,9 @@ def halted(event: Event | None, writer: AxisWriter) -> str:
             moved = (
                 f"the datum has moved by {writer.deviation(difference)} since visit {visit.number} was read"
             )
-            return f"{moved}. {_void(void, writer)}"
+            return f"{moved}. {_tell_void(void, writer)}"
         case Unclear():
-            return _question(event, writer)
+            return _tell_question(event, writer)
         case TooSlow(spacing=spacing, largest=largest):
             return (
                 f"readings come every {spacing:.2g} s, and more than {largest:.2g} s apart the axis could "
@@ -184,27 +184,29 @@ def halted(event: Event | None, writer: AxisWriter) -> str:
             return "the readings ended"
 
 
-def _fails(event: ZeroLost | ScaleChanged, writer: AxisWriter) -> str:
+def _tell_failure(event: ZeroLost | ScaleChanged, writer: AxisWriter) -> str:
     if isinstance(event, ZeroLost):
-        return f"{event.message or 'the instrument lost its zero'}. {_void(event.void, writer)}"
+        return f"{event.message or 'the instrument lost its zero'}. {_tell_void(event.void, writer)}"
     again = (
         f"; visit {event.visit.number} is taken again, for it may have been read so" if event.visit else ""
     )
-    return f"{switched(event.factor)}, and nothing of it is taken{again}. Set it back: what was read stays"
-
-
-def _question(event: Unclear, writer: AxisWriter) -> str:
-    visit = event.candidates[0][0]
-    if event.expected is not None and visit is not None:
-        departs = _departs(event.position - event.expected, writer)
-        return f"the reading at visit {visit.number} ({writer.visit(visit)}) {departs}"
     return (
-        f"the axis stands at target {event.target} {event.approach.arrow}, {writer.position(event.position)},"
-        f" and what it did before leaves open which visit that is: {candidates(event)}"
+        f"{tell_switched(event.factor)}, and nothing of it is taken{again}. Set it back: what was read stays"
     )
 
 
-def misread(factor: float) -> str:
+def _tell_question(event: Unclear, writer: AxisWriter) -> str:
+    visit = event.candidates[0][0]
+    if event.expected is not None and visit is not None:
+        departs = _tell_departure(event.position - event.expected, writer)
+        return f"the reading at visit {visit.number} ({writer.visit(visit)}) {departs}"
+    return (
+        f"the axis stands at target {event.target} {event.approach.arrow}, {writer.position(event.position)},"
+        f" and what it did before leaves open which visit that is: {write_candidates(event)}"
+    )
+
+
+def tell_misread(factor: float) -> str:
     """Say what a display does wrong whose readings come right by a factor, and the cure."""
     inch, thousand = 25.4, 1000.0
     match factor:
@@ -220,7 +222,7 @@ def misread(factor: float) -> str:
             return f"but {factor:g} times it is: the optics' path is counted otherwise; set the key scale"
 
 
-def switched(factor: float) -> str:
+def tell_switched(factor: float) -> str:
     """Say to which unit a display was switched, if its readings come right by a factor."""
     inch = 25.4
     if isclose(factor, inch):
@@ -230,14 +232,14 @@ def switched(factor: float) -> str:
     return f"the display was switched to another unit: {factor:g} times what it shows is right"
 
 
-def _departs(difference: float, writer: AxisWriter) -> str:
+def _tell_departure(difference: float, writer: AxisWriter) -> str:
     return (
         f"departs by {writer.deviation(difference)} from what was read before and from the plan, more than "
         "an axis does: a stop short of its target, a datum that slipped, or a display that fails"
     )
 
 
-def candidates(event: Unclear) -> str:
+def write_candidates(event: Unclear) -> str:
     """Write what an unclear stop may be: ``visit 12 (run 2) 60 %, visit 2 (run 1) 39 %, no visit 1 %``."""
     return ", ".join(
         f"{f'visit {visit.number} (run {visit.run})' if visit else 'no visit'} {share:.0%}".replace("%", " %")
@@ -246,7 +248,7 @@ def candidates(event: Unclear) -> str:
     )
 
 
-def _void(void: Sequence[ListedVisit], writer: AxisWriter) -> str:
+def _tell_void(void: Sequence[ListedVisit], writer: AxisWriter) -> str:
     first, last = void[0], void[-1]
     visits = f"visits {first.number} to {last.number} are" if len(void) > 1 else f"visit {first.number} is"
     return (
@@ -255,7 +257,7 @@ def _void(void: Sequence[ListedVisit], writer: AxisWriter) -> str:
     )
 
 
-def what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = None) -> list[str]:
+def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = None) -> list[str]:
     """Return what an operator does, step by step, before the capture goes on."""
     visit = progress.next
     attempt = f", attempt {progress.attempt}" if progress.attempt > 1 else ""
@@ -273,7 +275,7 @@ def what_to_do(progress: Progress, writer: AxisWriter, event: Event | None = Non
     return steps
 
 
-def duration(seconds: float) -> str:
+def write_duration(seconds: float) -> str:
     """Write how long something takes.
 
     >>> duration(42), duration(150), duration(5000)

@@ -11,7 +11,7 @@ from threading import Thread
 from typing import Any
 
 from zlmreport.cli.capture_display import JsonLines, order_of, visit_named
-from zlmreport.cli.capture_lines import halted, line_on, what_to_do
+from zlmreport.cli.capture_lines import list_what_to_do, tell_event, tell_halted
 from zlmreport.errors import InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.live.capture.events import Event, Order, TooSlow, Unclear
@@ -44,12 +44,12 @@ class SteeredLines(JsonLines):
 
     def begin(self, follower: Follower) -> None:
         """Print what is to be done before readings are taken."""
-        self._say("to-do", steps=what_to_do(follower.progress, self._writer))
+        self._say("to-do", steps=list_what_to_do(follower.progress, self._writer))
 
     def tell(self, event: Event) -> None:
         """Print an event."""
         if not isinstance(event, MOMENTARY):
-            line = line_on(event, len(self._assignment.visits), self._writer)
+            line = tell_event(event, len(self._assignment.visits), self._writer)
             self._print({**to_record(event), "line": line})
 
     def show(self, follower: Follower, reading: LiveReading) -> Iterator[Order]:
@@ -75,8 +75,8 @@ class SteeredLines(JsonLines):
         """Print what is wrong and what to do, and wait for an empty line."""
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
-        steps = what_to_do(progress, self._writer, event)
-        self._say("awaits", message=halted(event, self._writer), steps=steps)
+        steps = list_what_to_do(progress, self._writer, event)
+        self._say("awaits", message=tell_halted(event, self._writer), steps=steps)
         while self._answer():
             self._say("refused", message=f"first {steps[0]}; then send an empty line")
 
@@ -84,7 +84,7 @@ class SteeredLines(JsonLines):
         """Print what may be answered, and wait for an answer that is one."""
         while True:
             candidates = [[visit and visit.number, share] for visit, share in question.candidates]
-            self._say("asks", message=halted(question, self._writer), candidates=candidates)
+            self._say("asks", message=tell_halted(question, self._writer), candidates=candidates)
             try:
                 return visit_named(self._answer(), progress, Place("answer"))
             except InputError as error:

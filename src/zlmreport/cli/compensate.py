@@ -12,35 +12,35 @@ from typing import Any
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.cli.layout import section_lines
-from zlmreport.cli.terminal import Colour, print_json, said, shown_path
+from zlmreport.cli.layout import lay_out_sections
+from zlmreport.cli.terminal import Colour, print_json, say, show_path
 from zlmreport.document.subjects.compensation import (
     Uncertainties,
-    compensation_sheet,
-    confirmation,
     forecast,
+    lay_out_confirmation,
+    make_compensation_sheet,
 )
 from zlmreport.document.writer import Writer
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.files import Document, write_new
-from zlmreport.job.choices import controller_choice
+from zlmreport.job.choices import choose_controller_of
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.tree import KeyEntry, Keys, Scalar, keys_of
+from zlmreport.job.tree import KeyEntry, Keys, Scalar, make_keys_of
 from zlmreport.language import Language
 from zlmreport.measurement.axis import refuse_other_than_positions
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.compensation.basis import (
     FittedModel,
     TableBasis,
-    basis_of_means,
-    basis_of_model,
-    with_table,
+    apply_table,
+    make_basis_of_means,
+    make_basis_of_model,
 )
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
-from zlmreport.model.compensation.curve import ErrorCurve, curve_of
-from zlmreport.model.compensation.forecast import figures
+from zlmreport.model.compensation.curve import ErrorCurve, make_error_curve
+from zlmreport.model.compensation.forecast import compute_figures
 from zlmreport.model.compensation.making import Made, make
 from zlmreport.plugin.protocols import Controller
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -62,29 +62,31 @@ def run(options: Namespace) -> int:
         raise InputError.at(_COMMAND, "one job makes a table; --confirm BEFORE.yaml AFTER.yaml takes two")
     job = load(options.jobs[0], registry)
     made, measurements = _made(job, registry, options)
-    uncertainties = _uncertainties(job, measurements, made, registry)
+    uncertainties = _find_uncertainties(job, measurements, made, registry)
     written: Sequence[Path] = ()
     if options.output:
-        sheet = registry.renderer("pdf").render(compensation_sheet(job, measurements, made, uncertainties))
+        sheet = registry.renderer("pdf").render(
+            make_compensation_sheet(job, measurements, made, uncertainties)
+        )
         contents = {end: text.encode() for end, text in made.files.items()} | {_SHEET: sheet}
         number = job.keys.certificate.number
         documents = [Document(options.output / f"{number}{end}", each) for end, each in contents.items()]
         written = write_new(documents)
     if options.json:
-        print_json(_values(job, made, uncertainties, written))
+        print_json(_collect_values(job, made, uncertainties, written))
         return 0
     section = forecast(made, Writer.of(measurements, Language.ENGLISH), uncertainties)
-    print(_heading(job, made), *section_lines([section]), "", sep="\n")
+    print(_write_heading(job, made), *lay_out_sections([section]), "", sep="\n")
     for path in written:
-        print(shown_path(path))
+        print(show_path(path))
     if not options.output:
         print("the table and its sheet: state a folder, --output DIR")
     print("next: load the table, measure again, then zlmreport compensate --confirm BEFORE.yaml AFTER.yaml")
     return 0
 
 
-def _heading(job: Job, made: Made) -> str:
-    control = f"{said(made.controller.title)}, {made.controller.confidence}"
+def _write_heading(job: Job, made: Made) -> str:
+    control = f"{say(made.controller.title)}, {made.controller.confidence}"
     return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
 
 
@@ -101,7 +103,7 @@ def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, Measu
             "axis.compensation_table is missing: which table was active during this test? Name its file, or "
             "state none; a new table on top of one that nobody knows corrects twice",
         )
-    controller, own = _controller(job, registry, options)
+    controller, own = _choose_controller(job, registry, options)
     if controller.confidence != "verified" and not options.unconfirmed:
         raise InputError.at(
             _COMMAND,
@@ -109,9 +111,9 @@ def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, Measu
             "control; --unconfirmed writes it all the same: try it with care, one point first",
         )
     measurements = pipeline.read(job, registry)
-    curve = curve_of(measurements, job.source.place)
-    basis = _basis(job, curve, measurements, registry, options)
-    budget = pipeline.budget_of_job(job, measurements, registry)
+    curve = make_error_curve(measurements, job.source.place)
+    basis = _choose_basis(job, curve, measurements, registry, options)
+    budget = pipeline.make_budget_of_job(job, measurements, registry)
     made = make(
         basis,
         job.axis,
@@ -125,7 +127,7 @@ def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, Measu
     return made, measurements
 
 
-def _basis(
+def _choose_basis(
     job: Job, curve: ErrorCurve, measurements: MeasurementSet, registry: Registry, options: Namespace
 ) -> TableBasis:
     """Return what is known of the axis: its means, or its model where that is asked for."""
@@ -141,11 +143,11 @@ def _basis(
         study = Study.of(job, measurements, registry.effects, pipeline.read_sessions(job, registry))
         fitted = FittedModel(measurements, study.observed, study.fitted().fit)
     if is_of_model and fitted:
-        return basis_of_model(curve, fitted)
-    return basis_of_means(curve, measurements, fitted)
+        return make_basis_of_model(curve, fitted)
+    return make_basis_of_means(curve, measurements, fitted)
 
 
-def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Controller, Any]:
+def _choose_controller(job: Job, registry: Registry, options: Namespace) -> tuple[Controller, Any]:
     """Return the control that the command line names, or else the job, with its keys and those of --set."""
     stated = job.controller
     name = options.controller or (stated.identifier if stated else None)
@@ -154,12 +156,12 @@ def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Contr
         raise InputError.at(
             _COMMAND, f"which control? State --controller NAME, or compensation.controller: {known}"
         )
-    base: Keys = stated.stated if stated and stated.identifier == name else keys_of(_COMMAND)
+    base: Keys = stated.stated if stated and stated.identifier == name else make_keys_of(_COMMAND)
     entries = [KeyEntry(key, _COMMAND, Scalar(_COMMAND, text)) for key, text in options.set]
     named = KeyEntry("controller", _COMMAND, Scalar(_COMMAND, name))
     problems: list[Any] = []
-    choice = controller_choice(
-        keys_of(base.place, (*base.entries.values(), *entries, named)), registry, problems
+    choice = choose_controller_of(
+        make_keys_of(base.place, (*base.entries.values(), *entries, named)), registry, problems
     )
     if problems or choice is None:
         raise InputError(problems)
@@ -169,12 +171,12 @@ def _controller(job: Job, registry: Registry, options: Namespace) -> tuple[Contr
 def _confirm(options: Namespace, registry: Registry) -> int:
     before, after = (load(path, registry) for path in options.jobs)
     made, measurements = _made(before, registry, options)
-    curve = curve_of(pipeline.read(after, registry), after.source.place)
+    curve = make_error_curve(pipeline.read(after, registry), after.source.place)
     found = confirm(made.basis, curve, made.decoded, after.source.place)
-    shown = figures(np.stack([curve.forward, curve.reverse]), curve)
+    shown = compute_figures(np.stack([curve.forward, curve.reverse]), curve)
     written: Sequence[Path] = ()
     if options.output and after.keys.as_found is None:
-        document = _job_of_both(before, after, made, options.jobs[1], options.output)
+        document = _make_job_of_both(before, after, made, options.jobs[1], options.output)
         written = write_new([document])
     unit = before.axis.deviation_unit
     factor = unit.from_si(1.0)
@@ -197,15 +199,18 @@ def _confirm(options: Namespace, registry: Registry) -> int:
     else:
         writer = Writer.of(measurements, Language.ENGLISH)
         print(
-            _heading(before, made), *section_lines([confirmation(found, made, shown, writer)]), "", sep="\n"
+            _write_heading(before, made),
+            *lay_out_sections([lay_out_confirmation(found, made, shown, writer)]),
+            "",
+            sep="\n",
         )
         both = written[0] if written else options.jobs[1] if after.keys.as_found else None
-        how = f"zlmreport {shown_path(both)}" if both else "--output DIR writes the job"
+        how = f"zlmreport {show_path(both)}" if both else "--output DIR writes the job"
         print(f"the certificate of both tests, as found and as left: {how}")
     return 0 if found.verdict is ConfirmationVerdict.HELD else 1
 
 
-def _job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) -> Document:
+def _make_job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) -> Document:
     """Return the job of the axis as found, before its table, and as left."""
 
     def told(value: object) -> str:
@@ -215,7 +220,7 @@ def _job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) 
     measurement: dict[str, Any] = {"source": {"plugin": before.source.identifier, **source}}
     if before.keys.measurement.date is not None:
         measurement = {"date": before.keys.measurement.date, **measurement}
-    control = said(made.controller.title)
+    control = say(made.controller.title)
     found = {
         "adjustment": f"Compensation table of {len(made.decoded.positions)} rows in the control ({control}).",
         "measurement": measurement,
@@ -230,7 +235,7 @@ def _job_of_both(before: Job, after: Job, made: Made, path: Path, folder: Path) 
     return Document(folder / f"{after.keys.certificate.number}-as-left.yaml", text.encode())
 
 
-def _uncertainties(
+def _find_uncertainties(
     job: Job, measurements: MeasurementSet, made: Made, registry: Registry
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return U before and with the table, by the first of the job's standards that has these parameters."""
@@ -240,7 +245,7 @@ def _uncertainties(
     taken = np.stack([curve.forward, curve.reverse]) - made.forecast.left
 
     def of(readings: MeasurementSet) -> dict[str, float]:
-        for each in pipeline.evaluated(job, readings, registry):
+        for each in pipeline.evaluate_all(job, readings, registry):
             found = {
                 parameter.quantity.symbol: unit.from_si(parameter.expanded_uncertainty)
                 for parameter in each.evaluation.parameters
@@ -250,10 +255,12 @@ def _uncertainties(
                 return found
         return {}
 
-    return of(measurements), of(with_table(measurements, taken))
+    return of(measurements), of(apply_table(measurements, taken))
 
 
-def _values(job: Job, made: Made, uncertainties: Uncertainties, written: Sequence[Path]) -> dict[str, Any]:
+def _collect_values(
+    job: Job, made: Made, uncertainties: Uncertainties, written: Sequence[Path]
+) -> dict[str, Any]:
     unit, position = job.axis.deviation_unit, job.axis.position_unit
     factor = unit.from_si(1.0)
     number, forecast = job.keys.certificate.number, made.forecast

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from zlmreport.cli.arguments import COMMANDS, parser_for
+from zlmreport.cli.arguments import COMMANDS, make_parser_for
 from zlmreport.cli.arguments.documents import MODEL_ACTIONS
 from zlmreport.cli.new import GUIDES
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, INSTRUMENT, RENDERER, Kind
@@ -26,24 +26,24 @@ def complete() -> None:
         raise SystemExit(1) from None
     line = os.environ[_LINE].encode()[: int(os.environ[_POINT])].decode(errors="ignore")
     program, *words = line.split(" ")
-    command, rest = _command(words)
-    parser = parser_for(command)
+    command, rest = _split_command(words)
+    parser = make_parser_for(command)
     actions: list[Any] = parser._actions  # noqa: SLF001 - argparse has no other list
     positional = [action for action in actions if not action.option_strings]
     for action in actions:
         if action.dest in _PLUGINS:
-            action.completer = _identifiers(_PLUGINS[action.dest])
+            action.completer = _complete_identifiers(_PLUGINS[action.dest])
         elif action.dest in {"action", "kind"}:
             action.choices = MODEL_ACTIONS if action.dest == "action" else tuple(GUIDES)
         elif positional and action is positional[0] and action.choices is None:
-            further = _further_words(command) if rest == rest[-1:] else ()
-            action.completer = _files_or(further, FilesCompleter())
+            further = _list_further_words(command) if rest == rest[-1:] else ()
+            action.completer = _complete_files_or(further, FilesCompleter())
     os.environ[_LINE] = " ".join((program, *rest))
     os.environ[_POINT] = str(len(os.environ[_LINE].encode()))
     argcomplete.autocomplete(parser, always_complete_options=False)
 
 
-def _command(words: Sequence[str]) -> tuple[str, list[str]]:
+def _split_command(words: Sequence[str]) -> tuple[str, list[str]]:
     """Return the command of which all words are written, and the words after it, the last as yet unended."""
     for length in (2, 1):
         command = " ".join(words[:length])
@@ -52,13 +52,13 @@ def _command(words: Sequence[str]) -> tuple[str, list[str]]:
     return "", list(words)
 
 
-def _further_words(command: str) -> list[str]:
+def _list_further_words(command: str) -> list[str]:
     """Return the words that make another command of this one."""
     begun = f"{command} ".lstrip()
     return sorted({name.removeprefix(begun).split(" ")[0] for name in COMMANDS if name.startswith(begun)})
 
 
-def _identifiers(kind: Kind[Any]) -> Callable[..., Iterable[str]]:
+def _complete_identifiers(kind: Kind[Any]) -> Callable[..., Iterable[str]]:
     def found(prefix: str, **_: object) -> Iterable[str]:
         begun, comma, _last = prefix.rpartition(",")  # of a list, such as that of the formats
         return [f"{begun}{comma}{identifier}" for identifier in find_plugins().identifiers(kind)]
@@ -66,7 +66,7 @@ def _identifiers(kind: Kind[Any]) -> Callable[..., Iterable[str]]:
     return found
 
 
-def _files_or(words: Iterable[str], files: Callable[..., Iterable[str]]) -> Callable[..., list[str]]:
+def _complete_files_or(words: Iterable[str], files: Callable[..., Iterable[str]]) -> Callable[..., list[str]]:
     def found(prefix: str, **others: object) -> list[str]:
         return [*(word for word in words if word.startswith(prefix)), *files(prefix=prefix, **others)]
 

@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from types import FrameType
 from typing import NoReturn
 
-from zlmreport.cli.terminal import visible
+from zlmreport.cli.terminal import make_visible
 from zlmreport.errors import InputError, Place
 from zlmreport.language import Language
-from zlmreport.language.formatting import general_number
+from zlmreport.language.formatting import write_general_number
 from zlmreport.live.emulation.channels import LocalSocket, PseudoTerminal, serve
 from zlmreport.live.emulation.emulator import Emulator, MovingAxis, Planned, Scene, Trouble, Troubles
 from zlmreport.measurement.units import MILLIMETRE
@@ -24,12 +24,12 @@ _NOISE = 0.05e-6
 def run(options: Namespace) -> int:
     """Emulate an instrument until it is unplugged, or the user ends it."""
     refuse_two_lines(options, "zlmreport emulate")
-    axis = axis_of(options)
+    axis = make_axis_of(options)
     instrument = find_plugins(files=options.plugin).instrument(options.instrument)
     title = instrument.title.in_language(Language.ENGLISH)
-    course = ", ".join(general_number(MILLIMETRE.from_si(position)) for position in axis.course)
+    course = ", ".join(write_general_number(MILLIMETRE.from_si(position)) for position in axis.course)
     return put_on_line(
-        instrument.emulator(Scene(axis, troubles_of(options))),
+        instrument.emulator(Scene(axis, make_troubles_of(options))),
         options,
         lambda address: (
             f"{instrument.identifier}: {title}, emulated",
@@ -39,7 +39,7 @@ def run(options: Namespace) -> int:
     )
 
 
-def axis_of(options: Namespace) -> MovingAxis:
+def make_axis_of(options: Namespace) -> MovingAxis:
     """Return the axis that the command line describes; raise `InputError` for one that there cannot be."""
     if options.dwell < 0:
         raise InputError.at(
@@ -55,7 +55,7 @@ def refuse_two_lines(options: Namespace, command: str) -> None:
         raise InputError.at(Place(command), "--link names a pseudo-terminal, --port a TCP port: take one")
 
 
-def troubles_of(options: Namespace) -> Troubles:
+def make_troubles_of(options: Namespace) -> Troubles:
     """Return what the command line says that goes wrong."""
     return Troubles(tuple(Planned(Trouble(kind), start) for kind, start in options.fault))
 
@@ -73,8 +73,8 @@ def put_on_line(
     `announce`: Returns what is printed once the line is there, from its address.
     `heard`: Called with it from when somebody reads the instrument.
     """
-    signal.signal(signal.SIGTERM, _as_after_ctrl_c)
-    troubles = troubles_of(options)
+    signal.signal(signal.SIGTERM, _end_as_after_ctrl_c)
+    troubles = make_troubles_of(options)
     with PseudoTerminal(options.link) if options.port is None else LocalSocket(options.port) as channel:
 
         def is_over() -> bool:
@@ -84,7 +84,7 @@ def put_on_line(
             return False
 
         try:
-            print("\n".join(announce(visible(channel.address))), flush=True)
+            print("\n".join(announce(make_visible(channel.address))), flush=True)
             serve(emulator, channel, troubles, is_over=is_over)
         except KeyboardInterrupt:
             return 0
@@ -92,6 +92,6 @@ def put_on_line(
     return 0
 
 
-def _as_after_ctrl_c(_number: int, _frame: FrameType | None) -> NoReturn:
+def _end_as_after_ctrl_c(_number: int, _frame: FrameType | None) -> NoReturn:
     """End as after Ctrl-C, so that the name of the port is taken away."""
     raise KeyboardInterrupt

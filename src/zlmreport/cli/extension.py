@@ -70,7 +70,7 @@ class _CutError(Exception):
     """A planned fault has cut the connection."""
 
 
-def command_of_extension(arguments: Sequence[str]) -> tuple[Command, int] | None:
+def find_command_of_extension(arguments: Sequence[str]) -> tuple[Command, int] | None:
     """Return the command of an extension that stands first, and its number of words; None if none does."""
     known, _ = _PLUGIN_FILES.parse_known_args(arguments)
     registry = find_plugins(files=known.plugin)
@@ -82,14 +82,14 @@ def command_of_extension(arguments: Sequence[str]) -> tuple[Command, int] | None
     return None
 
 
-def parser_of(command: Command) -> CommandParser:
+def make_parser_of(command: Command) -> CommandParser:
     """Return the parser of a command."""
     parser = CommandParser(f"zlmreport {command.words}", command.description, command.examples)
     for option in command.options:
         settings: dict[str, Any] = {
             "metavar": option.metavar,
             "help": option.help,
-            "type": _typed(option.read),
+            "type": _type_reader(option.read),
         }
         if option.several:
             parser.add_argument(f"--{option.name}", action="append", default=[], **settings)
@@ -101,7 +101,7 @@ def parser_of(command: Command) -> CommandParser:
     return parser
 
 
-def _typed(read: Callable[[str], Any]) -> Callable[[str], Any]:
+def _type_reader(read: Callable[[str], Any]) -> Callable[[str], Any]:
     def typed(text: str) -> Any:
         try:
             return read(text)

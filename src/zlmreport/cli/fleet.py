@@ -17,9 +17,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TextIO
 
-from zlmreport.cli.terminal import print_json, problem_values, shown_path, visible
+from zlmreport.cli.terminal import collect_problem, make_visible, print_json, show_path
 from zlmreport.errors import AccessError, InputError, Place
-from zlmreport.files import confined
+from zlmreport.files import confine
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.night import Order, foretell, spend_night
 from zlmreport.fleet.plan import Due, PlannedJob
@@ -44,7 +44,7 @@ def run(options: Namespace) -> int:
     fleet = load_fleet(options.fleet, extensions=lambda: find_plugins(files=options.plugin).extensions)
     if options.workers and fleet.keys.executor.kind == "dask":
         raise InputError.at(Place("zlmreport fleet --workers"), "a scheduler has the workers that it has")
-    with confined(fleet.keys.confine):
+    with confine(fleet.keys.confine):
         return _run(fleet, options)
 
 
@@ -52,18 +52,18 @@ def _run(fleet: FleetFile, options: Namespace) -> int:
     plugins = tuple(options.plugin)
     if options.dry_run:
         return _foretell(fleet, plugins, options)
-    with _logs(fleet, options) as logs:
+    with _open_logs(fleet, options) as logs:
         watcher = _Watcher(fleet, logs, options)
         seconds = math.inf if options.max_time is None else _MINUTE * options.max_time
-        with _told_to_end(), watcher:
+        with _let_signals_interrupt(), watcher:
             spend_night(fleet, Order(plugins, options.workers, seconds), watcher)
     if options.json:
-        print_json(_summary(fleet, watcher, watcher.exit_code))
+        print_json(_summarise(fleet, watcher, watcher.exit_code))
     return watcher.exit_code
 
 
 @contextlib.contextmanager
-def _told_to_end() -> Iterator[None]:
+def _let_signals_interrupt() -> Iterator[None]:
     """Let a signal to end be an interruption, so that the night still says what it came to."""
 
     def interrupted(*_: object) -> None:
@@ -101,13 +101,13 @@ class _Watcher:
         for log in self._logs:
             log.noticed(notice)
         if self._options.quiet or self._options.json:
-            print(visible(f"{self._fleet.path}: {notice.english}"), file=sys.stderr)
+            print(make_visible(f"{self._fleet.path}: {notice.english}"), file=sys.stderr)
 
     def learned(self, file: Path) -> None:
-        self.priors.append(shown_path(file))
+        self.priors.append(show_path(file))
         self._progress.hide()
         for log in self._logs:
-            log.learned(shown_path(file))
+            log.learned(show_path(file))
 
     def planned(self, jobs: Sequence[PlannedJob]) -> None:
         due = sum(each.due is not Due.NOTHING for each in jobs)
@@ -119,7 +119,7 @@ class _Watcher:
     def happened(self, happened: Happened) -> None:
         self.counts[happened.what] += 1
         if self._options.json:
-            self.jobs.append({"what": happened.what.value, **of_job(happened)})
+            self.jobs.append({"what": happened.what.value, **collect_of_job(happened)})
         if happened.what is What.UNCHANGED:
             return
         self._progress.hide()
@@ -127,7 +127,7 @@ class _Watcher:
             log.happened(happened)
         if self._options.quiet or self._options.json:
             for problem in happened.problems:
-                print(visible(str(problem)), file=sys.stderr)
+                print(make_visible(str(problem)), file=sys.stderr)
         if happened.what in _COUNTED:
             self._progress.advance(failed=happened.what is What.FAILED)
 
@@ -143,11 +143,11 @@ class _Watcher:
         for log in self._logs if error is None or is_interrupted else ():
             log.ended(self.counts, time.monotonic() - self._begun, is_interrupted=is_interrupted)
         if is_interrupted and self._options.json:
-            print_json(_summary(self._fleet, self, INTERRUPTED))
+            print_json(_summarise(self._fleet, self, INTERRUPTED))
 
 
 @contextlib.contextmanager
-def _logs(fleet: FleetFile, options: Namespace) -> Iterator[Sequence[TextLog | JsonLog]]:
+def _open_logs(fleet: FleetFile, options: Namespace) -> Iterator[Sequence[TextLog | JsonLog]]:
     """Yield the logs: one for whoever is there, and that of the fleet file."""
     logs: list[TextLog | JsonLog] = []
     if options.log_json:
@@ -169,14 +169,14 @@ def _logs(fleet: FleetFile, options: Namespace) -> Iterator[Sequence[TextLog | J
         yield [*logs, JsonLog(file) if keys.format == "json" else TextLog(file)]
 
 
-def _summary(fleet: FleetFile, watcher: _Watcher, code: int) -> dict[str, Any]:
+def _summarise(fleet: FleetFile, watcher: _Watcher, code: int) -> dict[str, Any]:
     """Return what became of every job, for programs."""
     return {
         "schema": SCHEMA,
         "zlmreport": __version__,
         "fleet": fleet.name,
         "exit_code": code,
-        "counts": by_word(watcher.counts),
+        "counts": count_by_word(watcher.counts),
         "jobs": watcher.jobs,
         "notices": [{"about": each.about.value, "message": each.english} for each in watcher.notices],
         "priors": watcher.priors,
@@ -210,11 +210,11 @@ def _foretell(fleet: FleetFile, plugins: tuple[Path, ...], options: Namespace) -
         return 0
     for each in due:
         number = f"{each.number}  " if each.number else ""
-        print(visible(f"{number}{each.job}: {each.why}; {_FORETOLD[each.due]}"))
+        print(make_visible(f"{number}{each.job}: {each.why}; {_FORETOLD[each.due]}"))
         for problem in each.problems:
-            print(visible(f"  {problem}"))
+            print(make_visible(f"  {problem}"))
     if not options.quiet:
-        print(f"{_due(len(due), len(planned))}; nothing was made")
+        print(f"{_count_due(len(due), len(planned))}; nothing was made")
     return 0
 
 
@@ -222,7 +222,7 @@ _WORD = 9
 _BAR, _USUAL_WIDTH = 30, 80
 
 
-def _due(number: int, jobs: int) -> str:
+def _count_due(number: int, jobs: int) -> str:
     """Return how many of the jobs are due."""
     jobs_are = "1 job is" if jobs == 1 else f"{jobs} jobs are"
     return f"{number} of {jobs_are} due"
@@ -237,7 +237,7 @@ class TextLog:
 
     def begun(self, fleet: str, due: int, jobs: int) -> None:
         """Write what is due."""
-        self._line(f"{fleet}: {_due(due, jobs)}")
+        self._line(f"{fleet}: {_count_due(due, jobs)}")
 
     def happened(self, happened: Happened) -> None:
         """Write what happened to a job; nothing of one that is as it was, also after a new release."""
@@ -265,11 +265,11 @@ class TextLog:
         done = "interrupted after" if is_interrupted else "done in"
         if self._upgraded:
             self._line(f"programs changed: {self._upgraded} made again, and none of their values changed")
-        self._line(f"{done} {duration(seconds)}: {', '.join(counted(counts)) or 'no jobs'}")
+        self._line(f"{done} {write_duration(seconds)}: {', '.join(tell_counted(counts)) or 'no jobs'}")
 
     def _line(self, text: str) -> None:
         moment = dt.datetime.now().astimezone().isoformat(sep=" ", timespec="seconds")
-        print(f"{moment}  {visible(text)}", file=self._stream, flush=True)
+        print(f"{moment}  {make_visible(text)}", file=self._stream, flush=True)
 
 
 class JsonLog:
@@ -285,7 +285,7 @@ class JsonLog:
     def happened(self, happened: Happened) -> None:
         """Write what happened to a job; nothing of one that is as it was."""
         if happened.what is not What.UNCHANGED:
-            self._line({"event": happened.what.value, **of_job(happened)})
+            self._line({"event": happened.what.value, **collect_of_job(happened)})
 
     def noticed(self, notice: NightNotice) -> None:
         """Write what concerns the whole night."""
@@ -298,14 +298,14 @@ class JsonLog:
     def ended(self, counts: Counter[What], seconds: float, *, is_interrupted: bool = False) -> None:
         """Write what the night came to."""
         event = "interrupted" if is_interrupted else "ended"
-        self._line({"event": event, "seconds": round(seconds, 1), "counts": by_word(counts)})
+        self._line({"event": event, "seconds": round(seconds, 1), "counts": count_by_word(counts)})
 
     def _line(self, content: Mapping[str, Any]) -> None:
         moment = dt.datetime.now(dt.UTC).isoformat(timespec="milliseconds")
         print(json.dumps({"time": moment, **content}), file=self._stream, flush=True)
 
 
-def of_job(happened: Happened) -> dict[str, Any]:
+def collect_of_job(happened: Happened) -> dict[str, Any]:
     """Return what happened to a job, for programs."""
     return {
         "job": happened.job,
@@ -313,16 +313,16 @@ def of_job(happened: Happened) -> dict[str, Any]:
         "why": happened.why or None,
         "files": list(happened.files),
         "conforms": happened.conforms,
-        "problems": [problem_values(each) for each in happened.problems],
+        "problems": [collect_problem(each) for each in happened.problems],
     }
 
 
-def by_word(counts: Counter[What]) -> dict[str, int]:
+def count_by_word(counts: Counter[What]) -> dict[str, int]:
     """Return how often each thing happened, the rarest too."""
     return {what.value: counts[what] for what in What}
 
 
-def counted(counts: Counter[What]) -> Iterator[str]:
+def tell_counted(counts: Counter[What]) -> Iterator[str]:
     """Yield how often each thing happened, for people."""
     words = {What.DRAFT: "drafts"}
     for what in What:
@@ -331,7 +331,7 @@ def counted(counts: Counter[What]) -> Iterator[str]:
             yield f"{counts[what]} {word}"
 
 
-def duration(seconds: float) -> str:
+def write_duration(seconds: float) -> str:
     """Return a duration as people say it.
 
     >>> duration(4.2), duration(200), duration(7300)
@@ -368,11 +368,11 @@ class NightProgress:
     def _draw(self) -> None:
         if self._is_shown:
             width = shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns
-            line = bar(self._done, self._total, self._failed, time.monotonic() - self._begun)
+            line = draw_bar(self._done, self._total, self._failed, time.monotonic() - self._begun)
             print(f"\r\x1b[K{line[: width - 1]}", end="", file=self._stream, flush=True)
 
 
-def bar(done: int, total: int, failed: int, seconds: float) -> str:
+def draw_bar(done: int, total: int, failed: int, seconds: float) -> str:
     """Return the bar.
 
     >>> bar(30, 120, 1, 10.0)
@@ -382,5 +382,5 @@ def bar(done: int, total: int, failed: int, seconds: float) -> str:
     text = f"{done:>{len(str(total))}}/{total} [{'#' * filled}{'.' * (_BAR - filled)}]"
     if done and seconds > 0:
         rate = done / seconds
-        text += f"  {rate:.{1 if rate >= 1 else 2}f}/s, {duration((total - done) / rate)} left"
+        text += f"  {rate:.{1 if rate >= 1 else 2}f}/s, {write_duration((total - done) / rate)} left"
     return f"{text}, {failed} failed" if failed else text

@@ -1,4 +1,4 @@
-"""``zlmreport fleet report``, ``backup``, ``rebuild``: what is made of a ledger, and the ledger itself."""
+"""``zlmreport fleet report``, ``back_up``, ``rebuild``: what is made of a ledger, and the ledger itself."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from argparse import Namespace
 from functools import partial
 from pathlib import Path
 
-from zlmreport.cli.terminal import shown_path, visible
+from zlmreport.cli.terminal import make_visible, show_path
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write
-from zlmreport.fleet.basis import path_in
-from zlmreport.fleet.exports import calendar, metrics
+from zlmreport.fleet.basis import write_path_in
+from zlmreport.fleet.exports import write_calendar, write_metrics
 from zlmreport.fleet.ledger import Ledger
-from zlmreport.fleet.overview import overview
+from zlmreport.fleet.overview import make_overview
 from zlmreport.fleet.overview_cells import Names
 from zlmreport.fleet.state import FleetState, Rules, state_of
-from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, load_fleet
-from zlmreport.job.parse import counted
+from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, load_fleet
+from zlmreport.job.parse import count_in_words
 from zlmreport.plugin.registry import find_plugins
 
 _INCOMPLETE = 4
@@ -34,19 +34,19 @@ def report(options: Namespace) -> int:
     files = os.path.relpath(fleet.output, folder)
     language = fleet.keys.language
     contents = (
-        overview(state, language, names, files).encode(),
-        metrics(state).encode(),
-        calendar(state, language),
+        make_overview(state, language, names, files).encode(),
+        write_metrics(state).encode(),
+        write_calendar(state, language),
     )
     named = zip(fleet.reports, contents, strict=True)
     for path in write(Document(folder / name, content) for name, content in named):
-        print(shown_path(path))
+        print(show_path(path))
     return 0
 
 
 def _state(fleet: FleetFile) -> FleetState:
-    found, unmatched = found_jobs(fleet)
-    named = (path_in(fleet.path.parent, path) for path in found)
+    found, unmatched = find_jobs(fleet)
+    named = (write_path_in(fleet.path.parent, path) for path in found)
     jobs = [job for job in named if not is_retired(job, fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
@@ -57,7 +57,7 @@ def _state(fleet: FleetFile) -> FleetState:
         return state_of(fleet.name, ledger.entries(), jobs, seen, rules)
 
 
-def backup(options: Namespace) -> int:
+def back_up(options: Namespace) -> int:
     """Copy the ledger; the file is whole or not there."""
     fleet = load_fleet(options.fleet)
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
@@ -67,7 +67,7 @@ def backup(options: Namespace) -> int:
         except OSError as error:
             message = f"cannot be written: {error.strerror or error}"
             raise AccessError.at(Place(str(options.output)), message) from error
-    print(shown_path(options.output))
+    print(show_path(options.output))
     return 0
 
 
@@ -79,8 +79,8 @@ def rebuild(options: Namespace) -> int:
     now = dt.datetime.now(dt.UTC).isoformat(timespec="seconds")
     rebuilt = from_certificates(fleet, find_plugins(files=options.plugin), now)
     for problem in rebuilt.problems:
-        print(visible(str(problem)), file=sys.stderr)
+        print(make_visible(str(problem)), file=sys.stderr)
     count = len(rebuilt.numbers)
     are = "is" if count == 1 else "are"
-    print(f"{counted(count, 'certificate')} {are} in the ledger; the next night compares each")
+    print(f"{count_in_words(count, 'certificate')} {are} in the ledger; the next night compares each")
     return _INCOMPLETE if rebuilt.problems else 0

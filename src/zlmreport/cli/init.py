@@ -9,10 +9,10 @@ from pathlib import Path
 
 import numpy as np
 
-from zlmreport.cli.terminal import said, shown_path, wrapped
+from zlmreport.cli.terminal import say, show_path, wrap
 from zlmreport.files import Document, write_new
-from zlmreport.language.formatting import DecimalSign, general_number
-from zlmreport.looking import Looked, job_of, looked_at
+from zlmreport.language.formatting import DecimalSign, write_general_number
+from zlmreport.looking import Looked, look_at, write_job_of
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import find_plugins
@@ -24,8 +24,10 @@ def run(options: Namespace) -> int:
     """Write the starter job; no file that is there already is touched."""
     directory: Path = options.directory
     if options.origin:
-        looked = looked_at(options.origin, find_plugins(files=options.plugin), options.sheet)
-        documents = [Document(directory / "job.yaml", job_of(looked, options.origin, directory).encode())]
+        looked = look_at(options.origin, find_plugins(files=options.plugin), options.sheet)
+        documents = [
+            Document(directory / "job.yaml", write_job_of(looked, options.origin, directory).encode())
+        ]
     else:
         documents = [
             Document(directory / name, files("zlmreport").joinpath("starter", name).read_bytes())
@@ -33,47 +35,47 @@ def run(options: Namespace) -> int:
         ]
     written = write_new(documents)
     for target in written:
-        print(shown_path(target))
-    print(f"next: zlmreport {shown_path(written[0])}")
+        print(show_path(target))
+    print(f"next: zlmreport {show_path(written[0])}")
     return 0
 
 
 def look(options: Namespace) -> int:
     """Print what a file holds."""
     path: Path = options.file
-    looked = looked_at(path, find_plugins(files=options.plugin), options.sheet)
-    print(*_lines(looked, path), sep="\n")
+    looked = look_at(path, find_plugins(files=options.plugin), options.sheet)
+    print(*_tell_lines(looked, path), sep="\n")
     return 0
 
 
-def _lines(looked: Looked, path: Path) -> Iterator[str]:
-    yield f"{path}: {said(looked.source.title)}"
+def _tell_lines(looked: Looked, path: Path) -> Iterator[str]:
+    yield f"{path}: {say(looked.source.title)}"
     for name, read in (looked.read.tests or {"": looked.read}).items():
-        yield from wrapped(f"{name}: {_summary(read)}" if name else _summary(read))
-    remarks = dict.fromkeys(said(each) for read in looked.read.lines for each in read.provenance.remarks)
+        yield from wrap(f"{name}: {_summarise(read)}" if name else _summarise(read))
+    remarks = dict.fromkeys(say(each) for read in looked.read.lines for each in read.provenance.remarks)
     for remark in remarks:
-        yield from wrapped(remark)
+        yield from wrap(remark)
     if looked.proposal.asks:
         yield ""
         yield "to be answered by who measured"
         for question in looked.proposal.asks:
-            yield from wrapped(question)
+            yield from wrap(question)
     yield ""
     yield from looked.block(path.name)
 
 
-def _summary(read: MeasurementSet) -> str:
+def _summarise(read: MeasurementSet) -> str:
     """Return in a line what a measurement set holds."""
     place, size = read.axis.position_unit, read.axis.deviation_unit
     at, deviation = place.from_si(read.target_positions), size.from_si(read.deviation)
     count, missing = int(np.isfinite(deviation).sum()), len(read.missing())
     if read.axis.measurand.coordinate is Coordinate.TIME:
-        return _over_time(read, count)
+        return _summarise_over_time(read, count)
     travel = f"from {_number(at[0])} to {_number(at[-1])} {place.symbol}"
     directions = "both directions" if read.is_bidirectional else "one direction"
     parts = [
-        f"{_counted(count, 'reading')} of {_counted(len(at), 'target')} {travel}",
-        f"{_counted(len(read.runs), 'run')}, {directions}",
+        f"{_count_in_words(count, 'reading')} of {_count_in_words(len(at), 'target')} {travel}",
+        f"{_count_in_words(len(read.runs), 'run')}, {directions}",
     ]
     if count:
         smallest, largest = np.nanmin(deviation), np.nanmax(deviation)
@@ -82,11 +84,11 @@ def _summary(read: MeasurementSet) -> str:
     return "; ".join(parts)
 
 
-def _over_time(read: MeasurementSet, count: int) -> str:
+def _summarise_over_time(read: MeasurementSet, count: int) -> str:
     """Return in a line what was read over time, and what was logged beside it."""
     place, size = read.axis.position_unit, read.axis.deviation_unit
     lasts = _number(place.from_si(float(read.target_positions[-1] - read.target_positions[0])))
-    parts = [f"{_counted(count, 'reading')} over {lasts} {place.symbol}"]
+    parts = [f"{_count_in_words(count, 'reading')} over {lasts} {place.symbol}"]
     if count:
         smallest, largest = (size.from_si(float(end(read.deviation))) for end in (np.nanmin, np.nanmax))
         parts.append(f"{_number(smallest)} to {_number(largest)} {size.symbol}")
@@ -95,9 +97,9 @@ def _over_time(read: MeasurementSet, count: int) -> str:
     return "; ".join(parts)
 
 
-def _counted(number: int, what: str) -> str:
+def _count_in_words(number: int, what: str) -> str:
     return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def _number(value: float) -> str:
-    return general_number(float(f"{value:.6g}"), DecimalSign.POINT)
+    return write_general_number(float(f"{value:.6g}"), DecimalSign.POINT)

@@ -13,26 +13,26 @@ from typing import TYPE_CHECKING, Any
 
 from zlmreport.cli.terminal import (
     Colour,
+    collect_problem,
+    lay_out_table,
+    measure_width,
     print_json,
     print_problems,
-    problem_values,
-    shown_path,
-    table,
-    width_of,
+    show_path,
 )
 from zlmreport.document.blocks import Notice
 from zlmreport.document.certificate.conformity import STATEMENTS
-from zlmreport.document.certificate.readings import missing_readings
-from zlmreport.document.certificate.statements import exclusion_notice
-from zlmreport.document.certificate.uncertainty import statement
+from zlmreport.document.certificate.readings import list_missing_readings
+from zlmreport.document.certificate.statements import make_exclusion_notice
+from zlmreport.document.certificate.uncertainty import say_uncertainty
 from zlmreport.document.certificate.values import is_mixed, limit
-from zlmreport.document.writer import Writer, written
+from zlmreport.document.writer import Writer, write_with_uncertainty
 from zlmreport.errors import InputError, ZlmreportError, as_problems
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.job.loading import load
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.units import Unit
 from zlmreport.version import __version__
 
@@ -71,7 +71,7 @@ def do_all(
     results = []
     printed = False
     for checked in refuse_shared_files(loaded):
-        result = attempt(checked, partial(work, checked, checked.job)) if checked.job else checked
+        result = try_step(checked, partial(work, checked, checked.job)) if checked.job else checked
         results.append(result)
         if result.error:
             print_problems(result.error)
@@ -82,7 +82,7 @@ def do_all(
             printed = True
     code = max(result.exit_code(fail_on_nonconformity=fail_on_nonconformity) for result in results)
     if options.json:
-        print_json(summary(results, code))
+        print_json(summarise(results, code))
     return code
 
 
@@ -126,10 +126,10 @@ def load_all(paths: Sequence[Path], registry: Registry, formats: tuple[str, ...]
 
     `formats` stand instead of those that the jobs name.
     """
-    return [attempt(JobResult(path), partial(_loaded, path, registry, formats)) for path in paths]
+    return [try_step(JobResult(path), partial(_load_job, path, registry, formats)) for path in paths]
 
 
-def attempt(result: JobResult, step: Callable[[], JobResult]) -> JobResult:
+def try_step(result: JobResult, step: Callable[[], JobResult]) -> JobResult:
     """Return what a step makes of a result, or the result with the error that ended the step."""
     try:
         return step()
@@ -157,21 +157,21 @@ def refuse_shared_files(results: Sequence[JobResult]) -> list[JobResult]:
     return checked
 
 
-def _loaded(path: Path, registry: Registry, formats: tuple[str, ...]) -> JobResult:
+def _load_job(path: Path, registry: Registry, formats: tuple[str, ...]) -> JobResult:
     return JobResult(path, load(path, registry, formats))
 
 
-def summary(results: Sequence[JobResult], exit_code: int) -> dict[str, Any]:
+def summarise(results: Sequence[JobResult], exit_code: int) -> dict[str, Any]:
     """Return what became of all jobs; values in full precision, µm or ″, as in the results file."""
     return {
         "schema": SCHEMA,
         "zlmreport": __version__,
         "exit_code": exit_code,
-        "jobs": [_job(result) for result in results],
+        "jobs": [_collect_job(result) for result in results],
     }
 
 
-def _job(result: JobResult) -> dict[str, Any]:
+def _collect_job(result: JobResult) -> dict[str, Any]:
     certificate = result.job.keys.certificate if result.job else None
     return {
         "job": str(result.path),
@@ -180,19 +180,19 @@ def _job(result: JobResult) -> dict[str, Any]:
         "status": "failed" if result.error else "done",
         "conforms": result.conforms,
         "files": [str(path) for path in result.files],
-        "evaluations": [_evaluation(evaluation) for evaluation in result.evaluations],
-        "missing_readings": _missing_readings(result),
+        "evaluations": [_collect_evaluation(evaluation) for evaluation in result.evaluations],
+        "missing_readings": _list_missing_readings(result),
         "doubts": [each.in_language(Language.ENGLISH) for each in result.doubts],
         "evidence": [each.in_language(Language.ENGLISH) for each in result.evidence],
-        "problems": [problem_values(problem) for problem in (result.error.problems if result.error else ())],
+        "problems": [collect_problem(problem) for problem in (result.error.problems if result.error else ())],
     }
 
 
-def _in_unit(unit: Unit, value: float | None) -> float | None:
+def _convert_to_unit(unit: Unit, value: float | None) -> float | None:
     return None if value is None else unit.from_si(value)
 
 
-def _evaluation(evaluation: Evaluation) -> dict[str, Any]:
+def _collect_evaluation(evaluation: Evaluation) -> dict[str, Any]:
     usual = evaluation.measurements.axis.deviation_unit
 
     return {
@@ -203,9 +203,9 @@ def _evaluation(evaluation: Evaluation) -> dict[str, Any]:
                 "name": parameter.quantity.name.in_language(Language.ENGLISH),
                 "value": unit.from_si(parameter.value),
                 "unit": unit.ascii,
-                "expanded_uncertainty": _in_unit(unit, parameter.expanded_uncertainty),
+                "expanded_uncertainty": _convert_to_unit(unit, parameter.expanded_uncertainty),
                 "coverage_factor": parameter.coverage_factor,
-                "limit": _in_unit(unit, parameter.limit),
+                "limit": _convert_to_unit(unit, parameter.limit),
                 "conforms": parameter.conforms,
             }
             for parameter in evaluation.parameters
@@ -222,7 +222,7 @@ def _evaluation(evaluation: Evaluation) -> dict[str, Any]:
     }
 
 
-def _missing_readings(result: JobResult) -> list[dict[str, Any]]:
+def _list_missing_readings(result: JobResult) -> list[dict[str, Any]]:
     if not result.evaluations:
         return []
     return [
@@ -233,12 +233,12 @@ def _missing_readings(result: JobResult) -> list[dict[str, Any]]:
             "run": reading.run,
             **({"measurement": name} if name else {}),
         }
-        for name, measurements in _measured(result)
+        for name, measurements in _name_measured_sets(result)
         for reading in measurements.missing()
     ]
 
 
-def _measured(result: JobResult) -> Iterator[tuple[str, MeasurementSet]]:
+def _name_measured_sets(result: JobResult) -> Iterator[tuple[str, MeasurementSet]]:
     """Yield every set of readings with what it is called; with nothing, where there is only one."""
     sets = list({id(each.measurements): each.measurements for each in result.evaluations}.values())
     for measurements in sets:
@@ -253,93 +253,97 @@ def report(result: JobResult) -> Iterator[str]:
     if job is None or not result.evaluations:
         return
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
-    yield f"{Colour.BOLD.of(job.keys.certificate.number)}  {_subject(job)}"
+    yield f"{Colour.BOLD.of(job.keys.certificate.number)}  {_name_subject(job)}"
     for path in result.files:
-        yield f"  {shown_path(path)}"
+        yield f"  {show_path(path)}"
     for evaluation in result.evaluations:
         measurements = evaluation.measurements
         yield ""
         if job.measurements:
             yield f"  {Colour.BOLD.of(measurements.axis.subject.in_language(Language.ENGLISH))}"
-        yield from _parameters(evaluation, Writer.of(measurements, Language.ENGLISH))
-    yield from _notices(result, writer)
+        yield from _tell_parameters(evaluation, Writer.of(measurements, Language.ENGLISH))
+    yield from _tell_notices(result, writer)
 
 
-def findings(result: JobResult) -> Iterator[str]:
+def tell_findings(result: JobResult) -> Iterator[str]:
     """Yield the lines on a checked job: each standard's requirements, met or not."""
     if not result.evaluations:
         return
     writer = Writer.of(result.evaluations[0].measurements, Language.ENGLISH)
-    faults = [each for _, measurements in _measured(result) for each in _faults(measurements)]
-    reserved = (*_incomplete(result, writer), *_unlikely(result, writer))
+    faults = [each for _, measurements in _name_measured_sets(result) for each in _find_faults(measurements)]
+    reserved = (*_tell_incomplete(result, writer), *_tell_unlikely(result, writer))
     sound = Colour.YELLOW.of("can be evaluated, with reservations") if reserved else _SOUND
     yield f"{Colour.BOLD.of(str(result.path))}  {Colour.RED.of('its data look wrong') if faults else sound}"
     for fault in faults:
         yield f"  {writer.say(fault.statement)}; {writer.say(fault.remedy)}"
     yield from reserved
     for evaluation in result.evaluations:
-        yield from requirements(evaluation.designation, evaluation.findings, writer)
-    yield from _missing(result, writer)
-    yield from _model(result)
+        yield from tell_requirements(evaluation.designation, evaluation.findings, writer)
+    yield from _tell_missing(result, writer)
+    yield from _tell_model(result)
 
 
-def _faults(measurements: MeasurementSet) -> tuple[DataFault, ...]:
+def _find_faults(measurements: MeasurementSet) -> tuple[DataFault, ...]:
     """Return what the rows of a file themselves show to be wrong; units are among the doubts."""
     import numpy as np  # noqa: PLC0415 - the same
 
-    from zlmreport.model.diagnosis.faults import FaultKind, recorded_faults  # noqa: PLC0415 - only where data are checked
-    from zlmreport.model.fitting.observations import observations_of  # noqa: PLC0415 - the same
+    from zlmreport.model.diagnosis.faults import FaultKind, find_recorded_faults  # noqa: PLC0415 - only where data are checked
+    from zlmreport.model.fitting.observations import make_observations_of  # noqa: PLC0415 - the same
 
     if np.all(np.isnan(measurements.deviation)):
         return ()
-    observed = observations_of(measurements)
-    found = recorded_faults(observed.design, observed.deviation)
+    observed = make_observations_of(measurements)
+    found = find_recorded_faults(observed.design, observed.deviation)
     return tuple(each for each in found if each.is_sure and each.kind is not FaultKind.WRONG_UNIT)
 
 
-def requirements(designation: str, found: Iterable[Finding], writer: Writer) -> Iterator[str]:
+def tell_requirements(designation: str, found: Iterable[Finding], writer: Writer) -> Iterator[str]:
     """Yield the lines on what a standard asks of a test."""
     yield f"  {designation}"
     words = {True: "met", False: Colour.RED.of("not met"), None: Colour.YELLOW.of("open")}
-    yield from table(
+    yield from lay_out_table(
         (words[finding.met], f"{writer.say(finding.requirement)}: {writer.say(finding.found)}")
         for finding in found
     )
 
 
-def _subject(job: Job) -> str:
+def _name_subject(job: Job) -> str:
     machine = job.keys.machine
     serial = f"serial {machine.serial}" if machine.serial else ""
-    of = counted(len(job.measurements), "measurement") if job.measurements else _in_a_line(job.axis)
+    of = (
+        count_in_words(len(job.measurements), "measurement")
+        if job.measurements
+        else _name_in_a_line(job.axis)
+    )
     return ", ".join(part for part in (of, machine.type, serial) if part)
 
 
-def _in_a_line(axis: Axis) -> str:
+def _name_in_a_line(axis: Axis) -> str:
     """Return what was measured of, within a line: ``axis X``, ``plane XY``."""
     heading = axis.heading.in_language(Language.ENGLISH)
     return heading[:1].lower() + heading[1:]
 
 
-def _parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:
+def _tell_parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:
     parameters = evaluation.parameters
     has_limits = any(each.limit is not None for each in parameters)
     has_uncertainty = any(each.expanded_uncertainty is not None for each in parameters)
     mixed = is_mixed(parameters, writer)
-    values = (_value(each, writer, with_uncertainty=has_uncertainty) for each in parameters)
+    values = (_write_value(each, writer, with_uncertainty=has_uncertainty) for each in parameters)
     columns = [
-        [plain(each.quantity.notation) for each in parameters],
-        *map(_on_the_point, zip(*values, strict=True)),
+        [write_plain(each.quantity.notation) for each in parameters],
+        *map(_align_on_the_point, zip(*values, strict=True)),
         *([[each.quantity.unit_or(writer.deviation_unit).symbol for each in parameters]] if mixed else []),
         [limit(each, writer) if has_limits else "" for each in parameters],
-        [_verdict(each, writer) for each in parameters],
+        [_tell_verdict(each, writer) for each in parameters],
     ]
     headings = [
         *("", "" if mixed else writer.deviation_unit.symbol, *(["± U"] if has_uncertainty else [])),
         *([""] if mixed else []),
         *("limit" if has_limits else "", ""),
     ]
-    without_names = table([headings, *zip(*columns, strict=True)])
-    room = max(_SHORTEST_NAME, _terminal_width() - max(map(width_of, without_names)) - _GAP)
+    without_names = lay_out_table([headings, *zip(*columns, strict=True)])
+    room = max(_SHORTEST_NAME, _measure_terminal() - max(map(measure_width, without_names)) - _GAP)
     names = [_name_lines(writer.say(each.quantity.name), room) for each in parameters]
     rows = [
         row
@@ -347,40 +351,44 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Iterator[str]:
         for row in ((symbol, name, *others), *(("", line, *("" for _ in others)) for line in further))
     ]
     headings.insert(1, "")
-    first, *below = table([headings, *rows], right=range(2, len(headings) - 1))
+    first, *below = lay_out_table([headings, *rows], right=range(2, len(headings) - 1))
     start = len(first) - len(first.lstrip()) - 1
     yield f"  {evaluation.designation}".ljust(start) + first[start:]
     yield from below
 
 
-def _terminal_width() -> int:
+def _measure_terminal() -> int:
     return shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns
 
 
-def _value(parameter: Parameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
+def _write_value(parameter: Parameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
     """Return a value, and with its uncertainty both as the certificate prints them."""
     return (
-        written(parameter, writer)
+        write_with_uncertainty(parameter, writer)
         if with_uncertainty
         else (writer.of_quantity(parameter.quantity).deviation(parameter.printed_value),)
     )
 
 
-def _on_the_point(numbers: Sequence[str]) -> list[str]:
+def _align_on_the_point(numbers: Sequence[str]) -> list[str]:
     """Return numbers that stand with their decimal points below each other when they end alike."""
     decimals = [len(number) - number.find(".") if "." in number else 0 for number in numbers]
     return [number + " " * (max(decimals) - own) for number, own in zip(numbers, decimals, strict=True)]
 
 
-def _verdict(parameter: Parameter, writer: Writer) -> str:
+def _tell_verdict(parameter: Parameter, writer: Writer) -> str:
     if parameter.decision is None:
         return ""
     _, words = STATEMENTS[parameter.decision.conformity]
     return _COLOURS[parameter.conforms].of(writer.say(words))
 
 
-def _notices(result: JobResult, writer: Writer) -> Iterator[str]:
-    notices = [*_incomplete(result, writer), *_unlikely(result, writer), *_missing(result, writer)]
+def _tell_notices(result: JobResult, writer: Writer) -> Iterator[str]:
+    notices = [
+        *_tell_incomplete(result, writer),
+        *_tell_unlikely(result, writer),
+        *_tell_missing(result, writer),
+    ]
     for evaluation in result.evaluations:
         notices.extend(
             f"  {Colour.YELLOW.of('not met')}  {evaluation.designation}: "
@@ -388,49 +396,49 @@ def _notices(result: JobResult, writer: Writer) -> Iterator[str]:
             for finding in evaluation.findings
             if finding.met is False
         )
-    notices.extend(_model(result))
+    notices.extend(_tell_model(result))
     if notices:
         yield ""
         yield from notices
 
 
-def _incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
+def _tell_incomplete(result: JobResult, writer: Writer) -> Iterator[str]:
     """Yield what U leaves out, where there is one."""
     if isinstance(result.budget, Budget):
-        for block in statement(result.budget, (), writer):
+        for block in say_uncertainty(result.budget, (), writer):
             if isinstance(block, Notice):
                 yield f"  {Colour.YELLOW.of('open')}     {block.heading}"
 
 
-def _unlikely(result: JobResult, writer: Writer) -> Iterator[str]:
+def _tell_unlikely(result: JobResult, writer: Writer) -> Iterator[str]:
     for doubt in result.doubts:
         yield f"  {Colour.YELLOW.of('unlikely')} {writer.say(doubt)}"
     for shown in result.evidence:
         yield f"  {Colour.YELLOW.of('doubtful')} {writer.say(shown)}"
 
 
-def _missing(result: JobResult, writer: Writer) -> Iterator[str]:
-    for name, measurements in _measured(result):
+def _tell_missing(result: JobResult, writer: Writer) -> Iterator[str]:
+    for name, measurements in _name_measured_sets(result):
         own, before = Writer.of(measurements, writer.language), f"{name}: " if name else ""
-        for notice in missing_readings(measurements, own):
+        for notice in list_missing_readings(measurements, own):
             yield f"  {Colour.YELLOW.of('missing')}  {before}{notice.heading}"
             yield from (f"           {item}" for item in notice.items)
-        for notice in exclusion_notice(measurements, own):
+        for notice in make_exclusion_notice(measurements, own):
             yield f"  {Colour.YELLOW.of('aside')}    {before}{notice.heading}"
             yield from (f"           {item}" for item in notice.items)
 
 
-def _model(result: JobResult) -> Iterator[str]:
+def _tell_model(result: JobResult) -> Iterator[str]:
     diagnosis = result.diagnosis
     if diagnosis is None:
         return
     from zlmreport.model.diagnosis.diagnosis import Verdict  # noqa: PLC0415 - brings the error model
-    from zlmreport.model.diagnosis.report import verdict_statement  # noqa: PLC0415
+    from zlmreport.model.diagnosis.report import write_verdict_statement  # noqa: PLC0415
 
     label = (Colour.GREEN if diagnosis.verdict is Verdict.ADEQUATE else Colour.YELLOW).of("model")
-    yield f"  {label}  {verdict_statement(diagnosis).in_language(Language.ENGLISH)}"
+    yield f"  {label}  {write_verdict_statement(diagnosis).in_language(Language.ENGLISH)}"
     if diagnosis.verdict is not Verdict.ADEQUATE:
-        yield f"         see: zlmreport model diagnose {shown_path(result.path)}"
+        yield f"         see: zlmreport model diagnose {show_path(result.path)}"
 
 
 def _name_lines(name: str, room: int) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 
-from zlmreport.cli.terminal import Colour, filled, said, table, wrapped
+from zlmreport.cli.terminal import Colour, fill, lay_out_table, say, wrap
 from zlmreport.document.blocks import (
     Align,
     Block,
@@ -19,10 +19,10 @@ from zlmreport.document.blocks import (
     Paragraph,
     Section,
     Table,
-    text_of,
+    write_cell_text,
 )
 from zlmreport.document.writer import NOTHING
-from zlmreport.language.formatting import HELD, plain
+from zlmreport.language.formatting import HELD, write_plain
 
 _COLOURS = {Mark.MET: Colour.GREEN, Mark.OPEN: Colour.YELLOW, Mark.NOT_MET: Colour.RED}
 _INDENT, _FURTHER_IN = "  ", "    "
@@ -30,89 +30,90 @@ _BAR_WIDTH = 20
 _EIGHTHS = " ▏▎▍▌▋▊▉█"
 
 
-def section_lines(sections: Iterable[Section]) -> Iterator[str]:
+def lay_out_sections(sections: Iterable[Section]) -> Iterator[str]:
     """Yield sections, each after an empty line."""
     for section in sections:
         yield from ("", Colour.BOLD.of(section.title))
         for block in section.blocks:
-            yield from block_lines(block, section.title)
+            yield from lay_out_blocks(block, section.title)
 
 
-def block_lines(block: Block, title: str = "") -> Iterator[str]:
+def lay_out_blocks(block: Block, title: str = "") -> Iterator[str]:
     """Yield what stands in a section of this title; a heading that repeats it is left out."""
     match block:
         case Paragraph(text, mark):
-            lines = wrapped(said(text))
+            lines = wrap(say(text))
             yield from (_COLOURS[mark].of(line) for line in lines) if mark else lines
         case Notice(heading, items):
             is_titled = heading == title
-            yield from () if is_titled else wrapped(f"{said(heading)}:")
+            yield from () if is_titled else wrap(f"{say(heading)}:")
             indent = _INDENT if is_titled else _FURTHER_IN
-            yield from (line for item in items for line in wrapped(said(item), indent))
+            yield from (line for item in items for line in wrap(say(item), indent))
         case Facts(pairs):
-            held = (f"{name} {said(value)}".replace(" ", HELD) for name, value in pairs)
-            yield from (line.replace(HELD, " ") for line in filled("   ".join(held)))
+            held = (f"{name} {say(value)}".replace(" ", HELD) for name, value in pairs)
+            yield from (line.replace(HELD, " ") for line in fill("   ".join(held)))
         case Table():
-            yield from _table(block)
+            yield from _lay_out_table(block)
         case Formulas(rows=rows):
             cells = [
-                (plain(symbol.notation), plain(formula.notation), name) for symbol, formula, name in rows
+                (write_plain(symbol.notation), write_plain(formula.notation), name)
+                for symbol, formula, name in rows
             ]
-            yield from table(cells, indent=_INDENT)
+            yield from lay_out_table(cells, indent=_INDENT)
         case Graph():
             pass
 
 
-def in_a_line(facts: Facts) -> str:
+def write_in_a_line(facts: Facts) -> str:
     """Return names and values one after the other."""
-    return "   ".join(f"{name} {said(value)}" for name, value in facts.pairs)
+    return "   ".join(f"{name} {say(value)}" for name, value in facts.pairs)
 
 
-def _table(block: Table) -> Iterator[str]:
+def _lay_out_table(block: Table) -> Iterator[str]:
     """Yield the columns that hold anything; sentences stand below the row that they belong to."""
-    whole = [[said(text_of(cell)) for cell in row] for group in block.groups for row in group.rows]
+    whole = [[say(write_cell_text(cell)) for cell in row] for group in block.groups for row in group.rows]
     shown: list[int] = []
     sentences: list[int] = []
     for number, column in enumerate(block.columns):
         if any(row[number] not in {"", NOTHING} for row in whole):
             (sentences if column.kind is ColumnKind.SENTENCES else shown).append(number)
     columns = [block.columns[number] for number in shown]
-    rows = [[_cell(row[number], block.columns[number]) for number in shown] for row in whole]
+    rows = [[_write_cell(row[number], block.columns[number]) for number in shown] for row in whole]
     right = [number for number, column in enumerate(columns) if column.align is Align.RIGHT]
     is_grouped = any(group.heading for group in block.groups)
-    head, *lines = table([_head(columns), *rows], right, _FURTHER_IN if is_grouped else _INDENT)
+    head, *lines = lay_out_table([_write_head(columns), *rows], right, _FURTHER_IN if is_grouped else _INDENT)
     if head.strip():
         yield head
     below = iter(zip(whole, lines, strict=True))
     for group in block.groups:
-        yield from wrapped(said(group.heading)) if group.heading else ()
+        yield from wrap(say(group.heading)) if group.heading else ()
         for _ in group.rows:
             row, line = next(below)
             yield line
-            yield from _sentences(row, [(number, block.columns[number]) for number in sentences])
+            yield from _list_sentences(row, [(number, block.columns[number]) for number in sentences])
 
 
-def _sentences(row: Sequence[str], columns: Iterable[tuple[int, Column]]) -> Iterator[str]:
+def _list_sentences(row: Sequence[str], columns: Iterable[tuple[int, Column]]) -> Iterator[str]:
     for number, column in columns:
-        heading = text_of(column.heading)
+        heading = write_cell_text(column.heading)
         if row[number] not in {"", NOTHING}:
-            yield from wrapped(f"{heading}: {row[number]}" if heading else row[number], _FURTHER_IN)
+            yield from wrap(f"{heading}: {row[number]}" if heading else row[number], _FURTHER_IN)
 
 
-def _head(columns: Iterable[Column]) -> list[str]:
+def _write_head(columns: Iterable[Column]) -> list[str]:
     return [
         ""
         if column.kind is ColumnKind.BARS
-        else " ".join(filter(None, (said(text_of(column.heading)), column.unit)))
+        else " ".join(filter(None, (say(write_cell_text(column.heading)), column.unit)))
         for column in columns
     ]
 
 
-def _cell(text: str, column: Column) -> str:
-    return _bar(float(text) / 100) if column.kind is ColumnKind.BARS else text
+def _write_cell(text: str, column: Column) -> str:
+    return _draw_bar(float(text) / 100) if column.kind is ColumnKind.BARS else text
 
 
-def _bar(share: float) -> str:
+def _draw_bar(share: float) -> str:
     """Return a bar of a length between 0 and 1."""
     eighths = round(share * 8 * _BAR_WIDTH)
     if not _can_print(_EIGHTHS):

@@ -6,30 +6,30 @@ from argparse import Namespace
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from zlmreport.cli.layout import section_lines
+from zlmreport.cli.layout import lay_out_sections
 from zlmreport.cli.machine_compensate import compensate
-from zlmreport.cli.terminal import Colour, print_json, shown_path
+from zlmreport.cli.terminal import Colour, print_json, show_path
 from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import Place
 from zlmreport.files import Document, write
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.diagnosis import diagnose
-from zlmreport.machines.diagnosis_report import build_values, change_values, diagnosis_values
-from zlmreport.machines.document import machine_document
-from zlmreport.machines.editing import edit_effects, effects_with, effects_without
-from zlmreport.machines.planning import next_run, plan_values
-from zlmreport.machines.prediction import prediction_values
+from zlmreport.machines.diagnosis_report import build_values, change_values, collect_diagnosis
+from zlmreport.machines.document import make_machine_document
+from zlmreport.machines.editing import edit_effects, list_effects_with, list_effects_without
+from zlmreport.machines.planning import plan_next_run, plan_values
+from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile, read_machine
-from zlmreport.machines.report import error_values
+from zlmreport.machines.report import collect_errors
 from zlmreport.machines.subjects import findings, tests
-from zlmreport.machines.subjects.axes import error_section, space_section
+from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
 from zlmreport.machines.subjects.plan import plan_section
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.model.effects.circle_effect import CircleEffect
-from zlmreport.pipeline import file_names
+from zlmreport.pipeline import name_files
 from zlmreport.plugin.registry import Registry, find_plugins
-from zlmreport.verification.carrier import results_in
+from zlmreport.verification.carrier import find_results_in
 
 _SAY = Sayer(Language.ENGLISH)
 
@@ -37,7 +37,7 @@ _SAY = Sayer(Language.ENGLISH)
 def run(options: Namespace) -> int:
     """Do what the action says with a machine."""
     registry = find_plugins(files=options.plugin)
-    machine = read_machine(options.job, registry, results_in)
+    machine = read_machine(options.job, registry, find_results_in)
     lines, values = _ACTIONS[options.action](machine, registry, options)
     if options.json:
         print_json(values)
@@ -46,9 +46,9 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _laid_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:
+def _lay_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:
     yield f"{Colour.BOLD.of(machine.number)}  chain {machine.machine.chain.letters} (workpiece to tool)"
-    yield from section_lines(each for each in sections if each)
+    yield from lay_out_sections(each for each in sections if each)
     yield from more
 
 
@@ -58,11 +58,11 @@ def _predict(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[It
         *(compare_line(machine.machine, each) for each in machine.lines),
     )
     sections = [
-        error_section(machine.machine, _SAY, is_full=False),
-        space_section(machine.machine, _SAY),
+        lay_out_errors(machine.machine, _SAY, is_full=False),
+        lay_out_space(machine.machine, _SAY),
         *(tests.test_section(each, _SAY) for each in compared),
     ]
-    return _laid_out(machine, sections), prediction_values(machine.machine, compared)
+    return _lay_out(machine, sections), collect_prediction(machine.machine, compared)
 
 
 def _check(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
@@ -71,13 +71,13 @@ def _check(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Ite
         "schema": "zlmreport/machine-check/1",
         "machine": machine.number,
         "chain": machine.machine.chain.letters,
-        "errors": error_values(machine.machine),
+        "errors": collect_errors(machine.machine),
         "tests": named,
         "effects": list(machine.effect_names),
         "problems": [],
     }
-    sections = [error_section(machine.machine, _SAY, is_full=False)]
-    return _laid_out(machine, sections, "", f"tests: {', '.join(named) or 'none'}"), values
+    sections = [lay_out_errors(machine.machine, _SAY, is_full=False)]
+    return _lay_out(machine, sections, "", f"tests: {', '.join(named) or 'none'}"), values
 
 
 def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
@@ -86,37 +86,39 @@ def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[I
         compare_circles(machine.machine, machine.measured, registry, study)
         for study in (found.study, found.complete)
     )
-    blocks: list[Block] = [tests.sizes_table(before, _SAY, found.complete.noise.rms)]
-    failures = tests.failure_notice(before, _SAY)
+    blocks: list[Block] = [tests.lay_out_sizes(before, _SAY, found.complete.noise.rms)]
+    failures = tests.make_failure_notice(before, _SAY)
     if failures:
         blocks.append(failures)
-    verdict, *others = findings.said_of(found, _SAY)
+    verdict, *others = findings.lay_out_said_of(found, _SAY)
     sections = [verdict, Section("tests", "Tests", tuple(blocks)), *others]
-    path = shown_path(machine.path)
+    path = show_path(machine.path)
     further = ["", f"next: zlmreport machine add {path} {found.found[0]}"] if found.found else []
     if found.is_tied:
         further = ["", f"next: zlmreport machine plan {path}"]
-    return _laid_out(machine, sections, *further), diagnosis_values(found, before, after)
+    return _lay_out(machine, sections, *further), collect_diagnosis(found, before, after)
 
 
 def _plan(machine: MachineFile, _registry: Registry, _: Namespace) -> tuple[Iterable[str], Any]:
-    found = next_run(diagnose(machine.study(), machine.catalogue), machine.catalogue)
-    return _laid_out(machine, [plan_section(found, _SAY)]), plan_values(found)
+    found = plan_next_run(diagnose(machine.study(), machine.catalogue), machine.catalogue)
+    return _lay_out(machine, [plan_section(found, _SAY)]), plan_values(found)
 
 
-def _certificate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+def _write_certificate(
+    machine: MachineFile, registry: Registry, options: Namespace
+) -> tuple[Iterable[str], Any]:
     """Write the document on a machine, and its results for programs."""
-    document = machine_document(machine, registry)
+    document = make_machine_document(machine, registry)
     output, certificate = machine.file.keys.output, document.certificate
     folder = options.output or output.directory or machine.path.parent
     stated = options.format.split(",") if options.format else output.formats
     renderers = [registry.renderer(each.strip(), Place("--format")) for each in stated if each.strip()]
     documents = [
         Document(folder / name, document.results if each.identifier == "json" else each.render(certificate))
-        for name, each in zip(file_names(certificate.number, renderers), renderers, strict=True)
+        for name, each in zip(name_files(certificate.number, renderers), renderers, strict=True)
     ]
     write(documents)
-    shown = [shown_path(each.path) for each in documents]
+    shown = [show_path(each.path) for each in documents]
     return shown, {"schema": "zlmreport/machine-document/1", "number": certificate.number, "files": shown}
 
 
@@ -126,31 +128,31 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
     if found.found and not options.dry_run:
         edit_effects(machine, (*machine.effect_names, *found.found))
     sections = [
-        findings.verdict_section(found, _SAY),
+        findings.lay_out_verdict(found, _SAY),
         findings.step_section(found, _SAY),
-        findings.model_section(found.complete, _SAY),
+        findings.lay_out_model(found.complete, _SAY),
     ]
-    return _laid_out(machine, sections), build_values(found)
+    return _lay_out(machine, sections), build_values(found)
 
 
 def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     sections, files, values = compensate(machine, registry, options)
     further = [f"written: {', '.join(files)}"] if files else ["--output DIR writes it"]
-    return _laid_out(machine, sections, "", *further), values
+    return _lay_out(machine, sections, "", *further), values
 
 
 def _add(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Write an effect into the machine file, and say how the error changed."""
-    effects = effects_with(machine, options.effect, registry, Place("zlmreport machine add"))
-    return _changed(machine, registry, effects)
+    effects = list_effects_with(machine, options.effect, registry, Place("zlmreport machine add"))
+    return _change_effects(machine, registry, effects)
 
 
 def _remove(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
     """Take an effect out of the machine file, and say how the error changed."""
-    return _changed(machine, registry, effects_without(machine, options.effect))
+    return _change_effects(machine, registry, list_effects_without(machine, options.effect))
 
 
-def _changed(
+def _change_effects(
     machine: MachineFile, registry: Registry, effects: Sequence[CircleEffect]
 ) -> tuple[Iterable[str], Any]:
     before, after = machine.study(), machine.study(effects)
@@ -160,14 +162,14 @@ def _changed(
     edit_effects(machine, tuple(each.identifier for each in effects))
     sections = [
         findings.change_section(before, after, _SAY),
-        *map(_sizes, ("Tests before", "Tests after"), compared, (after.noise.rms, after.noise.rms)),
-        findings.model_section(after, _SAY),
+        *map(_compare_sizes, ("Tests before", "Tests after"), compared, (after.noise.rms, after.noise.rms)),
+        findings.lay_out_model(after, _SAY),
     ]
-    return _laid_out(machine, sections), change_values(before, after, (compared[0], compared[1]))
+    return _lay_out(machine, sections), change_values(before, after, (compared[0], compared[1]))
 
 
-def _sizes(title: str, compared: Sequence[ComparedTest], noise: float) -> Section:
-    return Section("sizes", title, (tests.sizes_table(compared, _SAY, noise),))
+def _compare_sizes(title: str, compared: Sequence[ComparedTest], noise: float) -> Section:
+    return Section("sizes", title, (tests.lay_out_sizes(compared, _SAY, noise),))
 
 
 _ACTIONS = {
@@ -176,7 +178,7 @@ _ACTIONS = {
     "diagnose": _diagnose,
     "build": _build,
     "plan": _plan,
-    "certificate": _certificate,
+    "certificate": _write_certificate,
     "compensate": _compensate,
     "add": _add,
     "remove": _remove,

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.cli.terminal import shown_path
+from zlmreport.cli.terminal import show_path
 from zlmreport.document.blocks import Section
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, write_new
@@ -18,9 +18,9 @@ from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, 
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.cross_tables import (
     forecast_section,
+    lay_out_tables,
+    lay_out_trial,
     sign_section,
-    tables_section,
-    trial_section,
 )
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
@@ -42,17 +42,17 @@ def compensate(
 
     Raises `InputError` if the control takes no such tables, or its sign is neither known nor stated.
     """
-    control = _control(registry, options)
+    control = _choose_control(registry, options)
     if options.step is not None and options.step <= 0:
         raise InputError.at(_COMMAND, f"--step {options.step:g}: rows are more than 0 mm apart, such as 25")
     step = None if options.step is None else MILLIMETRE.to_si(options.step)
     plan = plan_tables(machine.machine, _COMMAND, step)
     if options.trial:
-        table = _trial(plan.tables[0])
+        table = _make_trial(plan.tables[0])
         files = control.cross_files([table], 1)
-        shown = _written(files, machine, options, "-trial")
+        shown = _write_tables(files, machine, options, "-trial")
         values = {"schema": SCHEMA, "controller": control.identifier, "trial": True, "files": shown}
-        return [trial_section(table, _PEAK, _SAY)], shown, values
+        return [lay_out_trial(table, _PEAK, _SAY)], shown, values
     moves = _sign(control, options)
     files = control.cross_files(plan.tables, moves)
     if not files:
@@ -63,16 +63,16 @@ def compensate(
         )
     decoded = control.read_cross(files, plan.tables, moves)
     found = forecast(machine.machine, decoded, machine.measured, registry)
-    shown = _written(files, machine, options, "")
-    sections = [tables_section(plan, decoded, control.cross_notes, _SAY)]
+    shown = _write_tables(files, machine, options, "")
+    sections = [lay_out_tables(plan, decoded, control.cross_notes, _SAY)]
     if control.cross_sign == "stated":
         sections.append(sign_section(moves, _SAY))
     sections.append(forecast_section(found, _SAY))
     named = {"controller": control.identifier, "positive_value_moves": moves, "files": shown}
-    return sections, shown, {"schema": SCHEMA, **named, **_values(plan, decoded, found)}
+    return sections, shown, {"schema": SCHEMA, **named, **_collect_values(plan, decoded, found)}
 
 
-def _control(registry: Registry, options: Namespace) -> Any:
+def _choose_control(registry: Registry, options: Namespace) -> Any:
     """Return the control; refuse one without tables across axes by its name."""
     known = [each.identifier for each in registry.controllers if hasattr(each, "cross_files")]
     if not options.controller:
@@ -103,14 +103,14 @@ def _sign(control: Any, options: Namespace) -> int:
     return _MOVES[options.moves]
 
 
-def _trial(table: CrossTable) -> CrossTable:
+def _make_trial(table: CrossTable) -> CrossTable:
     """Return a table of which a positive value in the middle is written, and nothing at the ends."""
     share = np.linspace(0.0, 1.0, len(table.positions))
     middle = share[len(share) // 2]
     return replace(table, values=-_PEAK * np.minimum(share / middle, (1 - share) / (1 - middle)), slope=0.0)
 
 
-def _written(files: Any, machine: MachineFile, options: Namespace, mark: str) -> list[str]:
+def _write_tables(files: Any, machine: MachineFile, options: Namespace, mark: str) -> list[str]:
     if options.output is None:
         return []
     documents = [
@@ -118,10 +118,10 @@ def _written(files: Any, machine: MachineFile, options: Namespace, mark: str) ->
         for end, text in files.items()
     ]
     write_new(documents)
-    return [shown_path(each.path) for each in documents]
+    return [show_path(each.path) for each in documents]
 
 
-def _values(plan: CrossPlan, tables: Sequence[CrossTable], found: CrossForecast) -> dict[str, Any]:
+def _collect_values(plan: CrossPlan, tables: Sequence[CrossTable], found: CrossForecast) -> dict[str, Any]:
     return {
         "taken": list(plan.taken),
         "within_uncertainty": list(plan.within_uncertainty),

@@ -10,36 +10,36 @@ from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.cli.model_build import build_lines
-from zlmreport.cli.model_lines import change_lines, diagnosis_lines, fit_lines, history_lines, point_lines
+from zlmreport.cli.model_lines import change_lines, fit_lines, point_lines, tell_diagnosis, tell_history
 from zlmreport.cli.model_values import (
     ModelChange,
     change_values,
+    collect_history,
+    find_points_of,
     fit_values,
-    history_values,
     point_values,
-    points_of,
 )
-from zlmreport.cli.terminal import print_json, progress, shown_path, table
-from zlmreport.document.subjects.diagnosis import argument
-from zlmreport.document.subjects.forecast import StandardForecast, forecasts
+from zlmreport.cli.terminal import lay_out_table, print_json, show_path, show_progress
+from zlmreport.document.subjects.diagnosis import write_effect_argument
+from zlmreport.document.subjects.forecast import StandardForecast, make_forecasts
 from zlmreport.document.writer import Writer
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError, did_you_mean
-from zlmreport.files import Document, read, reason, write
+from zlmreport.files import Document, read, say_reason, write
 from zlmreport.job.edit import Edit, NamedEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import LARGEST, counted
+from zlmreport.job.parse import LARGEST, count_in_words
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import Built
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.diagnosis.report import report
-from zlmreport.model.diagnosis.study import Fitted, Study, addition, refuse_useless
+from zlmreport.model.diagnosis.study import Fitted, Study, read_addition, refuse_useless
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.fitting.priors import Lesson, as_text, learned
-from zlmreport.model.planning.deciding import experiment_of_tie, experiment_values
+from zlmreport.model.fitting.priors import Lesson, learn_priors, write_as_text
+from zlmreport.model.planning.deciding import collect_experiment, plan_experiment_of_tie
 from zlmreport.plugin.registry import Registry, find_plugins
 
 _KEY = "model.effects"
@@ -60,7 +60,7 @@ class _Session:
     @property
     def shown_path(self) -> str:
         """The job file, as the user would type it."""
-        return shown_path(self.path)
+        return show_path(self.path)
 
     @property
     def writer(self) -> Writer:
@@ -73,7 +73,7 @@ class _Session:
 
     def forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
         """Return what the job's standards would say of a corrected axis."""
-        return forecasts(pipeline.standards(self.job, self.registry), study, history)
+        return make_forecasts(pipeline.choose_standards(self.job, self.registry), study, history)
 
 
 def run(options: Namespace) -> int:
@@ -96,46 +96,50 @@ def run(options: Namespace) -> int:
 def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     _demand_effects(session)
     fitted = session.study().fitted()
-    points = points_of(fitted.fit, options.at)
+    points = find_points_of(fitted.fit, options.at)
     lines = (
         *fit_lines(fitted, session.job),
         *point_lines(points, session.job.axis),
         "",
-        _next("diagnose", session),
+        _say_next("diagnose", session),
     )
     return lines, fit_values(fitted) | point_values(points, session.job.axis)
 
 
 def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
     study, effects = session.study(), session.registry.effects
-    with progress("diagnosing") as told:
+    with show_progress("diagnosing") as told:
         diagnosis = study.diagnosis(effects, told)
-    with progress("simulating plans") as told:
-        experiment = experiment_of_tie(study, diagnosis, effects, told)
+    with show_progress("simulating plans") as told:
+        experiment = plan_experiment_of_tie(study, diagnosis, effects, told)
     titles = study.titles(effects)
-    lines = diagnosis_lines(diagnosis, study, session.shown_path, experiment, titles)
-    values = experiment_values(experiment, session.job, Language.ENGLISH) if experiment else None
+    lines = tell_diagnosis(diagnosis, study, session.shown_path, experiment, titles)
+    values = collect_experiment(experiment, session.job, Language.ENGLISH) if experiment else None
     return lines, report(diagnosis, experiment=values)
 
 
-def _history(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
+def _tell_history(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
     _demand_effects(session)
     study = session.study()
     history = study.history()
     forecasts = session.forecasts(study, history)
-    lines = (*history_lines(history, forecasts, session.job, session.writer), "", _next("diagnose", session))
-    return lines, history_values(history, forecasts)
+    lines = (
+        *tell_history(history, forecasts, session.job, session.writer),
+        "",
+        _say_next("diagnose", session),
+    )
+    return lines, collect_history(history, forecasts)
 
 
 def _add(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     """Add an effect to the job's model, in place of those that it contains."""
     registry = session.registry
-    named, removed = addition(
+    named, removed = read_addition(
         options.effect, session.job, registry, registry.effects, Place("zlmreport model add")
     )
-    change = _tried(session, named, removed)
+    change = _try_change(session, named, removed)
     refuse_useless(change.added, change.before, change.history[-1], session.job)
-    return _written(session, change)
+    return _write_change(session, change)
 
 
 def _remove(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
@@ -146,12 +150,12 @@ def _remove(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
             session.job.place_of(_KEY),
             f"{text[:60]!r} does not stand in the model; {did_you_mean(text, present)}",
         )
-    return _written(session, _tried(session, None, (text,)))
+    return _write_change(session, _try_change(session, None, (text,)))
 
 
 def _build(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     """Build the job's model step by step, and write it into the job at the end."""
-    with progress("building") as told:
+    with show_progress("building") as told:
         built = session.study().built(session.registry.effects, told)
     edit = _edit_of(session, built)
     if edit is not None and not options.dry_run:
@@ -163,7 +167,7 @@ def _build(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
 
 def _edit_of(session: _Session, built: Built) -> Edit | None:
     """Return the change of the job that a build comes to; None if it changes nothing."""
-    named = [_as_in_a_job(each, session) for each in built.added]
+    named = [_name_as_in_a_job(each, session) for each in built.added]
     added = {each.choice.identifier for each in named}
     removed = tuple({*built.removed, *added})
     if not named and not built.removed:
@@ -171,13 +175,13 @@ def _edit_of(session: _Session, built: Built) -> Edit | None:
     return edit_effects(session.path, session.job, session.registry, add=named, remove=removed)
 
 
-def _as_in_a_job(effect: Effect, session: _Session) -> NamedEffect:
+def _name_as_in_a_job(effect: Effect, session: _Session) -> NamedEffect:
     """Return an effect as a job names it: a formula of its candidates as it stands there."""
     job, registry = session.job, session.registry
     place = Place("zlmreport model build")
     listed = {each.identifier for each in job.candidates}
-    text = effect.identifier if effect.identifier in listed else argument(effect)
-    return addition(text, job, registry, registry.effects, place)[0]
+    text = effect.identifier if effect.identifier in listed else write_effect_argument(effect)
+    return read_addition(text, job, registry, registry.effects, place)[0]
 
 
 _ACTIONS = {
@@ -186,11 +190,11 @@ _ACTIONS = {
     "build": _build,
     "add": _add,
     "remove": _remove,
-    "history": _history,
+    "history": _tell_history,
 }
 
 
-def _tried(session: _Session, named: NamedEffect | None, removed: tuple[str, ...]) -> ModelChange:
+def _try_change(session: _Session, named: NamedEffect | None, removed: tuple[str, ...]) -> ModelChange:
     """Return a change of the model with what it does; nothing is written."""
     edit = edit_effects(
         session.path, session.job, session.registry, add=[named] if named else [], remove=removed
@@ -206,12 +210,12 @@ def _tried(session: _Session, named: NamedEffect | None, removed: tuple[str, ...
     return ModelChange(edit, added, removed, before, history, session.forecasts(study, history))
 
 
-def _written(session: _Session, change: ModelChange) -> tuple[Iterable[str], Any]:
+def _write_change(session: _Session, change: ModelChange) -> tuple[Iterable[str], Any]:
     change.edit.write()
     return change_lines(session.path, change, session.writer), change_values(session.path, change)
 
 
-def _next(action: str, session: _Session) -> str:
+def _say_next(action: str, session: _Session) -> str:
     return f"next: zlmreport model {action} {session.shown_path}"
 
 
@@ -228,36 +232,36 @@ def learn(options: Namespace) -> int:
     """Learn from every test in a folder whose model describes its readings."""
     registry, folder = find_plugins(files=options.plugin), options.job
     if not folder.is_dir():
-        raise AccessError.at(_LEARN, f"{shown_path(folder)} is no folder of jobs")
-    lessons, told = _lessons(sorted(folder.rglob("*.yaml")), registry)
+        raise AccessError.at(_LEARN, f"{show_path(folder)} is no folder of jobs")
+    lessons, told = _collect_lessons(sorted(folder.rglob("*.yaml")), registry)
     if not lessons:
         reasons = "".join(f"\n  {name}: {why}" for name, why in told)
         raise InputError.at(
             _LEARN,
-            f"no job in {shown_path(folder)} has an error model that describes its readings{reasons}",
+            f"no job in {show_path(folder)} has an error model that describes its readings{reasons}",
         )
-    found = learned(lessons)
+    found = learn_priors(lessons)
     if options.output:
-        write([Document(options.output, as_text(found, folder.resolve().name).encode())])
+        write([Document(options.output, write_as_text(found, folder.resolve().name).encode())])
     if options.json:
         print_json(found.model_dump(mode="json", by_alias=True))
         return 0
     if not options.output:
-        print(as_text(found, folder.resolve().name), end="")
+        print(write_as_text(found, folder.resolve().name), end="")
         return 0
-    print(*table(told, indent="  "), sep="\n")
-    print(f"\n{counted(found.tests, 'test')} taught {shown_path(options.output)}")
+    print(*lay_out_table(told, indent="  "), sep="\n")
+    print(f"\n{count_in_words(found.tests, 'test')} taught {show_path(options.output)}")
     print(f"next: name it in a job: model: {{priors: {options.output.name}}}")
     return 0
 
 
-def _lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson], list[tuple[str, str]]]:
+def _collect_lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson], list[tuple[str, str]]]:
     """Return what tests teach whose models describe their readings, and what is to be said of each job."""
     lessons: list[Lesson] = []
     told: list[tuple[str, str]] = []
     seen: dict[tuple[str, ...], str] = {}
     for path in paths:
-        name = shown_path(path)
+        name = show_path(path)
         try:
             if JOB.schema.encode() not in read(path, LARGEST):
                 continue  # what jobs extend, a simulation, a fleet
@@ -279,7 +283,7 @@ def _lessons(paths: list[Path], registry: Registry) -> tuple[list[Lesson], list[
             told.append((name, f"left out: {error.problems[0].message}"))
             continue
         except OSError as error:  # of the file itself: a pipe, a folder of this name, nobody's to read
-            told.append((name, f"left out: it cannot be read: {reason(error)}"))
+            told.append((name, f"left out: it cannot be read: {say_reason(error)}"))
             continue
         if diagnosis.verdict is not Verdict.ADEQUATE:
             told.append((name, f"left out: its model is not adequate ({diagnosis.verdict})"))

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from zlmreport.cli.model_lines import measure_lines, next_step
-from zlmreport.cli.terminal import Colour, wrapped
-from zlmreport.document.subjects.fit import deviation
+from zlmreport.cli.model_lines import find_next_step, measure_lines
+from zlmreport.cli.terminal import Colour, wrap
+from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.job.edit import Edit
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.model.diagnosis.building import Built, names_of
+from zlmreport.model.diagnosis.building import Built, name_steps
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
-from zlmreport.model.diagnosis.report import verdict_statement
+from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.effects import wording
 
 _ENGLISH = Language.ENGLISH
@@ -21,10 +21,10 @@ _LEFT = Words("Beside that something is left without a name: {shape}, {where}; r
 
 def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_tried: bool) -> Iterator[str]:
     """Yield the lines on a build; `path` is the job as the user types it."""
-    names, last = names_of(built.steps), built.last
+    names, last = name_steps(built.steps), built.last
     yield f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}"
-    yield from wrapped(staircase(built), "")
-    yield from wrapped(_left(last, names).in_language(_ENGLISH), "")
+    yield from wrap(write_staircase(built), "")
+    yield from wrap(_say_what_is_left(last, names).in_language(_ENGLISH), "")
     if edit is None:
         yield f"{path}: nothing to change"
     elif is_tried:
@@ -35,27 +35,27 @@ def build_lines(built: Built, job: Job, path: str, edit: Edit | None, *, is_trie
         yield f"next: zlmreport model build {path}"
     else:
         yield from measure_lines(last)
-        yield f"next: {next_step(last, path)}"
+        yield f"next: {find_next_step(last, path)}"
 
 
-def staircase(built: Built) -> str:
+def write_staircase(built: Built) -> str:
     """Return how the error fell in one line: ``offset 5.4 → + backlash 3.2 µm; noise 0.7``."""
     axis = built.first.fit.design.axis
     began = " + ".join(built.first.fit.model.identifiers) or "without model"
     errors = [built.first.error.rms, *(each.after.rms for each in built.steps)]
     stairs = [
-        f"{name} {deviation(error, axis, _ENGLISH)}"
-        for name, error in zip([began, *names_of(built.steps)], errors, strict=True)
+        f"{name} {write_deviation(error, axis, _ENGLISH)}"
+        for name, error in zip([began, *name_steps(built.steps)], errors, strict=True)
     ]
     floor = built.last.error.noise_rms
-    noise = "" if floor is None else f"; noise {deviation(floor, axis, _ENGLISH)}"
+    noise = "" if floor is None else f"; noise {write_deviation(floor, axis, _ENGLISH)}"
     return f"{' → '.join(stairs)} {axis.deviation_unit.symbol}{noise}"
 
 
-def _left(last: Diagnosis, names: tuple[str, ...]) -> Words:
+def _say_what_is_left(last: Diagnosis, names: tuple[str, ...]) -> Words:
     """Return what is left beside the model that was built."""
     left = last.remainder
     if left is None or not names or last.verdict is not Verdict.UNEXPLAINED:
-        return verdict_statement(last)
+        return write_verdict_statement(last)
     size = wording.deviation(last.fit.design.axis, left.rms)
     return _LEFT.given(shape=left.shape, where=left.where, size=size)

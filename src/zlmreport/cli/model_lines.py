@@ -6,22 +6,27 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from zlmreport.cli.layout import in_a_line, section_lines
+from zlmreport.cli.layout import lay_out_sections, write_in_a_line
 from zlmreport.cli.model_values import ModelChange, PredictedPoints
-from zlmreport.cli.terminal import Colour, shown_path, table, wrapped
+from zlmreport.cli.terminal import Colour, lay_out_table, show_path, wrap
 from zlmreport.document.blocks import Section, Table
-from zlmreport.document.subjects.diagnosis import argument, diagnosis_sections
-from zlmreport.document.subjects.fit import error_facts, fit_sections, in_a_sentence, parameter_rows
-from zlmreport.document.subjects.forecast import StandardForecast, fall
+from zlmreport.document.subjects.diagnosis import lay_out_diagnosis, write_effect_argument
+from zlmreport.document.subjects.fit import (
+    fit_sections,
+    list_error_facts,
+    make_parameter_rows,
+    write_in_a_sentence,
+)
+from zlmreport.document.subjects.forecast import StandardForecast, lay_out_fall
 from zlmreport.document.writer import Writer
 from zlmreport.job.job import Job
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import general_number, plain, rounded_pair
+from zlmreport.language.formatting import round_pair, write_general_number, write_plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import formula_entry
+from zlmreport.model.diagnosis.report import write_formula_entry
 from zlmreport.model.diagnosis.study import Fitted, Study
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.planning.experiment import Experiment
@@ -33,8 +38,8 @@ _ON_REQUEST = frozenset({"visibility", "hidden", "not-tried"})
 
 def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     """Yield the lines on a fitted model."""
-    yield _heading(job, fitted.fit)
-    yield from section_lines(map(_narrow, fit_sections(fitted, _ENGLISH)))
+    yield _write_heading(job, fitted.fit)
+    yield from lay_out_sections(map(_drop_unused_columns, fit_sections(fitted, _ENGLISH)))
 
 
 def point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
@@ -49,29 +54,29 @@ def point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
     rows = [heads]
     for number, place in enumerate(position.from_si(points.positions).tolist()):
         cells = (
-            rounded_pair(
+            round_pair(
                 unit.from_si(float(each.deviation[number])),
                 unit.from_si(float(each.expanded_uncertainty[number])),
             )
             for each in points.predictions.values()
         )
-        rows.append((general_number(place), *map(" ± ".join, cells)))
+        rows.append((write_general_number(place), *map(" ± ".join, cells)))
     yield ""
-    yield from table(rows, right=range(len(heads)), indent="  ")
+    yield from lay_out_table(rows, right=range(len(heads)), indent="  ")
     when = "; at the mean time and the mean logged conditions of the test" if points.moves else ""
     yield f"  deviation by the model, ± expanded uncertainty for 95 %{when}"
 
 
-def diagnosis_lines(
+def tell_diagnosis(
     diagnosis: Diagnosis, study: Study, path: str, experiment: Experiment | None, titles: Mapping[str, Words]
 ) -> Iterator[str]:
     """Yield the lines on a diagnosis; `path` is the job as the user types it."""
-    yield _heading(study.job, diagnosis.fit)
-    sections = diagnosis_sections(diagnosis, _ENGLISH, titles, experiment)
-    following = f"next: {next_step(diagnosis, path, experiment)}"
+    yield _write_heading(study.job, diagnosis.fit)
+    sections = lay_out_diagnosis(diagnosis, _ENGLISH, titles, experiment)
+    following = f"next: {find_next_step(diagnosis, path, experiment)}"
     for each in sections:
         if each.key not in _ON_REQUEST:
-            yield from section_lines([_narrow(each)])
+            yield from lay_out_sections([_drop_unused_columns(each)])
         if each.key == "verdict":
             yield from measure_lines(diagnosis, "  ")
             yield f"  {following}"
@@ -79,7 +84,7 @@ def diagnosis_lines(
     unseen |= {each.effect for each in diagnosis.visibility if each.is_hidden}
     if unseen:
         yield ""
-        yield from wrapped(
+        yield from wrap(
             f"What this test cannot see or try: {len(unseen)} effects. The list: --json; what would show "
             f"one: zlmreport plan {path} --decide EFFECT",
             "",
@@ -94,11 +99,11 @@ def measure_lines(diagnosis: Diagnosis, indent: str = "") -> Iterator[str]:
     left = diagnosis.remainder
     if diagnosis.verdict is Verdict.UNEXPLAINED and left is not None and left.formula is None:
         look = look_for(left, diagnosis.fit.design)
-        yield from wrapped(f"look at: {look.at.in_language(_ENGLISH)}", indent)
-        yield from wrapped(f"measure: {look.measure.in_language(_ENGLISH)}", indent)
+        yield from wrap(f"look at: {look.at.in_language(_ENGLISH)}", indent)
+        yield from wrap(f"measure: {look.measure.in_language(_ENGLISH)}", indent)
 
 
-def next_step(diagnosis: Diagnosis, path: str, experiment: Experiment | None = None) -> str:
+def find_next_step(diagnosis: Diagnosis, path: str, experiment: Experiment | None = None) -> str:
     """Return the command that a diagnosis asks for next.
 
     `path`: The job as the user types it.
@@ -109,18 +114,20 @@ def next_step(diagnosis: Diagnosis, path: str, experiment: Experiment | None = N
     if len(diagnosis.together) > 1:
         return f"zlmreport model build {path}"
     if diagnosis.verdict is Verdict.MISSING and diagnosis.together:
-        return f"zlmreport model add {path} {_quoted(argument(diagnosis.together[0]))}"
+        return f"zlmreport model add {path} {_quote_for_shell(write_effect_argument(diagnosis.together[0]))}"
     if diagnosis.remainder and diagnosis.remainder.formula:
-        return f"zlmreport model add {path} {_quoted(formula_entry(diagnosis.remainder.formula))}"
+        return (
+            f"zlmreport model add {path} {_quote_for_shell(write_formula_entry(diagnosis.remainder.formula))}"
+        )
     return f"zlmreport {path}"
 
 
-def _quoted(argument: str) -> str:
+def _quote_for_shell(argument: str) -> str:
     """Return an argument as a shell takes it."""
     return f"'{argument}'" if set(argument) & set(" :{") else argument
 
 
-def _narrow(section: Section) -> Section:
+def _drop_unused_columns(section: Section) -> Section:
     """Return a section without the columns that a job has no use for: symbols, and parameters in words."""
     blocks = (
         each.without("symbol", "parameter") if isinstance(each, Table) else each for each in section.blocks
@@ -128,48 +135,50 @@ def _narrow(section: Section) -> Section:
     return replace(section, blocks=tuple(blocks))
 
 
-def history_lines(
+def tell_history(
     history: Sequence[Fitted], forecasts: Sequence[StandardForecast], job: Job, writer: Writer
 ) -> Iterator[str]:
     """Yield how the error fell, effect by effect."""
-    yield _heading(job, history[-1].fit)
-    yield from _fall(history, forecasts, writer)
+    yield _write_heading(job, history[-1].fit)
+    yield from _draw_fall(history, forecasts, writer)
 
 
-def _fall(history: Sequence[Fitted], forecasts: Sequence[StandardForecast], writer: Writer) -> Iterator[str]:
+def _draw_fall(
+    history: Sequence[Fitted], forecasts: Sequence[StandardForecast], writer: Writer
+) -> Iterator[str]:
     """Yield the fall chart: a bar for each effect, down to the noise floor, and what standards would say."""
     forecast = forecasts[0]
-    yield from section_lines([fall(history, forecast, writer)])
-    symbols = ", ".join(plain(quantity.notation) for quantity in forecast.quantities)
+    yield from lay_out_sections([lay_out_fall(history, forecast, writer)])
+    symbols = ", ".join(write_plain(quantity.notation) for quantity in forecast.quantities)
     what = f"{symbols}: {forecast.designation}"
     yield f"  {what}, predicted if the control corrects all effects so far"
 
 
 def change_lines(path: Path, change: ModelChange, writer: Writer) -> Iterator[str]:
     """Yield what became of the job, and how the error changed."""
-    shown, after = shown_path(path), change.history[-1]
+    shown, after = show_path(path), change.history[-1]
     axis = after.fit.design.axis
     if change.edit.inherited_from:
-        origin = shown_path(path.parent / change.edit.inherited_from)
+        origin = show_path(path.parent / change.edit.inherited_from)
         yield f"{shown} had its effects from {origin}; now they stand in {shown} itself"
     done = [f"− {name}" for name in change.removed] + ([f"+ {change.added}"] if change.added else [])
     yield f"{shown}: {', '.join(done)}"
     yield ""
     errors = (("before", change.before.error), ("after", after.error))
     for name, error in errors:
-        yield from wrapped(f"{name}: {in_a_line(error_facts(error, axis, _ENGLISH))}")
+        yield from wrap(f"{name}: {write_in_a_line(list_error_facts(error, axis, _ENGLISH))}")
     yield ""
     if change.added:
-        own = [each for each in parameter_rows(after.fit, _ENGLISH) if each.effect == change.added]
-        yield from wrapped(f"{change.added}: {', '.join(in_a_sentence(each, _ENGLISH) for each in own)}")
-        if not _stands_out(change.added, after.fit):
+        own = [each for each in make_parameter_rows(after.fit, _ENGLISH) if each.effect == change.added]
+        yield from wrap(f"{change.added}: {', '.join(write_in_a_sentence(each, _ENGLISH) for each in own)}")
+        if not _is_outstanding(change.added, after.fit):
             yield f"  {Colour.YELLOW.of('nothing')} of it exceeds its uncertainty: it may not be there"
-    yield from _fall(change.history, change.forecasts, writer)
+    yield from _draw_fall(change.history, change.forecasts, writer)
     yield ""
     yield f"next: zlmreport model diagnose {shown}"
 
 
-def _heading(job: Job, fit: Fit) -> str:
+def _write_heading(job: Job, fit: Fit) -> str:
     """Return the first line: which job, which axis, which model."""
     model = " + ".join(fit.model.identifiers) or "no effects yet"
     heading = f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {model}"
@@ -178,11 +187,11 @@ def _heading(job: Job, fit: Fit) -> str:
     held = [f"{name} (runs {each.min()} to {each.max()})" for name, each in zip(others, runs, strict=True)]
     more = [f"held together with {', '.join(held)}"] if held else []
     if job.priors:
-        more.append(f"expects what {counted(job.priors.tests, 'earlier test')} taught")
+        more.append(f"expects what {count_in_words(job.priors.tests, 'earlier test')} taught")
     return "\n  ".join([heading, *more])
 
 
-def _stands_out(identifier: str, fit: Fit) -> bool:
+def _is_outstanding(identifier: str, fit: Fit) -> bool:
     """Return whether any size of an effect exceeds its uncertainty: its place or period says nothing."""
     (effect,) = (term.effect for term in fit.model.terms if term.effect.identifier == identifier)
     sizes = [each for each in fit.estimates if each.effect == identifier and each.parameter in effect.linear]

@@ -17,8 +17,8 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.report import report_error, report_model, report_noise, report_precision
-from zlmreport.model.diagnosis.study import Fitted, one_way
-from zlmreport.model.effects.design import at_positions, outside_of_measured
+from zlmreport.model.diagnosis.study import Fitted, list_one_way
+from zlmreport.model.effects.design import list_outside_of_measured, place_at_positions
 from zlmreport.model.effects.effect import Shape
 from zlmreport.model.fitting.fit import Fit, Prediction
 
@@ -49,20 +49,20 @@ class PredictedPoints:
     moves: bool
 
 
-def points_of(fit: Fit, positions: Sequence[float]) -> PredictedPoints | None:
+def find_points_of(fit: Fit, positions: Sequence[float]) -> PredictedPoints | None:
     """Return what a model gives at positions in mm or degrees; None if none is asked for."""
     if not positions:
         return None
     design = fit.design
     unit = design.axis.position_unit
     places = unit.to_si(np.array(positions, dtype=np.float64))
-    sentences = outside_of_measured(design.axis.name, unit, places, design.span)
+    sentences = list_outside_of_measured(design.axis.name, unit, places, design.span)
     if sentences:
         raise InputError(Problem(Place("--at"), sentence) for sentence in sentences)
     measured = [approach for approach in Approach if np.any(design.direction == approach)]
     return PredictedPoints(
         places,
-        {approach: fit.predict(at_positions(design, places, approach)) for approach in measured},
+        {approach: fit.predict(place_at_positions(design, places, approach)) for approach in measured},
         any(term.effect.shape in {Shape.TIME, Shape.RUN} for term in fit.model.terms),
     )
 
@@ -83,14 +83,14 @@ def fit_values(fitted: Fitted) -> dict[str, Any]:
                 "coefficients": values.tolist(),
                 "covariance": covariance.tolist(),
             }
-            for approach, values, covariance in one_way(fitted.fit)
+            for approach, values, covariance in list_one_way(fitted.fit)
         ],
     }
 
 
-def history_values(history: Sequence[Fitted], forecasts: Sequence[StandardForecast]) -> dict[str, Any]:
+def collect_history(history: Sequence[Fitted], forecasts: Sequence[StandardForecast]) -> dict[str, Any]:
     """Return how the error fell, step by step; the first step is that without a model."""
-    return {"schema": HISTORY, "steps": _steps(history, forecasts)}
+    return {"schema": HISTORY, "steps": _list_steps(history, forecasts)}
 
 
 def change_values(path: Path, change: ModelChange) -> dict[str, Any]:
@@ -105,7 +105,7 @@ def change_values(path: Path, change: ModelChange) -> dict[str, Any]:
         "model": report_model(after.fit),
         "error_before": report_error(change.before.error, axis),
         "error": report_error(after.error, axis),
-        "steps": _steps(change.history, change.forecasts),
+        "steps": _list_steps(change.history, change.forecasts),
     }
 
 
@@ -130,20 +130,20 @@ def point_values(points: PredictedPoints | None, axis: Axis) -> dict[str, Any]:
     }
 
 
-def _steps(history: Sequence[Fitted], forecasts: Sequence[StandardForecast]) -> list[dict[str, Any]]:
+def _list_steps(history: Sequence[Fitted], forecasts: Sequence[StandardForecast]) -> list[dict[str, Any]]:
     axis = history[-1].fit.design.axis
     names = [None, *history[-1].fit.model.identifiers]
     return [
         {
             "effect": name,
             "error": report_error(each.error, axis),
-            "predicted": [_predicted(forecast, index) for forecast in forecasts],
+            "predicted": [_predict_results(forecast, index) for forecast in forecasts],
         }
         for index, (name, each) in enumerate(zip(names, history, strict=True))
     ]
 
 
-def _predicted(forecast: StandardForecast, step: int) -> dict[str, Any]:
+def _predict_results(forecast: StandardForecast, step: int) -> dict[str, Any]:
     """Return what a standard would say of an axis corrected by the effects up to a step."""
     unit = forecast.unit
     return {

@@ -7,7 +7,7 @@ from argparse import Namespace
 from importlib.resources import files
 from pathlib import Path
 
-from zlmreport.cli.terminal import shown_path
+from zlmreport.cli.terminal import show_path
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, write_new
 
@@ -33,17 +33,17 @@ def run(options: Namespace) -> int:
     """Write the folder of a plugin; no file that is there already is touched."""
     kind, name = _kind(options.kind), _name(options.name)
     folder, module = Path(name), name.replace("-", "_")
-    documents = skeleton_of(kind, name)
+    documents = make_skeleton_of(kind, name)
     further = ""
     if options.job:
-        documents[f"{module}.yaml"], further = _of_formula(options, kind, name)
+        documents[f"{module}.yaml"], further = _make_from_formula(options, kind, name)
     for path in write_new([Document(folder / path, content) for path, content in documents.items()]):
-        print(shown_path(path))
-    print(f"next: python -m pytest {shown_path(folder / f'test_{module}.py')}{further}")
+        print(show_path(path))
+    print(f"next: python -m pytest {show_path(folder / f'test_{module}.py')}{further}")
     return 0
 
 
-def skeleton_of(kind: str, name: str) -> dict[str, bytes]:
+def make_skeleton_of(kind: str, name: str) -> dict[str, bytes]:
     """Return the files of a plugin to begin with, by their paths in its folder."""
     words = name.replace("-", " ")
     module = name.replace("-", "_")
@@ -63,13 +63,13 @@ def skeleton_of(kind: str, name: str) -> dict[str, bytes]:
     wanted |= {each: each for each in ("pyproject.toml", "README.md")}
     if kind == "effect":
         wanted[f"{module}.yaml"] = "effect.yaml"
-    return {path: _filled(skeleton, meant) for path, skeleton in wanted.items()}
+    return {path: _fill_skeleton(skeleton, meant) for path, skeleton in wanted.items()}
 
 
-def _of_formula(options: Namespace, kind: str, name: str) -> tuple[bytes, str]:
+def _make_from_formula(options: Namespace, kind: str, name: str) -> tuple[bytes, str]:
     """Return a formula of a job as a catalogue, and how the job names the effect then."""
-    from zlmreport.job.edit import CANDIDATES, EFFECTS, listed_items  # noqa: PLC0415 - likewise
-    from zlmreport.job.effect_catalogue import as_catalogue, in_job  # noqa: PLC0415 - brings the job
+    from zlmreport.job.edit import CANDIDATES, EFFECTS, list_items_written  # noqa: PLC0415 - likewise
+    from zlmreport.job.effect_catalogue import write_as_catalogue, write_in_job  # noqa: PLC0415 - brings the job
     from zlmreport.job.formula_keys import FormulaKeys  # noqa: PLC0415
     from zlmreport.job.formula_parts import Formula  # noqa: PLC0415
     from zlmreport.job.loading import load  # noqa: PLC0415
@@ -80,7 +80,7 @@ def _of_formula(options: Namespace, kind: str, name: str) -> tuple[bytes, str]:
         raise InputError.at(_PLACE, f"--from takes a formula, which is an effect and no {kind}")
     job = load(options.job, find_plugins(files=options.plugin))
     listed = zip(
-        (*listed_items(job, EFFECTS), *listed_items(job, CANDIDATES)),
+        (*list_items_written(job, EFFECTS), *list_items_written(job, CANDIDATES)),
         (*job.effects, *job.candidates),
         strict=True,
     )
@@ -97,8 +97,8 @@ def _of_formula(options: Namespace, kind: str, name: str) -> tuple[bytes, str]:
             choice.place,
             f"{name}: v is the feed of a job, which no plugin is given; log it as a column of another name",
         )
-    text = as_catalogue(node, formula, job.axis.kind)
-    return text.encode(), f"\nin the job, instead of the formula: {in_job(formula)}"
+    text = write_as_catalogue(node, formula, job.axis.kind)
+    return text.encode(), f"\nin the job, instead of the formula: {write_in_job(formula)}"
 
 
 def _kind(named: str) -> str:
@@ -118,7 +118,7 @@ def _name(named: str) -> str:
     return named
 
 
-def _filled(skeleton: str, meant: dict[str, str]) -> bytes:
+def _fill_skeleton(skeleton: str, meant: dict[str, str]) -> bytes:
     text = files("zlmreport").joinpath("skeletons", f"{skeleton}.txt").read_text(encoding="utf-8")
     for token, meaning in meant.items():
         text = text.replace(f"{{{{{token}}}}}", meaning)

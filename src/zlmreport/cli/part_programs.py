@@ -9,7 +9,7 @@ from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.files import Document
-from zlmreport.job.choices import Choice, Find, programs_by_name
+from zlmreport.job.choices import Choice, Find, choose_programs_by_name
 from zlmreport.plugin.protocols import PartProgram
 
 RUN = Place("zlmreport plan --run")
@@ -22,12 +22,12 @@ def demand_file(options: Namespace, programs: Sequence[Choice]) -> None:
         raise InputError.at(RUN, "the program of a run is a file; state --program NAME and --output DIR, too")
 
 
-def written_of(subject: Callable[[Place], Any], program: PartProgram, choice: Choice) -> str:
+def write_program_of(subject: Callable[[Place], Any], program: PartProgram, choice: Choice) -> str:
     """Return the program of a subject, asked for where a program is named."""
     return program.write(subject(choice.place), choice.options)
 
 
-def chosen_programs(
+def choose_programs(
     named: str | None,
     folder: Path | None,
     stated: tuple[Choice, ...],
@@ -48,10 +48,10 @@ def chosen_programs(
     if not names:
         such_as = ",".join(each.identifier for each in known[:2])
         raise InputError.at(_OPTION, f"there is no program in the list; for example {such_as}")
-    return programs_by_name(names, _OPTION, stated, find)
+    return choose_programs_by_name(names, _OPTION, stated, find)
 
 
-def program_files(
+def make_program_files(
     folder: Path,
     number: str,
     write: Callable[[PartProgram, Choice], str],
@@ -60,7 +60,7 @@ def program_files(
 ) -> tuple[Document, ...]:
     """Return the files of part programs.
 
-    `write`: Returns the program that a writer writes with the keys of a choice, as `written_of` does.
+    `write`: Returns the program that a writer writes with the keys of a choice, as `write_program_of` does.
 
     Raises `InputError` with everything that one of the controls or machines cannot be told.
     """

@@ -9,12 +9,18 @@ from functools import partial
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.cli.layout import section_lines
-from zlmreport.cli.part_programs import RUN, chosen_programs, demand_file, program_files, written_of
+from zlmreport.cli.layout import lay_out_sections
+from zlmreport.cli.part_programs import (
+    RUN,
+    choose_programs,
+    demand_file,
+    make_program_files,
+    write_program_of,
+)
 from zlmreport.cli.plan_circle import plan_circle
-from zlmreport.cli.terminal import Colour, print_json, said, shown_path, wrapped
-from zlmreport.document.figures.sequence import sequence
-from zlmreport.document.subjects.plan import plan_sections, size_of_plan
+from zlmreport.cli.terminal import Colour, print_json, say, show_path, wrap
+from zlmreport.document.figures.sequence import draw_sequence
+from zlmreport.document.subjects.plan import plan_sections, say_size_of_plan
 from zlmreport.document.subjects.plan_values import plan_values
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write_new
@@ -22,18 +28,18 @@ from zlmreport.job.choices import ExtensionChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
-from zlmreport.live.capture.of_job import options_of
+from zlmreport.live.capture.of_job import find_options_of
 from zlmreport.measurement.measurand import is_for
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.planning.deciding import (
-    deciding_experiment,
-    deciding_number,
-    deciding_text,
-    experiment_values,
+    collect_experiment,
+    make_deciding_number,
+    plan_deciding_experiment,
+    write_deciding_text,
 )
-from zlmreport.model.planning.planned_test import PlannedTest, planned_test
-from zlmreport.model.planning.programs import Motion, motion_of
-from zlmreport.model.planning.targets import in_users_unit
+from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
+from zlmreport.model.planning.programs import Motion, plan_motion_of
+from zlmreport.model.planning.targets import convert_to_users_unit
 from zlmreport.plugin.extending import Extension, ExtensionPlan
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -55,44 +61,44 @@ def run(options: Namespace) -> int:
         raise InputError.at(RUN, "this plan has no runs of its own; leave it out")
     if own:
         return _show_plan(options, job, registry, own)
-    programs = chosen_programs(
+    programs = choose_programs(
         options.program, options.output, job.programs, registry.part_program, registry.programs_for()
     )
     demand_file(options, programs)
     effects = [each for each in registry.effects if is_for(each, job.axis.measurand)]
-    planned = planned_test(job, pipeline.standards(job, registry), effects)
+    planned = describe_planned_test(job, pipeline.choose_standards(job, registry), effects)
     documents: tuple[Document, ...] = ()
     if options.output:
         number = job.keys.certificate.number
-        motion = partial(motion_of, number, job.axis, planned.proposal.plan)
+        motion = partial(plan_motion_of, number, job.axis, planned.proposal.plan)
         if options.run is None:
             documents = (
                 *plan_files(options.output, job, planned),
-                *program_files(
-                    options.output, number, partial(written_of, motion), programs, registry.part_program
+                *make_program_files(
+                    options.output, number, partial(write_program_of, motion), programs, registry.part_program
                 ),
             )
         else:
             of_run = f"{number}-run-{options.run}"
-            subject = partial(_motion_of_run, motion, options.run)
-            documents = program_files(
-                options.output, of_run, partial(written_of, subject), programs, registry.part_program
+            subject = partial(_find_motion_of_run, motion, options.run)
+            documents = make_program_files(
+                options.output, of_run, partial(write_program_of, subject), programs, registry.part_program
             )
     written = write_new(documents)
     if options.json:
         print_json(plan_values(job, planned, written))
         return 0
-    number, size = job.keys.certificate.number, said(size_of_plan(planned))
+    number, size = job.keys.certificate.number, say(say_size_of_plan(planned))
     print(f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {size}")
-    print(*section_lines(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
+    print(*lay_out_sections(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:
         names = ", ".join(each.identifier for each in programs)
         print(f"part programs for {names}: state a folder, --output DIR")
     for path in written:
-        print(shown_path(path))
-    command = "zlmreport capture" if options_of(job) else "measure, then zlmreport"
-    print(f"next: {command} {shown_path(options.job)}")
+        print(show_path(path))
+    command = "zlmreport capture" if find_options_of(job) else "measure, then zlmreport"
+    print(f"next: {command} {show_path(options.job)}")
     return 0
 
 
@@ -108,30 +114,32 @@ def _decide(options: Namespace, job: Job, registry: Registry) -> int:
         file = getattr(job.source.options, "file", None)
         if file is None or Path(file).exists():
             raise
-    experiment = deciding_experiment(names, job, study, registry.effects, pipeline.standards(job, registry))
+    experiment = plan_deciding_experiment(
+        names, job, study, registry.effects, pipeline.choose_standards(job, registry)
+    )
     folder = options.output or Path()
     documents: tuple[Document, ...] = ()
     if experiment.plan:
         extends = Path(os.path.relpath(options.job, folder)).as_posix()
-        text = deciding_text(experiment, job, extends)
+        text = write_deciding_text(experiment, job, extends)
         if options.output:
-            documents = (Document(folder / f"{deciding_number(job)}.yaml", text.encode()),)
+            documents = (Document(folder / f"{make_deciding_number(job)}.yaml", text.encode()),)
     written = write_new(documents)
     if options.json:
-        values = experiment_values(experiment, job, Language.ENGLISH)
+        values = collect_experiment(experiment, job, Language.ENGLISH)
         print_json({"schema": DECISION, **values, "files": [str(path) for path in written]})
         return 0
     if experiment.plan and not options.output:
         print(text, end="")
     else:
-        print(*wrapped(said(experiment.statement), ""), sep="\n")
+        print(*wrap(say(experiment.statement), ""), sep="\n")
     for path in written:
-        print(shown_path(path))
-        print(f"next: zlmreport plan {shown_path(path)}")
+        print(show_path(path))
+        print(f"next: zlmreport plan {show_path(path)}")
     return 0
 
 
-def _motion_of_run(motion: Callable[[Place], Motion], run: int, place: Place) -> Motion:
+def _find_motion_of_run(motion: Callable[[Place], Motion], run: int, place: Place) -> Motion:
     return motion(place).of_run(run)
 
 
@@ -156,7 +164,7 @@ def _show_plan(
     extension, choice, plan = found
     find = partial(registry.part_program, takes=extension.takes)
     known = registry.programs_for(extension.takes) if extension.takes else ()
-    programs = chosen_programs(options.program, options.output, choice.programs, find, known)
+    programs = choose_programs(options.program, options.output, choice.programs, find, known)
     number = job.keys.certificate.number
     documents: tuple[Document, ...] = ()
     if options.output:
@@ -165,32 +173,34 @@ def _show_plan(
                 Document(options.output / f"{number}-{name}", text.encode())
                 for name, text in plan.files().items()
             ),
-            *program_files(options.output, number, partial(written_of, plan.subject), programs, find),
+            *make_program_files(
+                options.output, number, partial(write_program_of, plan.subject), programs, find
+            ),
         )
     written = write_new(documents)
     if options.json:
         print_json({**plan.values, "files": [str(path) for path in written]})
         return 0
-    print(*_extension_lines(plan), sep="\n")
+    print(*_tell_extensions(plan), sep="\n")
     print()
     if not options.output:
         names = ", ".join(each.identifier for each in programs)
         wait = f", part programs for {names}" if names else ""
         print(f"{plan.files_in_words}{wait}: state a folder, --output DIR")
     for path in written:
-        print(shown_path(path))
-    print(f"next: {plan.next_step}, then zlmreport {shown_path(options.job)}")
+        print(show_path(path))
+    print(f"next: {plan.next_step}, then zlmreport {show_path(options.job)}")
     return 0
 
 
-def _extension_lines(plan: ExtensionPlan) -> Iterator[str]:
+def _tell_extensions(plan: ExtensionPlan) -> Iterator[str]:
     name, rest = plan.heading
     yield f"{Colour.BOLD.of(name)}  {rest}"
     for word, beside, sentences in plan.parts:
         yield ""
         yield f"{Colour.BOLD.of(word)}  {beside}"
         for sentence in sentences:
-            yield from wrapped(sentence)
+            yield from wrap(sentence)
 
 
 def plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, ...]:
@@ -200,31 +210,31 @@ def plan_files(folder: Path, job: Job, planned: PlannedTest) -> tuple[Document, 
     empty columns for what should be logged; the data source ``laser-csv`` reads it filled in.
     """
     texts = {
-        "targets.csv": "".join(f"{line}\n" for line in _targets(job, planned)),
-        "readings.csv": "".join(f"{line}\n" for line in _readings(job, planned)),
-        "sequence.svg": _picture(job, planned),
+        "targets.csv": "".join(f"{line}\n" for line in _list_targets(job, planned)),
+        "readings.csv": "".join(f"{line}\n" for line in _list_readings(job, planned)),
+        "sequence.svg": _draw_plan(job, planned),
     }
     number = job.keys.certificate.number
     return tuple(Document(folder / f"{number}-{name}", text.encode()) for name, text in texts.items())
 
 
-def _picture(job: Job, planned: PlannedTest) -> str:
+def _draw_plan(job: Job, planned: PlannedTest) -> str:
     from zlmreport.document.figures.draw import to_svg  # noqa: PLC0415 (brings the typeface)
 
     keys = job.keys.certificate
-    motion = motion_of(keys.number, job.axis, planned.proposal.plan, job.place_of("plan"))
-    return to_svg(sequence(motion), keys.language)
+    motion = plan_motion_of(keys.number, job.axis, planned.proposal.plan, job.place_of("plan"))
+    return to_svg(draw_sequence(motion), keys.language)
 
 
-def _targets(job: Job, planned: PlannedTest) -> Iterator[str]:
+def _list_targets(job: Job, planned: PlannedTest) -> Iterator[str]:
     yield "number,target"
-    targets = in_users_unit(job.axis, planned.proposal.plan.targets)
+    targets = convert_to_users_unit(job.axis, planned.proposal.plan.targets)
     yield from (f"{number},{target:.12g}" for number, target in enumerate(targets, start=1))
 
 
-def _readings(job: Job, planned: PlannedTest) -> Iterator[str]:
+def _list_readings(job: Job, planned: PlannedTest) -> Iterator[str]:
     logs = ["time", *planned.logs]
-    targets = in_users_unit(job.axis, planned.proposal.plan.targets)
+    targets = convert_to_users_unit(job.axis, planned.proposal.plan.targets)
     unit = job.axis.deviation_unit.symbol
     yield f"# A form to fill in: deviation is actual - target, {unit}. Columns that nobody logs may go out."
     yield ",".join(["target", "direction", "run", "deviation", *logs])

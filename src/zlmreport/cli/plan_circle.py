@@ -6,30 +6,34 @@ from argparse import Namespace
 from dataclasses import replace
 from functools import partial
 
-from zlmreport.cli.layout import section_lines
-from zlmreport.cli.part_programs import RUN, chosen_programs, demand_file, program_files
-from zlmreport.cli.terminal import Colour, print_json, said, shown_path
-from zlmreport.document.subjects.circle_plan import circle_plan_sections, circle_plan_values, size_of_circle
+from zlmreport.cli.layout import lay_out_sections
+from zlmreport.cli.part_programs import RUN, choose_programs, demand_file, make_program_files
+from zlmreport.cli.terminal import Colour, print_json, say, show_path
+from zlmreport.document.subjects.circle_plan import (
+    collect_circle_plan,
+    lay_out_circle_plan,
+    say_size_of_circle,
+)
 from zlmreport.errors import InputError
 from zlmreport.files import Document, write_new
 from zlmreport.job.choices import Choice
 from zlmreport.job.job import Job
 from zlmreport.language import Language
-from zlmreport.model.planning.circle_path import CirclePath, circle_path
-from zlmreport.plugin.protocols import PartProgram, circle_writer
+from zlmreport.model.planning.circle_path import CirclePath, plan_circle_path
+from zlmreport.plugin.protocols import PartProgram, find_circle_writer
 from zlmreport.plugin.registry import Registry
 
 
 def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     """Write and print the path of a circular test: a program for each control and each feed."""
-    programs = chosen_programs(
+    programs = choose_programs(
         options.program, options.output, job.programs, registry.part_program, registry.programs_for()
     )
     demand_file(options, programs)
     keys, number = job.keys, job.keys.certificate.number
     stated = keys.plan.circle.feeds if keys.plan.circle else []
     place = job.place_of("circle")
-    paths = [circle_path(job, place, feed) for feed in stated or (None,)]
+    paths = [plan_circle_path(job, place, feed) for feed in stated or (None,)]
     documents: list[Document] = []
     for path in paths if options.output else ():
         of_run = path if options.run is None else replace(path, place=RUN).of_run(options.run)
@@ -38,34 +42,34 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
             *([] if options.run is None else [f"run-{options.run}"]),
             *([f"F{path.feed:g}"] if len(paths) > 1 else []),
         ]
-        documents += program_files(
+        documents += make_program_files(
             options.output,
             "-".join(parts),
-            partial(_written, registry, of_run),
+            partial(_write_program, registry, of_run),
             programs,
             registry.part_program,
         )
     written = write_new(tuple(documents))
     if options.json:
-        print_json(circle_plan_values(job, paths, written))
+        print_json(collect_circle_plan(job, paths, written))
         return 0
-    print(f"{Colour.BOLD.of(number)}  plane {job.axis.name}: {said(size_of_circle(paths[0]))}")
-    print(*section_lines(circle_plan_sections(job, paths, Language.ENGLISH)), sep="\n")
+    print(f"{Colour.BOLD.of(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
+    print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:
         names = ", ".join(each.identifier for each in programs)
         print(f"part programs for {names}: state a folder, --output DIR")
     for file in written:
-        print(shown_path(file))
-    print(f"next: measure, then zlmreport {shown_path(options.job)}")
+        print(show_path(file))
+    print(f"next: measure, then zlmreport {show_path(options.job)}")
     return 0
 
 
-def _written(registry: Registry, path: CirclePath, program: PartProgram, choice: Choice) -> str:
+def _write_program(registry: Registry, path: CirclePath, program: PartProgram, choice: Choice) -> str:
     """Return the program of a circle; raise `InputError` where its writer writes none."""
-    write = circle_writer(program)
+    write = find_circle_writer(program)
     if write is None:
-        known = [each.identifier for each in registry.programs_for() if circle_writer(each)]
+        known = [each.identifier for each in registry.programs_for() if find_circle_writer(each)]
         raise InputError.at(
             choice.place, f"{program.identifier} writes no circles; these do: {', '.join(known) or 'none'}"
         )

@@ -6,7 +6,7 @@ from argparse import Namespace
 from collections.abc import Iterator
 from pathlib import Path
 
-from zlmreport.cli.terminal import Colour, print_json, shown_path, table
+from zlmreport.cli.terminal import Colour, lay_out_table, print_json, show_path
 from zlmreport.language import Language
 from zlmreport.plugin.kinds import KINDS
 from zlmreport.plugin.registry import DISABLE, Plugin, Registry, find_plugins
@@ -15,40 +15,40 @@ from zlmreport.plugin.registry import DISABLE, Plugin, Registry, find_plugins
 def run(options: Namespace) -> int:
     """Print every plugin, and then what the user should mend before any job is run."""
     registry = find_plugins(files=options.plugin, lenient=True)
-    print(*listing(registry), sep="\n", flush=True)
+    print(*list_plugins(registry), sep="\n", flush=True)
     if registry.refused:
         raise registry.refused
     return 0
 
 
-def listing(registry: Registry) -> Iterator[str]:
+def list_plugins(registry: Registry) -> Iterator[str]:
     """Yield the lines on all plugins, kind by kind."""
     offers = registry.offers()
     for kind in KINDS:
         yield Colour.BOLD.of(f"{kind.label}s")
         rows = [
-            (each.identifier, each.offered.title.in_language(Language.ENGLISH), _origin(each.plugin))
+            (each.identifier, each.offered.title.in_language(Language.ENGLISH), _name_origin(each.plugin))
             for each in offers
             if each.kind is kind
         ]
-        yield from table(rows or [("none", "", "")], indent="  ")
+        yield from lay_out_table(rows or [("none", "", "")], indent="  ")
     if registry.failed:
         yield Colour.RED.of("not loaded")
         rows = [(each.plugin.name, each.plugin.release, each.reason) for each in registry.failed]
-        yield from table(rows, indent="  ")
+        yield from lay_out_table(rows, indent="  ")
     if registry.disabled:
         yield f"switched off by {DISABLE}"
         yield from (f"  {name}" for name in registry.disabled)
 
 
-def _origin(plugin: Plugin) -> str:
+def _name_origin(plugin: Plugin) -> str:
     """Return where a plugin comes from: what was installed, or its file."""
-    return plugin.release or shown_path(Path(plugin.module))
+    return plugin.release or show_path(Path(plugin.module))
 
 
 def schema(options: Namespace) -> int:
     """Print the schema, with the keys of all installed plugins."""
-    from zlmreport.job.schema import job_schema  # noqa: PLC0415 - brings all keys, which a listing does not need
+    from zlmreport.job.schema import make_job_schema  # noqa: PLC0415 - brings all keys, which a listing does not need
 
-    print_json(job_schema(find_plugins(files=options.plugin)))
+    print_json(make_job_schema(find_plugins(files=options.plugin)))
     return 0

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 from zlmreport import pipeline
 from zlmreport.cli.arguments.documents import SIGN_PASSWORD
-from zlmreport.cli.jobs import JobResult, do_all, findings, load_all, report
-from zlmreport.cli.terminal import progress
+from zlmreport.cli.jobs import JobResult, do_all, load_all, report, tell_findings
+from zlmreport.cli.terminal import show_progress
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import write
-from zlmreport.job.loading import chosen_formats
+from zlmreport.job.loading import choose_formats_once
 from zlmreport.pipeline import PDF
 from zlmreport.plugin.registry import Registry, find_plugins
 
@@ -35,8 +35,8 @@ _FEW_TRIALS = 200
 def run(options: Namespace) -> int:
     """Make the certificates of all jobs and return the worst exit code."""
     registry = find_plugins(files=options.plugin)
-    formats = _formats(options.format, registry)
-    with signer_of(options) as signer:
+    formats = _choose_formats(options.format, registry)
+    with open_signer_of(options) as signer:
         return _make(options, registry, formats, signer)
 
 
@@ -48,7 +48,7 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
             from zlmreport.cli.capture import capture_if_watched  # noqa: PLC0415 - only for live readings
 
             capture_if_watched(job, registry, result.path)
-        outcome = pipeline.run(job, registry, signer, _showing(options))
+        outcome = pipeline.run(job, registry, signer, _make_showing(options))
         files = write(outcome.documents)
         made = outcome.certificate
         return replace(
@@ -70,28 +70,30 @@ def _make(options: Namespace, registry: Registry, formats: tuple[str, ...], sign
     return do_all(loaded, made, report, options, fail_on_nonconformity=options.fail_on_nonconformity)
 
 
-def _showing(options: Namespace) -> pipeline.Showing:
+def _make_showing(options: Namespace) -> pipeline.Showing:
     """Return what shows how far a diagnosis is: nothing where nothing is to be printed."""
-    return partial(progress, is_wanted=not options.quiet)
+    return partial(show_progress, is_wanted=not options.quiet)
 
 
-def _formats(named: str | None, registry: Registry) -> tuple[str, ...]:
+def _choose_formats(named: str | None, registry: Registry) -> tuple[str, ...]:
     """Return the formats that the command line names, instead of those of the jobs."""
     if named is None:
         return ()
     place = Place("zlmreport --format")
-    return chosen_formats([(name.strip(), place) for name in named.split(",")], registry)
+    return choose_formats_once([(name.strip(), place) for name in named.split(",")], registry)
 
 
-def signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
+def open_signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
     """Return who signs, if anybody is asked to."""
     if not options.sign:
         return nullcontext()
     from zlmreport.document.signing.signer import open_signer  # noqa: PLC0415 - only to sign
-    from zlmreport.document.signing.state import trusted_by_user, trusted_certificates  # noqa: PLC0415
+    from zlmreport.document.signing.state import find_trusted_by_user, read_trusted_certificates  # noqa: PLC0415
 
-    named = trusted_by_user()
-    return open_signer(options.sign, _password, _PLACE, trusted_certificates(named, _PLACE) if named else ())
+    named = find_trusted_by_user()
+    return open_signer(
+        options.sign, _ask_password, _PLACE, read_trusted_certificates(named, _PLACE) if named else ()
+    )
 
 
 def demand_something_to_sign(job: Job, registry: Registry) -> None:
@@ -103,7 +105,7 @@ def demand_something_to_sign(job: Job, registry: Registry) -> None:
         )
 
 
-def _password(of: str) -> str:
+def _ask_password(of: str) -> str:
     stated = os.environ.get(SIGN_PASSWORD)
     if stated is not None:
         return stated
@@ -129,7 +131,7 @@ def check(options: Namespace) -> int:
             if awaits_capture(job):
                 demand_capturable(job, registry)
                 return result
-        certificate = pipeline.compose(job, registry, showing=_showing(options), trials=trials)
+        certificate = pipeline.compose(job, registry, showing=_make_showing(options), trials=trials)
         return replace(
             result,
             evaluations=certificate.evaluations,
@@ -141,9 +143,9 @@ def check(options: Namespace) -> int:
 
     def lines(result: JobResult) -> Iterator[str]:
         if result.job is None or result.evaluations:
-            return findings(result)
-        from zlmreport.cli.capture import planned  # noqa: PLC0415 - only for live readings
+            return tell_findings(result)
+        from zlmreport.cli.capture import tell_planned  # noqa: PLC0415 - only for live readings
 
-        return planned(result.path, result.job, registry)
+        return tell_planned(result.path, result.job, registry)
 
     return do_all(load_all(options.jobs, registry), evaluated, lines, options)

@@ -6,17 +6,22 @@ from argparse import Namespace
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from zlmreport.cli.emulate import put_on_line, refuse_two_lines, troubles_of
-from zlmreport.cli.terminal import shown_path
+from zlmreport.cli.emulate import make_troubles_of, put_on_line, refuse_two_lines
+from zlmreport.cli.terminal import show_path
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, write
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.language import Language
 from zlmreport.live.emulation.emulator import Scene
 from zlmreport.model.planning.plan import Plan
-from zlmreport.model.simulation.files import description_of, job_text, live_job_text, readings_table
-from zlmreport.model.simulation.simulate import StartedMachine, emulated_machine, simulate
+from zlmreport.model.simulation.files import (
+    read_description_of,
+    write_job_text,
+    write_live_job_text,
+    write_readings_table,
+)
+from zlmreport.model.simulation.simulate import StartedMachine, make_emulated_machine, simulate
 from zlmreport.plugin.registry import find_plugins
 
 _COMMAND = "zlmreport simulate"
@@ -31,19 +36,19 @@ def run(options: Namespace) -> int:
         return run_live(options)
     registry = find_plugins(files=options.plugin)
     file = load_simulation(options.specification, registry)
-    measurements = simulate(description_of(file, registry.effect)).measurements
+    measurements = simulate(read_description_of(file, registry.effect)).measurements
     folder = options.output or options.specification.parent
     readings = folder / (file.keys.output.readings or f"{options.specification.stem}.csv")
     job = folder / file.keys.output.job
-    head = remarks(file, "Simulated readings, not measurements.")
+    head = list_remarks(file, "Simulated readings, not measurements.")
     print(
-        *written(
-            Document(readings, readings_table(measurements, head).encode()),
-            Document(job, job_text(file, folder, readings.name).encode()),
+        *write_table(
+            Document(readings, write_readings_table(measurements, head).encode()),
+            Document(job, write_job_text(file, folder, readings.name).encode()),
         ),
         sep="\n",
     )
-    print(f"next: zlmreport {shown_path(job)}")
+    print(f"next: zlmreport {show_path(job)}")
     return 0
 
 
@@ -58,36 +63,39 @@ def run_live(options: Namespace) -> int:
     registry = find_plugins(files=options.plugin)
     instrument = registry.instrument(options.emulate)
     file = load_simulation(options.specification, registry)
-    description = description_of(file, registry.effect)
-    machine = emulated_machine(description, options.start)
+    description = read_description_of(file, registry.effect)
+    machine = make_emulated_machine(description, options.start)
     folder = options.output or options.specification.parent
     truth = folder / f"{options.specification.stem}-truth.csv"
     job = folder / file.keys.output.job
 
     def announce(address: str) -> Sequence[str]:
         port = address if options.link is None else str(options.link.absolute())
-        source = _source(options, description.plan, {"plugin": instrument.identifier, "port": port})
+        source = _make_source_keys(options, description.plan, {"plugin": instrument.identifier, "port": port})
         last = machine.duration / _SECONDS_A_MINUTE
         when = f"{options.start:g} s after somebody reads the port"
-        head = remarks(file, "What a simulated axis really does; nothing here was measured.")
+        head = list_remarks(file, "What a simulated axis really does; nothing here was measured.")
         return (
-            *written(
-                Document(truth, readings_table(machine.truth, head).encode()),
-                Document(job, live_job_text(file, folder, description.plan, source).encode()),
+            *write_table(
+                Document(truth, write_readings_table(machine.truth, head).encode()),
+                Document(job, write_live_job_text(file, folder, description.plan, source).encode()),
             ),
             f"{instrument.identifier}: {instrument.title.in_language(Language.ENGLISH)}, emulated",
             f"port: {address}",
-            f"machine: {counted(len(machine.leaves), 'reading')} in {last:.1f} min, from {when}; Ctrl-C ends",
-            f"next, in another terminal: zlmreport capture {shown_path(job)}",
+            (
+                f"machine: {count_in_words(len(machine.leaves), 'reading')} in {last:.1f} min, from {when}; "
+                "Ctrl-C ends"
+            ),
+            f"next, in another terminal: zlmreport capture {show_path(job)}",
         )
 
     started = StartedMachine(machine)
-    program = _program(started, options.start, machine.duration)
-    emulator = instrument.emulator(Scene(started, troubles_of(options), started.conditions))
+    program = _log_program(started, options.start, machine.duration)
+    emulator = instrument.emulator(Scene(started, make_troubles_of(options), started.conditions))
     return put_on_line(emulator, options, announce, lambda: next(program), started.start)
 
 
-def _source(options: Namespace, plan: Plan, instrument: Mapping[str, str]) -> dict[str, Any]:
+def _make_source_keys(options: Namespace, plan: Plan, instrument: Mapping[str, str]) -> dict[str, Any]:
     """Return the keys of the job's source: of a short rest the first half is left to the axis to settle."""
     source = {
         "plugin": "serial-interferometer",
@@ -97,7 +105,7 @@ def _source(options: Namespace, plan: Plan, instrument: Mapping[str, str]) -> di
     return source if plan.dwell > 2 * _USUAL_DWELL else source | {"dwell": plan.dwell / 2}
 
 
-def _program(machine: StartedMachine, *moments: float) -> Iterator[None]:
+def _log_program(machine: StartedMachine, *moments: float) -> Iterator[None]:
     """Say when the program starts and when it ends; each step is a look at the machine."""
     for moment, what in zip(moments, ("the program has started", "the program has ended"), strict=True):
         while machine.elapsed is None or machine.elapsed < moment:
@@ -107,7 +115,7 @@ def _program(machine: StartedMachine, *moments: float) -> Iterator[None]:
         yield
 
 
-def written(table: Document, job: Document) -> Iterator[str]:
+def write_table(table: Document, job: Document) -> Iterator[str]:
     """Write a table anew, and a job unless it is there, for somebody may have worked on it.
 
     Yields
@@ -116,12 +124,12 @@ def written(table: Document, job: Document) -> Iterator[str]:
         What is printed of each.
     """
     is_new = not job.path.exists()
-    yield from (str(shown_path(path)) for path in write([table, job] if is_new else [table]))
+    yield from (str(show_path(path)) for path in write([table, job] if is_new else [table]))
     if not is_new:
-        yield f"{shown_path(job.path)} is there already and was left as it is"
+        yield f"{show_path(job.path)} is there already and was left as it is"
 
 
-def remarks(file: SimulationFile, kind: str) -> tuple[str, ...]:
+def list_remarks(file: SimulationFile, kind: str) -> tuple[str, ...]:
     """Return what the head of a table says of its origin.
 
     `kind`: What the table holds, in a sentence.

@@ -41,51 +41,53 @@ class Colour(Enum):
         return f"\x1b[{self.value}m{text}\x1b[0m"
 
 
-def said(words: Words | str, language: Language = Language.ENGLISH) -> str:
+def say(words: Words | str, language: Language = Language.ENGLISH) -> str:
     """Return words as the terminal has them, with blanks that a search finds."""
     text = words if isinstance(words, str) else words.in_language(language)
     return text.replace(HELD, " ")
 
 
-def line_width() -> int:
+def find_line_width() -> int:
     """Return how many letters a line may have."""
     return max(_SHORTEST_LINE, shutil.get_terminal_size((_USUAL_LINE, 0)).columns)
 
 
-def wrapped(text: str, indent: str = "  ") -> list[str]:
+def wrap(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; no line ends within a value."""
-    return [line.replace(HELD, " ") for line in filled(_WITHIN_A_VALUE.sub(HELD, text), indent)]
+    return [line.replace(HELD, " ") for line in fill(_WITHIN_A_VALUE.sub(HELD, text), indent)]
 
 
-def filled(text: str, indent: str = "  ") -> list[str]:
+def fill(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; blanks that are held stay."""
     further = f"{indent}  "
     return textwrap.wrap(
-        text, line_width(), initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
+        text, find_line_width(), initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
     )
 
 
-def table(rows: Iterable[Sequence[str]], right: Sequence[int] = (), indent: str = "    ") -> Iterator[str]:
+def lay_out_table(
+    rows: Iterable[Sequence[str]], right: Sequence[int] = (), indent: str = "    "
+) -> Iterator[str]:
     """Yield rows whose columns line up; `right` lists the columns that stand on their last letter."""
     rows = [tuple(row) for row in rows]
-    widths = [max(map(width_of, column)) for column in zip(*rows, strict=True)]
+    widths = [max(map(measure_width, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         cells = []
         for number, (cell, width) in enumerate(zip(row, widths, strict=True)):
-            space = " " * (width - width_of(cell))
+            space = " " * (width - measure_width(cell))
             cells.append(space + cell if number in right else cell + space)
         yield indent + "  ".join(cells).rstrip()
 
 
-def shown_path(path: Path) -> str:
+def show_path(path: Path) -> str:
     """Return a path as the user would type it: from the current folder, if it lies below that."""
     absolute = path.resolve()
     here = Path.cwd()
-    return visible(str(absolute.relative_to(here) if absolute.is_relative_to(here) else absolute))
+    return make_visible(str(absolute.relative_to(here) if absolute.is_relative_to(here) else absolute))
 
 
 @contextmanager
-def progress(doing: str, *, is_wanted: bool = True) -> Iterator[Callable[[float], None]]:
+def show_progress(doing: str, *, is_wanted: bool = True) -> Iterator[Callable[[float], None]]:
     """Give what is told the share of some work that is done; a line on a terminal shows it until the end."""
     shown = is_wanted and sys.stderr.isatty()
 
@@ -109,10 +111,10 @@ def print_json(value: Any) -> None:
 def print_problems(error: ZlmreportError) -> None:
     """Print mistakes one a line, to the standard error output."""
     for problem in error.problems:
-        print(visible(str(problem)), file=sys.stderr)
+        print(make_visible(str(problem)), file=sys.stderr)
 
 
-def problem_values(problem: Problem) -> dict[str, Any]:
+def collect_problem(problem: Problem) -> dict[str, Any]:
     """Return a mistake as JSON has it."""
     return {
         "file": problem.place.file,
@@ -122,7 +124,7 @@ def problem_values(problem: Problem) -> dict[str, Any]:
     }
 
 
-def visible(text: str) -> str:
+def make_visible(text: str) -> str:
     """Return a text in which a terminal obeys nothing: what cannot be seen stands as an escape."""
     return "".join(
         character if character.isprintable() or character == "\n" else ascii(character)[1:-1]
@@ -130,7 +132,7 @@ def visible(text: str) -> str:
     )
 
 
-def width_of(cell: str) -> int:
+def measure_width(cell: str) -> int:
     """Return how wide a cell is printed: colours and combining marks take no room."""
     width = 0
     in_colour = False

@@ -9,11 +9,11 @@ from functools import partial
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from zlmreport.cli.terminal import Colour, print_json, said, shown_path, table, visible
-from zlmreport.document.signing.state import trusted_by_user, trusted_certificates
+from zlmreport.cli.terminal import Colour, lay_out_table, make_visible, print_json, say as said, show_path
+from zlmreport.document.signing.state import find_trusted_by_user, read_trusted_certificates
 from zlmreport.errors import Place
 from zlmreport.language import Words
-from zlmreport.measurement.units import printed_symbol
+from zlmreport.measurement.units import find_printed_symbol
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.verification.findings import (
     CheckedStatement,
@@ -73,35 +73,35 @@ SCHEMA = "zlmreport/verification/1"
 
 def run(options: Namespace) -> int:
     """Verify a certificate; return 1 if anything in it does not hold, 5 if that cannot be decided here."""
-    named = options.trusted or trusted_by_user()
+    named = options.trusted or find_trusted_by_user()
     found = verify(
         options.certificate,
         find_plugins(files=options.plugin),
         options.dcc_schema,
-        trusted=trusted_certificates(named, Place("zlmreport --trusted")) if named else (),
+        trusted=read_trusted_certificates(named, Place("zlmreport --trusted")) if named else (),
         require_signature=options.require_signature,
     )
     code = _CODES[found.outcome]
     if options.json:
-        print_json(_values(options.certificate, found, code))
+        print_json(_collect_values(options.certificate, found, code))
     else:
-        print(*_lines(options.certificate, found), sep="\n")
+        print(*_tell_lines(options.certificate, found), sep="\n")
     return code
 
 
-def _lines(path: Path, found: Verification) -> Iterator[str]:
+def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
     """Yield the lines on a certificate, in its language; what differs is told in English."""
     identity, signature = found.identity, found.signature
     say = partial(said, language=identity.language)
     # What does not hold is no copy of anything: its digest would only be taken for a sign that it is.
     is_told = identity.digest and found.outcome is not VerificationOutcome.DOES_NOT_HOLD
-    digest = f"  {visible(identity.digest)}" if is_told else ""
-    yield f"{Colour.BOLD.of(shown_path(path))}  {_verdict(found, say)}{digest}"
+    digest = f"  {make_visible(identity.digest)}" if is_told else ""
+    yield f"{Colour.BOLD.of(show_path(path))}  {_tell_verdict(found, say)}{digest}"
     if identity.number:
         issued = Words(", issued {date}").given(date=identity.issued)
         made_by = Words("made by {program}").given(program=identity.generator)
         date = say(issued) if identity.issued else ""
-        yield visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
+        yield make_visible(f"  {identity.title} {identity.number}{date}, {say(made_by)}")
     yield ""
     stated = Words(
         "{of} attached file as the certificate states", plural="{of} attached files as the certificate states"
@@ -109,26 +109,26 @@ def _lines(path: Path, found: Verification) -> Iterator[str]:
     pages = Words("{of} page as printed again", plural="{of} pages as printed again")
     parts = Words("{of} part as printed again", plural="{of} parts as printed again")
     note = say(Words("note"))
-    yield from table(
+    yield from lay_out_table(
         [
-            (say(_PARTS["signature"]), _COLOURS[signature.verdict].of(visible(say(signature.detail)))),
+            (say(_PARTS["signature"]), _COLOURS[signature.verdict].of(make_visible(say(signature.detail)))),
             *_summary(say(_PARTS["files"]), found.files, stated, say),
-            *_numbers(found.values, say),
+            *_tell_numbers(found.values, say),
             *_summary(say(_PARTS["pages"]), found.pages, pages, say),
             *_summary(say(_PARTS["document"]), found.document, parts, say),
-            *((note, Colour.YELLOW.of(visible(say(remark)))) for remark in found.remarks),
+            *((note, Colour.YELLOW.of(make_visible(say(remark)))) for remark in found.remarks),
         ],
         indent="  ",
     )
     for standard in dict.fromkeys(value.path[1] for value in found.values if _is_of_parameter(value)):
         yield ""
-        yield from _parameters(standard, found.values, say)
+        yield from _tell_parameters(standard, found.values, say)
     if found.own_words:
         yield ""
         yield from _own_words(found.own_words, say)
 
 
-def _verdict(found: Verification, say: _Say) -> str:
+def _tell_verdict(found: Verification, say: _Say) -> str:
     outcome, count = say(_SAID[found.outcome]), found.differences
     match found.outcome:
         case VerificationOutcome.HOLDS if found.is_trusted:
@@ -152,27 +152,30 @@ def _summary(
     if not findings:
         return
     others = [each for each in findings if each.verdict is not VerificationVerdict.HOLDS]
-    yield label, say(what.given(of=_of(len(findings) - len(others), len(findings)), number=len(findings)))
+    yield (
+        label,
+        say(what.given(of=_count_of(len(findings) - len(others), len(findings)), number=len(findings))),
+    )
     for each in others[:_MOST_LINES]:
         verdict = _COLOURS[each.verdict].of(say(_SAID[each.verdict]))
-        yield "", f"{verdict}  {visible(f'{each.subject}: {say(each.detail)}')}"
+        yield "", f"{verdict}  {make_visible(f'{each.subject}: {say(each.detail)}')}"
     if len(others) > _MOST_LINES:
         more = Words("and {n} more: see --json")
         yield "", say(more.given(n=len(others) - _MOST_LINES))
 
 
-def _of(number: int, total: int) -> Words:
+def _count_of(number: int, total: int) -> Words:
     return Words("{number} of {total}").given(number=number, total=total)
 
 
-def _numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[str, str]]:
+def _tell_numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[str, str]]:
     """Yield how many numbers hold, and each value that does not and stands in no table below."""
     numbers = sum(value.is_number for value in values)
     if not numbers:
         return
     holding = sum(value.is_number and value.verdict is VerificationVerdict.HOLDS for value in values)
     given = Words("{of} as the attached readings give them")
-    yield say(Words("numbers")), say(given.given(of=_of(holding, numbers)))
+    yield say(Words("numbers")), say(given.given(of=_count_of(holding, numbers)))
     elsewhere = [
         CheckedStatement(
             " ".join(step for step in value.path if step not in _CONTAINERS), value.verdict, _both(value)
@@ -190,15 +193,15 @@ def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:
     for each in texts:
         by_text.setdefault(each.text, []).append(each)
     for text, alike in by_text.items():
-        places = ", ".join(_places([each.key for each in alike], say))
-        yield visible(f"  {places}: '{_shortened(text)}'")
+        places = ", ".join(_name_places([each.key for each in alike], say))
+        yield make_visible(f"  {places}: '{_shorten(text)}'")
         yield from (
-            f"    {_COLOURS[VerificationVerdict.OPEN].of(visible(say(oddity)))}"
+            f"    {_COLOURS[VerificationVerdict.OPEN].of(make_visible(say(oddity)))}"
             for oddity in alike[0].oddities
         )
 
 
-def _places(keys: Sequence[str], say: _Say) -> Iterator[str]:
+def _name_places(keys: Sequence[str], say: _Say) -> Iterator[str]:
     """Yield the keys under which a text stands: those of several measurements that end alike as one."""
     by_end: dict[str, list[list[str]]] = {}
     for key in keys:
@@ -213,26 +216,26 @@ def _places(keys: Sequence[str], say: _Say) -> Iterator[str]:
         others = [each for each in names if each]
         words = _ALSO_IN if len(others) < len(names) else _IN
         # The only key there is has nothing before what it shares with itself.
-        yield say(words.given(key=key, names=_few(others, say))) if others else key
+        yield say(words.given(key=key, names=_name_a_few(others, say))) if others else key
 
 
-def _few(names: Sequence[str], say: _Say) -> str:
+def _name_a_few(names: Sequence[str], say: _Say) -> str:
     if len(names) <= _MOST_PLACES + 1:
         return ", ".join(names)
     more = say(Words("and {n} more").given(n=len(names) - _MOST_PLACES))
     return f"{', '.join(names[:_MOST_PLACES])} {more}"
 
 
-def _shortened(text: str) -> str:
+def _shorten(text: str) -> str:
     line = " ".join(text.split())
     return line if len(line) <= _LONGEST_QUOTE else f"{line[: _LONGEST_QUOTE - 1]}…"
 
 
-def _parameters(standard: str, values: Sequence[ComparedValue], say: _Say) -> Iterator[str]:
+def _tell_parameters(standard: str, values: Sequence[ComparedValue], say: _Say) -> Iterator[str]:
     """Yield the parameters of a standard, each with all that is stated of it and differs."""
     of_standard = [value for value in values if _is_of_parameter(value) and value.path[1] == standard]
     units = {str(value.recomputed) for value in of_standard if value.path[-1] == "unit"}
-    unit = " ".join(printed_symbol(each) for each in sorted(units))
+    unit = " ".join(find_printed_symbol(each) for each in sorted(units))
     rows = []
     for symbol in dict.fromkeys(value.path[3] for value in of_standard):
         own = {value.path[-1]: value for value in of_standard if value.path[3] == symbol}
@@ -242,14 +245,14 @@ def _parameters(standard: str, values: Sequence[ComparedValue], say: _Say) -> It
         value = own.get("value")
         rows.append(
             (
-                visible(symbol),
-                *(_shown(value) if value else ("", "")),
-                _COLOURS[verdict].of(say(_SAID[verdict])) + visible(f"  {others}" if others else ""),
+                make_visible(symbol),
+                *(_show_difference(value) if value else ("", "")),
+                _COLOURS[verdict].of(say(_SAID[verdict])) + make_visible(f"  {others}" if others else ""),
             )
         )
     stated, recomputed = Words("stated"), Words("recomputed")
-    head = visible(standard), say(stated), say(recomputed), unit
-    yield from table([head, *rows], right=(1, 2), indent="  ")
+    head = make_visible(standard), say(stated), say(recomputed), unit
+    yield from lay_out_table([head, *rows], right=(1, 2), indent="  ")
 
 
 def _is_of_parameter(value: ComparedValue) -> bool:
@@ -257,20 +260,20 @@ def _is_of_parameter(value: ComparedValue) -> bool:
 
 
 def _both(value: ComparedValue) -> str:
-    stated, recomputed = _shown(value)
+    stated, recomputed = _show_difference(value)
     return f"{stated} is stated, and {recomputed} recomputed"
 
 
-def _shown(value: ComparedValue) -> tuple[str, str]:
+def _show_difference(value: ComparedValue) -> tuple[str, str]:
     """Return the stated and the recomputed value with as many digits as tell the two apart."""
     for digits in range(5, 18):
-        stated, recomputed = (_written(each, digits) for each in (value.stated, value.recomputed))
+        stated, recomputed = (_write_value(each, digits) for each in (value.stated, value.recomputed))
         if stated != recomputed or value.verdict is not VerificationVerdict.DIFFERS:
             break
     return stated, recomputed
 
 
-def _written(value: object, digits: int) -> str:
+def _write_value(value: object, digits: int) -> str:
     if value is None:
         return "nothing"
     if is_number(value):
@@ -279,7 +282,7 @@ def _written(value: object, digits: int) -> str:
     return f"'{text}'" if len(text) <= _LONGEST_TEXT else f"'{text[: _LONGEST_TEXT - 1]}…'"
 
 
-def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
+def _collect_values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
     """Return all that was found; values are in the units of the results file."""
     return {
         "schema": SCHEMA,
@@ -293,8 +296,8 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
         "undecided": list(found.undecided),
         "differences": found.differences,
         "certificate": asdict(found.identity),
-        "signature": _finding(found.signature),
-        "files": _findings(found.files),
+        "signature": _collect_finding(found.signature),
+        "files": _collect_findings(found.files),
         "values": [
             {
                 "path": "/".join(value.path),
@@ -304,8 +307,8 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
             }
             for value in found.values
         ],
-        "pages": _findings(found.pages),
-        "document": _findings(found.document),
+        "pages": _collect_findings(found.pages),
+        "document": _collect_findings(found.document),
         "own_words": [
             {
                 "key": each.key,
@@ -319,9 +322,9 @@ def _values(path: Path, found: Verification, exit_code: int) -> dict[str, Any]:
     }
 
 
-def _findings(findings: Iterable[CheckedStatement]) -> list[dict[str, str]]:
-    return [_finding(each) for each in findings]
+def _collect_findings(findings: Iterable[CheckedStatement]) -> list[dict[str, str]]:
+    return [_collect_finding(each) for each in findings]
 
 
-def _finding(finding: CheckedStatement) -> dict[str, str]:
+def _collect_finding(finding: CheckedStatement) -> dict[str, str]:
     return {"subject": finding.subject, "verdict": finding.verdict.value, "detail": said(finding.detail)}

@@ -25,7 +25,7 @@ _PASSED_ON = ("SIGTERM", "SIGHUP", "SIGQUIT", "SIGUSR1", "SIGUSR2")
 _DEATH_OF_PARENT = 1
 
 
-def watched(command: Callable[[], int], use: Callable[[memoryview], None]) -> int | None:
+def watch(command: Callable[[], int], use: Callable[[memoryview], None]) -> int | None:
     """Do a command in a process of its own, and return its exit code; None where there is no such thing.
 
     `use`: Is called in that process, with the memory in which it notes who is at work.
@@ -44,7 +44,7 @@ def watched(command: Callable[[], int], use: Callable[[memoryview], None]) -> in
         code = command()
         memory[0:_HEAD] = bytes((1, code % 256))
         sys.exit(code)
-    ended_by, status = _awaited(child, waited)
+    ended_by, status = _wait_for_process(child, waited)
     if memory[0] and memory[1] != _FAILED:
         return memory[1]
     if ended_by is not None:  # as whoever sent the signal expects
@@ -55,13 +55,13 @@ def watched(command: Callable[[], int], use: Callable[[memoryview], None]) -> in
 
     presence = Presence(memoryview(memory)[_HEAD:])
     if not memory[0]:
-        print(_told(presence, status), file=sys.stderr)
+        print(_say_what_ended(presence, status), file=sys.stderr)
     elif "stderr" in presence.wrong:  # nobody read what the command said of it
         print(f"zlmreport: {presence.wrong}", file=sys.stderr)
     return _FAILED
 
 
-def _awaited(child: int, waited: set[signal.Signals]) -> tuple[signal.Signals | None, int]:
+def _wait_for_process(child: int, waited: set[signal.Signals]) -> tuple[signal.Signals | None, int]:
     """Wait for a process; return the signal that was passed on to it and ended it, and its status."""
     passed_on: set[int] = set()
     while True:
@@ -77,7 +77,7 @@ def _awaited(child: int, waited: set[signal.Signals]) -> tuple[signal.Signals | 
             os.kill(child, number)
 
 
-def _told(presence: Presence, status: int) -> str:
+def _say_what_ended(presence: Presence, status: int) -> str:
     how = f"was ended by {signal.Signals(-status).name}" if status < 0 else f"ended with exit code {status}"
     hint = "; the system may have run out of memory" if status == -signal.SIGKILL else ""
     if presence.wrong:

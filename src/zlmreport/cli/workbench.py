@@ -10,10 +10,10 @@ from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, NoReturn
 
-from zlmreport.cli.terminal import shown_path
+from zlmreport.cli.terminal import show_path
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import Document, write_new
-from zlmreport.looking import job_of, looked_at
+from zlmreport.looking import look_at, write_job_of
 from zlmreport.plugin.registry import Registry, find_plugins
 
 if TYPE_CHECKING:
@@ -35,25 +35,25 @@ def run(options: Namespace) -> int:
         raise AccessError.at(
             _PLACE, f"{package} is not installed; install the workbench: pip install 'zlmreport[workbench]'"
         ) from error
-    workbench = _workbench(options)
+    workbench = _open_workbench(options)
     signal.signal(signal.SIGTERM, _end)
     with contextlib.suppress(KeyboardInterrupt):
         serve(workbench, options.port, _print_address, open_browser=not options.no_browser)
     return 0
 
 
-def _workbench(options: Namespace) -> Served:
+def _open_workbench(options: Namespace) -> Served:
     """Return the page of a job, of a machine, or of a folder.
 
     Raises `InputError` if a folder or a machine stands beside other files, or a folder holds none.
     """
     from zlmreport.web.app import Workbench  # noqa: PLC0415 - the extra is there
-    from zlmreport.web.folder import JobFolder, is_machine, jobs_in  # noqa: PLC0415
+    from zlmreport.web.folder import JobFolder, find_jobs_in, is_machine  # noqa: PLC0415
     from zlmreport.web.folder_app import FolderWorkbench  # noqa: PLC0415
     from zlmreport.web.machine_app import MachineWorkbench  # noqa: PLC0415
 
     registry, plugins = find_plugins(files=options.plugin), tuple(options.plugin)
-    first, *others = (_job_of(each, registry) for each in options.jobs)
+    first, *others = (_find_job_of(each, registry) for each in options.jobs)
     folder = next((each for each in (first, *others) if each.is_dir()), None)
     if folder is None:
         machine = next(filter(is_machine, (first, *others)), None)
@@ -64,19 +64,19 @@ def _workbench(options: Namespace) -> Served:
         return MachineWorkbench.of(machine, registry, plugins)
     if others:
         raise InputError.at(_PLACE, f"{folder} is a folder: name it alone, or the jobs in it one by one")
-    jobs_in(first)
+    find_jobs_in(first)
     return FolderWorkbench(JobFolder(first, registry, dt.date.today), registry, plugins)
 
 
-def _job_of(path: Path, registry: Registry) -> Path:
+def _find_job_of(path: Path, registry: Registry) -> Path:
     """Return the job of what is opened: for a file of readings that beside it, written if there is none."""
     if path.suffix.lower() in _JOBS or not path.is_file():
         return path
     job = path.with_suffix(_JOBS[0])
     if not job.exists():
-        text = job_of(looked_at(path, registry), path, job.parent)
+        text = write_job_of(look_at(path, registry), path, job.parent)
         write_new([Document(job, text.encode())])
-        print(f"{shown_path(job)}: written for {shown_path(path)}")
+        print(f"{show_path(job)}: written for {show_path(path)}")
     return job
 
 

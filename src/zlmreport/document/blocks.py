@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from enum import Enum
 from typing import TYPE_CHECKING, TypeAlias
 
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 
 if TYPE_CHECKING:
     from zlmreport.document.figures.figure import Figure
@@ -53,7 +53,7 @@ class Explained:
 Cell: TypeAlias = str | Symbol | Verdict | Explained
 
 
-def text_of(cell: Cell, symbol: Callable[[str], str] = plain) -> str:
+def write_cell_text(cell: Cell, symbol: Callable[[str], str] = write_plain) -> str:
     """Return what a cell shows in its first line; `symbol` writes the notation of a symbol."""
     match cell:
         case Symbol(notation):
@@ -66,13 +66,13 @@ def text_of(cell: Cell, symbol: Callable[[str], str] = plain) -> str:
             return cell
 
 
-def with_symbols(text: str, notations: Iterable[str]) -> Iterator[str | Symbol]:
+def split_at_symbols(text: str, notations: Iterable[str]) -> Iterator[str | Symbol]:
     """Yield the stretches of a text in which symbols stand as a plain line, each of these as a symbol.
 
     >>> list(with_symbols("Umax: largest, Umaximum", ["U_{max}"]))
     [Symbol(notation='U_{max}'), ': largest, Umaximum']
     """
-    by_name = {plain(each): each for each in notations}
+    by_name = {write_plain(each): each for each in notations}
     if not by_name:
         yield text
         return

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number, general_number, rounded_pair
-from zlmreport.measurement.arrays import FloatArray, decimals_of
+from zlmreport.language.formatting import round_pair, write_fixed_number, write_general_number
+from zlmreport.measurement.arrays import FloatArray, count_decimals_of
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import CELSIUS, Scale, Unit, with_unit
 
@@ -51,12 +51,12 @@ class Marks:
         found = [
             mark
             for mark, named in ((BY_CUSTOMER, self.by_customer), (EXTERNAL, self.external))
-            if any(_related(key, each) for key in keys for each in named)
+            if any(_is_related(key, each) for key in keys for each in named)
         ]
         return f" {''.join(found)}" if found else ""
 
 
-def _related(key: str, other: str) -> bool:
+def _is_related(key: str, other: str) -> bool:
     """Whether two keys are one, or one of them is a group that the other is in."""
     return f"{key}.".startswith(f"{other}.") or f"{other}.".startswith(f"{key}.")
 
@@ -103,12 +103,14 @@ class Writer:
     def of(cls, measurements: MeasurementSet, language: Language, marks: Marks = NO_MARKS) -> Writer:
         """Return the writer for a document on these measurements."""
         axis = measurements.axis
-        of_readings = decimals_of(axis.deviation_unit.from_si(measurements.deviation), _MOST_DECIMALS)
+        of_readings = count_decimals_of(axis.deviation_unit.from_si(measurements.deviation), _MOST_DECIMALS)
         return cls(
             language,
             axis.position_unit,
             axis.deviation_unit,
-            decimals_of(axis.position_unit.from_si(measurements.target_positions), _MOST_TARGET_DECIMALS),
+            count_decimals_of(
+                axis.position_unit.from_si(measurements.target_positions), _MOST_TARGET_DECIMALS
+            ),
             _DECIMALS_OF_OTHER_UNITS if measurements.tests else of_readings,
             marks,
         )
@@ -128,7 +130,7 @@ class Writer:
         """Write a deviation or a parameter (m or rad), without its unit."""
         if math.isnan(value):
             return NOTHING
-        return fixed_number(
+        return write_fixed_number(
             self.deviation_unit.from_si(value), self.deviation_decimals, self.language.decimal_sign
         )
 
@@ -136,24 +138,24 @@ class Writer:
         """Write a mean or a standard deviation (m or rad): a mean of several says more than each of them."""
         if math.isnan(value):
             return NOTHING
-        return fixed_number(
+        return write_fixed_number(
             self.deviation_unit.from_si(value), self.deviation_decimals + 1, self.language.decimal_sign
         )
 
     def position(self, value: float) -> str:
         """Write a position (m or rad), without its unit."""
-        return fixed_number(
+        return write_fixed_number(
             self.position_unit.from_si(value), self.position_decimals, self.language.decimal_sign
         )
 
     def length(self, value: float) -> str:
         """Write a length or an angle along the axis with its unit and no needless digits."""
-        number = general_number(self.position_unit.from_si(value), self.language.decimal_sign)
+        number = write_general_number(self.position_unit.from_si(value), self.language.decimal_sign)
         return with_unit(number, self.position_unit.symbol)
 
     def number(self, value: float) -> str:
         """Write a number with no needless digits."""
-        return general_number(value, self.language.decimal_sign)
+        return write_general_number(value, self.language.decimal_sign)
 
     def date(self, value: dt.date) -> str:
         """Write a date as ISO 8601 does: alike in every language, and never mistaken."""
@@ -162,8 +164,8 @@ class Writer:
     def span(self, values: FloatArray, decimals: int) -> str:
         """Write the smallest and largest of logged values, or the one value that they share."""
         low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        first = fixed_number(low, decimals, self.language.decimal_sign)
-        last = fixed_number(high, decimals, self.language.decimal_sign)
+        first = write_fixed_number(low, decimals, self.language.decimal_sign)
+        last = write_fixed_number(high, decimals, self.language.decimal_sign)
         return first if first == last else f"{first} … {last}"
 
     def condition_span(self, values: FloatArray, scale: Scale) -> str:
@@ -176,7 +178,7 @@ class Writer:
 _NONE = "0"
 
 
-def written(parameter: Parameter, writer: Writer) -> tuple[str, str]:
+def write_with_uncertainty(parameter: Parameter, writer: Writer) -> tuple[str, str]:
     """Write a parameter and its U, without unit: rounded together to two significant digits of U.
 
     A value of which no uncertainty is known has the decimals of the readings (ILAC-P14:09/2020; EA-4/02
@@ -185,20 +187,20 @@ def written(parameter: Parameter, writer: Writer) -> tuple[str, str]:
     expanded, writer = parameter.expanded_uncertainty, writer.of_quantity(parameter.quantity)
     if not expanded:
         return writer.deviation(parameter.printed_value), NOTHING if expanded is None else _NONE
-    return with_uncertainty(parameter.printed_value, expanded, writer)
+    return write_rounded_together(parameter.printed_value, expanded, writer)
 
 
-def written_uncertainty(expanded: float, writer: Writer) -> str:
+def write_uncertainty(expanded: float, writer: Writer) -> str:
     """Write an U (m or rad) by itself, without unit; NaN is nothing."""
     if math.isnan(expanded):
         return NOTHING
-    return with_uncertainty(0.0, expanded, writer)[1] if expanded else _NONE
+    return write_rounded_together(0.0, expanded, writer)[1] if expanded else _NONE
 
 
-def with_uncertainty(value: float, expanded: float, writer: Writer) -> tuple[str, str]:
+def write_rounded_together(value: float, expanded: float, writer: Writer) -> tuple[str, str]:
     """Write a value and an U that is not zero (m or rad), without unit, rounded together."""
     unit = writer.deviation_unit
-    return rounded_pair(
+    return round_pair(
         unit.from_si(value),
         unit.from_si(expanded),
         writer.language.decimal_sign,

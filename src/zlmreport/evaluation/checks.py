@@ -39,12 +39,12 @@ _ALIKE = 1e-6
 
 def position_in_words(axis: Axis, value: float) -> Words:
     """Return a position or a distance along the axis, m or rad, with its unit: ``250 mm``, ``90°``."""
-    return _with_unit(axis.position_unit, value)
+    return _write_with_unit(axis.position_unit, value)
 
 
 def deviation_in_words(axis: Axis, value: float) -> Words:
     """Return a deviation, m or rad, with its unit: ``12.5 µm``, ``3″``."""
-    return _with_unit(axis.deviation_unit, value)
+    return _write_with_unit(axis.deviation_unit, value)
 
 
 def positions_in_words(number: int) -> Words:
@@ -62,7 +62,7 @@ def readings_in_words(number: int) -> Words:
     return Words("{number} reading", plural="{number} readings").given(number=number)
 
 
-def _with_unit(unit: Unit, value: float) -> Words:
+def _write_with_unit(unit: Unit, value: float) -> Words:
     phrase = with_unit("{value}", unit.symbol)
     return Words(phrase).given(value=float(unit.from_si(value)))
 
@@ -309,7 +309,9 @@ def spacing_against_periods(measurements: MeasurementSet, basis: Basis) -> tuple
         (Words("signal period"), axis.signal_period),
     )
     stated = tuple(
-        _spacing_against(measurements, name, period, basis) for name, period in periods if period is not None
+        _check_spacing_against(measurements, name, period, basis)
+        for name, period in periods
+        if period is not None
     )
     if stated:
         return stated
@@ -317,7 +319,7 @@ def spacing_against_periods(measurements: MeasurementSet, basis: Basis) -> tuple
     return (Finding(requirement, Words("no period stated"), None, basis),)
 
 
-def _spacing_against(measurements: MeasurementSet, name: Words, period: float, basis: Basis) -> Finding:
+def _check_spacing_against(measurements: MeasurementSet, name: Words, period: float, basis: Basis) -> Finding:
     """Hold the spacing against one period: the phases of all targets, as seen from the first."""
     requirement = Words("Spacing no integer multiple of the {name} ({period})").given(
         name=name, period=position_in_words(measurements.axis, period)

@@ -25,7 +25,7 @@ _BY_CHANCE = 1e-4
 _HIDDEN = 0.9
 
 
-def agreement_by_chance(series: FloatArray, step: float) -> float:
+def estimate_agreement_by_chance(series: FloatArray, step: float) -> float:
     """Return the share of equal differences that two series usually have: its median over all pairs.
 
     `series`: (reading, series), m or rad; NaN where there is none.
@@ -37,7 +37,7 @@ def agreement_by_chance(series: FloatArray, step: float) -> float:
     shares = [
         equal / count
         for one, other in pairs
-        for equal, count in (_equal_differences(series[:, one], series[:, other], step),)
+        for equal, count in (_count_equal_differences(series[:, one], series[:, other], step),)
         if count
     ]
     return float(np.median(shares)) if shares else 1.0
@@ -50,16 +50,16 @@ def are_nearly_copies(
 
     `by_chance`: The share of equal differences of honest series; `pairs`: how many pairs are looked at.
     """
-    equal, count = _equal_differences(one, other, step)
+    equal, count = _count_equal_differences(one, other, step)
     if count < _FEWEST or count - equal > max(1, int(_ALTERED * count)):
         return False
-    return by_chance >= _HIDDEN or pairs * _at_least(equal, count, by_chance) < _BY_CHANCE
+    return by_chance >= _HIDDEN or pairs * _compute_chance_of_at_least(equal, count, by_chance) < _BY_CHANCE
 
 
-def groups_of_copies(series: FloatArray, step: float) -> Sequence[tuple[int, ...]]:
+def group_copies(series: FloatArray, step: float) -> Sequence[tuple[int, ...]]:
     """Return which series are copies of each other, each group by the columns of `series`, two at least."""
     count = series.shape[1]
-    by_chance, pairs = agreement_by_chance(series, step), count * (count - 1) // 2
+    by_chance, pairs = estimate_agreement_by_chance(series, step), count * (count - 1) // 2
     groups: list[list[int]] = []
     for number in range(count):
         for group in groups:
@@ -71,7 +71,7 @@ def groups_of_copies(series: FloatArray, step: float) -> Sequence[tuple[int, ...
     return tuple(tuple(group) for group in groups if len(group) > 1)
 
 
-def _equal_differences(one: FloatArray, other: FloatArray, step: float) -> tuple[int, int]:
+def _count_equal_differences(one: FloatArray, other: FloatArray, step: float) -> tuple[int, int]:
     """Return of how many readings the difference is the commonest one, and how many there are.
 
     Nothing of rows of one value, that differ by a constant whatever they were: (0, 0).
@@ -83,7 +83,7 @@ def _equal_differences(one: FloatArray, other: FloatArray, step: float) -> tuple
     return int(counts.max()), int(both.sum())
 
 
-def _at_least(equal: int, count: int, share: float) -> float:
+def _compute_chance_of_at_least(equal: int, count: int, share: float) -> float:
     """Return the probability of `equal` or more of `count` trials of one probability."""
     return math.fsum(
         math.comb(count, each) * share**each * (1 - share) ** (count - each)

@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 from zlmreport.evaluation.evaluation import Conformity, Decision, Evaluation, Finding, Parameter
 from zlmreport.language import Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 
 #: Binary doubles cannot hold 1 µm and 3 µm exactly: a range of exactly 2 µm must not fail a limit of 2 µm.
 _ROUNDING_OF_DOUBLES = 1e-9
@@ -61,7 +61,7 @@ class DecisionRule:
         conformity = self._conformity(abs(parameter.value), limit, width)
         if self._turns_when_corrected(parameter, limit, conformity):
             conformity = Conformity.UNDECIDED  # by a value that is known to be wrong nothing is stated
-        risk = None if uncertainty is None else _risk(parameter, limit, conformity)
+        risk = None if uncertainty is None else _compute_risk(parameter, limit, conformity)
         return Decision(conformity, limit - width, limit + width if self.between else limit - width, risk)
 
     def _turns_when_corrected(self, parameter: Parameter, limit: float, conformity: Conformity) -> bool:
@@ -121,20 +121,20 @@ def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
         else replace(each, decision=rule.decide(each, uncertainty_is_complete=complete))
         for each in evaluation.parameters
     )
-    impossible = tuple(_impossible(each) for each in parameters if _accepts_nothing(each))
-    wide = tuple(_wide(each) for each in parameters if complete and not rule.factor and _is_wide(each))
+    impossible = tuple(_find_impossible(each) for each in parameters if _is_accepting_nothing(each))
+    wide = tuple(_find_wide(each) for each in parameters if complete and not rule.factor and _is_wide(each))
     return replace(evaluation, parameters=parameters, findings=(*evaluation.findings, *impossible, *wide))
 
 
-def _accepts_nothing(parameter: Parameter) -> bool:
+def _is_accepting_nothing(parameter: Parameter) -> bool:
     accepted = None if parameter.decision is None else parameter.decision.acceptance_limit
     return accepted is not None and accepted < 0
 
 
-def _impossible(parameter: Parameter) -> Finding:
+def _find_impossible(parameter: Parameter) -> Finding:
     return Finding(
-        _ROOM.given(symbol=plain(parameter.quantity.notation)),
-        _NO_ROOM.given(symbol=plain(parameter.quantity.notation)),
+        _ROOM.given(symbol=write_plain(parameter.quantity.notation)),
+        _NO_ROOM.given(symbol=write_plain(parameter.quantity.notation)),
         met=False,
     )
 
@@ -144,12 +144,12 @@ def _is_wide(parameter: Parameter) -> bool:
     return expanded is not None and parameter.limit is not None and expanded > parameter.limit
 
 
-def _wide(parameter: Parameter) -> Finding:
-    symbol = plain(parameter.quantity.notation)
+def _find_wide(parameter: Parameter) -> Finding:
+    symbol = write_plain(parameter.quantity.notation)
     return Finding(_ROOM.given(symbol=symbol), _WIDE.given(symbol=symbol), met=False)
 
 
-def _risk(parameter: Parameter, limit: float, conformity: Conformity) -> float | None:
+def _compute_risk(parameter: Parameter, limit: float, conformity: Conformity) -> float | None:
     """Return the probability that a statement is wrong, for a normal distribution that U holds as U is held.
 
     About the value without its known errors. 95.45 % of it lie within U, as of the simulated errors; where
@@ -160,11 +160,11 @@ def _risk(parameter: Parameter, limit: float, conformity: Conformity) -> float |
     if conforms is None or standard is None or factor is None:
         return None
     value = parameter.value + parameter.known_error
-    within = _within(value, limit, standard * min(factor, 2.0) / 2.0)
+    within = _compute_chance_within(value, limit, standard * min(factor, 2.0) / 2.0)
     return 1.0 - within if conforms else within
 
 
-def _within(value: float, limit: float, uncertainty: float) -> float:
+def _compute_chance_within(value: float, limit: float, uncertainty: float) -> float:
     """Return the probability that a normal variable lies within ± limit."""
     if uncertainty == 0:
         return float(abs(value) <= limit * (1 + _ROUNDING_OF_DOUBLES))

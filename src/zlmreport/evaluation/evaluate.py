@@ -20,9 +20,9 @@ from zlmreport.evaluation.evaluation import (
     PositionQuantity,
     Quantity,
 )
-from zlmreport.evaluation.statistics import PositionStatistics, statistics_of
+from zlmreport.evaluation.statistics import PositionStatistics, compute_statistics_of
 from zlmreport.language import Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -67,7 +67,7 @@ def evaluate(
     tolerances : mapping of symbol to limit
         m or rad.
     """
-    statistics = statistics_of(measurements)
+    statistics = compute_statistics_of(measurements)
     arithmetic = standard.arithmetic(statistics, options)
     parameters = []
     undefined = []
@@ -76,7 +76,7 @@ def evaluate(
         limit = tolerances.get(quantity.symbol)
         if np.isnan(value):
             if limit is not None:
-                undefined.append(_undefined(quantity))
+                undefined.append(_report_undefined(quantity))
             continue
         parameters.append(Parameter(quantity, value, limit))
     columns = tuple(
@@ -95,14 +95,14 @@ def evaluate(
         findings=(
             *standard.requirements(measurements, options),
             *undefined,
-            *doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
+            *find_doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
         ),
-        notes=_notes(standard, frozenset(each.quantity.symbol for each in parameters)),
+        notes=_select_notes(standard, frozenset(each.quantity.symbol for each in parameters)),
         is_method=getattr(standard, "is_method", False),
     )
 
 
-def called(evaluation: Evaluation, adoption: str) -> Evaluation:
+def name_adoption(evaluation: Evaluation, adoption: str) -> Evaluation:
     """Return an evaluation that names, beside its standard, the identical adoption that was asked for.
 
     `adoption`: Its name; empty where none was.
@@ -114,17 +114,17 @@ def called(evaluation: Evaluation, adoption: str) -> Evaluation:
     return replace(evaluation, designation=designation, notes=(note, *evaluation.notes))
 
 
-def _notes(standard: EvaluatingStandard, reported: frozenset[str]) -> tuple[Words, ...]:
+def _select_notes(standard: EvaluatingStandard, reported: frozenset[str]) -> tuple[Words, ...]:
     """Return the notes of a standard without those on parameters of which the test reports none."""
     idle = [note for symbols, note in getattr(standard, "notes_on", ()) if reported.isdisjoint(symbols)]
     return tuple(each for each in standard.notes if each not in idle)
 
 
-def _undefined(quantity: Quantity) -> Finding:
+def _report_undefined(quantity: Quantity) -> Finding:
     """Return the finding on a limit that is stated for a parameter which the test does not define."""
     requirement = Words("A test that defines {symbol}, for which a limit is stated")
     found = Words("{symbol} is not defined by this test; nothing is decided on its limit")
-    symbol = plain(quantity.notation)
+    symbol = write_plain(quantity.notation)
     return Finding(requirement.given(symbol=symbol), found.given(symbol=symbol), met=False)
 
 
@@ -142,7 +142,7 @@ _TOO_LARGE = Words(
 )
 
 
-def reach(statistics: PositionStatistics) -> float:
+def measure_reach(statistics: PositionStatistics) -> float:
     """Return what no parameter of a test exceeds, m or rad; NaN without readings."""
     readings = statistics.deviations[~np.isnan(statistics.deviations)]
     if not readings.size:
@@ -155,7 +155,7 @@ def is_negative(quantity: Quantity, value: float, farthest: float) -> bool:
     return quantity.group is not Group.SYSTEMATIC and value < -1e-9 * farthest
 
 
-def doubts(
+def find_doubts(
     values: Iterable[tuple[Quantity, float]], statistics: PositionStatistics, axis: Axis
 ) -> Iterator[Finding]:
     """Yield a finding on each value that is not plausible: wrong units and signs in a plugin's formulas show.
@@ -164,14 +164,14 @@ def doubts(
     """
     if statistics.tests:
         return  # what several lines give together may be of another kind than any of their readings
-    farthest = reach(statistics)
+    farthest = measure_reach(statistics)
     for quantity, value in values:
         negative = is_negative(quantity, value, farthest)
         if not negative and abs(value) <= farthest:
             continue
         if quantity.unit is not None:
             continue  # of another unit than the readings: their reach says nothing of it
-        symbol, said = plain(quantity.notation), deviation_in_words(axis, value)
+        symbol, said = write_plain(quantity.notation), deviation_in_words(axis, value)
         largest = deviation_in_words(axis, float(np.nanmax(np.abs(statistics.deviations))))
         found = (_NEGATIVE if negative else _TOO_LARGE).given(symbol=symbol, value=said, largest=largest)
         yield Finding(_POSSIBLE.given(symbol=symbol), found, met=False)

@@ -370,7 +370,7 @@ class Evaluation:
         raise KeyError(f"{self.standard} has no column {symbol!r} by position (it has: {known})")
 
 
-def changes(before: Evaluation, after: Evaluation) -> tuple[Change, ...]:
+def compare_parameters(before: Evaluation, after: Evaluation) -> tuple[Change, ...]:
     """Return each parameter that either of two tests defines by one standard, in the standard's order."""
     only_before = (each for each in before.parameters if after.parameter(each.quantity.symbol) is None)
     return (

@@ -10,13 +10,13 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from zlmreport.evaluation.copies import agreement_by_chance, are_nearly_copies, groups_of_copies
-from zlmreport.evaluation.correction.corrections import condition_at_readings
-from zlmreport.evaluation.stray_targets import found_in_both, stray_target
+from zlmreport.evaluation.copies import are_nearly_copies, estimate_agreement_by_chance, group_copies
+from zlmreport.evaluation.correction.corrections import find_condition_at_readings
+from zlmreport.evaluation.stray_targets import find_stray_target, join_found_in_both
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray, decimals_of
+from zlmreport.measurement.arrays import FloatArray, count_decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import ANGLES, Unit, with_unit
@@ -85,24 +85,24 @@ _MOST_DECIMALS = 3
 _NORMAL_MAD = 1.4826
 
 
-def evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each thing that the readings show and the job does not say."""
     readings = measurements.deviations()
     if not np.isfinite(readings).any():
         return ()
     return (
-        *_drift(job, measurements, readings),
-        *_outliers(measurements, readings),
-        *_stray_targets(measurements, readings),
-        *_copied_runs(measurements, readings),
-        *_copied_directions(measurements, readings),
-        *_other_unit(measurements),
-        *_temperatures(job, measurements),
-        *_resolution(job, measurements),
+        *_find_drift(job, measurements, readings),
+        *_find_outliers(measurements, readings),
+        *_find_stray_targets(measurements, readings),
+        *_find_copied_runs(measurements, readings),
+        *_find_copied_directions(measurements, readings),
+        *_find_other_unit(measurements),
+        *_find_other_temperatures(job, measurements),
+        *_find_coarser_steps(job, measurements),
     )
 
 
-def _drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield whether whole runs lie farther apart than scatter and the stated drift at rest explain."""
     count = readings.shape[-1]
     if count < 2 or measurements.reversal_is_relative:
@@ -124,7 +124,7 @@ def _drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iter
     steady = count >= _FEWEST_RUNS and abs(order) > _STEADY  # two of them always rise or fall
     if full_range <= allowed or full_range <= unit.to_si(10.0**-_MOST_DECIMALS) or not (stated or steady):
         return
-    low, high = (_size(measurements, each) for each in (float(of_runs.min()), float(of_runs.max())))
+    low, high = (_write_size(measurements, each) for each in (float(of_runs.min()), float(of_runs.max())))
     lie, to = (_LIE, _AND) if not steady else (_RISE if order > 0 else _FALL, _TO)
     first, last = (high, low) if lie is _FALL else (low, high)
     yield _DRIFTS.given(
@@ -132,19 +132,19 @@ def _drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iter
         low=first,
         to=to,
         high=last,
-        stated=_of_drift(job, unit),
+        stated=_say_stated_drift(job, unit),
     )
 
 
-def _of_drift(job: Job, unit: Unit) -> Words:
+def _say_stated_drift(job: Job, unit: Unit) -> Words:
     """Return what the job says of the drift at rest."""
     keys = job.keys.uncertainty
     if keys.environmental_variation:
-        return _AT_REST.given(range=_with_unit(keys.environmental_variation, unit.symbol))
+        return _AT_REST.given(range=_write_with_unit(keys.environmental_variation, unit.symbol))
     return _NEGLECTED if "environmental_variation" in keys.negligible else _NOTHING_STATED
 
 
-def _outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the readings that lie far from the others of their target and direction."""
     number = np.isfinite(readings).sum(axis=-1, keepdims=True)
     if number.max() < _FEWEST_RUNS:
@@ -171,12 +171,12 @@ def _outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Wo
     for direction, position, run in far[:_MOST_NAMED]:
         yield _OUTLIER.given(
             run=int(measurements.runs[run]),
-            target=_with_unit(
+            target=_write_with_unit(
                 measurements.axis.position_unit.from_si(float(measurements.target_positions[position])),
                 measurements.axis.position_unit.symbol,
             ),
             arrow=tuple(Approach)[direction].arrow,
-            distance=_size(measurements, abs(float(distance[direction, position, run]))),
+            distance=_write_size(measurements, abs(float(distance[direction, position, run]))),
         )
     if len(far) > _MOST_NAMED:
         yield _MORE_OUTLIERS.given(count=len(far) - _MOST_NAMED)
@@ -189,18 +189,18 @@ def _spread_of_others(cell: FloatArray, run: int, scale: float) -> float:
     return max(scale, float(np.abs(others).max())) if others.size else scale
 
 
-def _copied_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+def _find_copied_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the runs that are copies of each other, where both have a reading: exact ones, or nearly so."""
     series = readings.reshape(-1, readings.shape[-1])
-    exact = _groups_of_identical(series)
+    exact = _group_identical(series)
     for group in exact:
-        yield _IDENTICAL.given(runs=_numbers(measurements, group))
-    for alike in groups_of_copies(series, _step(measurements)):
+        yield _IDENTICAL.given(runs=_list_run_numbers(measurements, group))
+    for alike in group_copies(series, _step(measurements)):
         if not any(set(alike) <= set(each) for each in exact):
-            yield _NEARLY_IDENTICAL.given(runs=_numbers(measurements, alike))
+            yield _NEARLY_IDENTICAL.given(runs=_list_run_numbers(measurements, alike))
 
 
-def _groups_of_identical(series: FloatArray) -> list[list[int]]:
+def _group_identical(series: FloatArray) -> list[list[int]]:
     """Return which columns are copies of each other, digit by digit."""
     groups: list[list[int]] = []
     for run in range(series.shape[1]):
@@ -213,14 +213,14 @@ def _groups_of_identical(series: FloatArray) -> list[list[int]]:
     return [group for group in groups if len(group) > 1]
 
 
-def _copied_directions(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+def _find_copied_directions(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the runs whose readings of one direction are those of the other: exact ones, or nearly so."""
     if not measurements.is_bidirectional:
         return
     runs = range(readings.shape[-1])
     same = [run for run in runs if _are_identical(*readings[..., run])]
     step = _step(measurements)
-    by_chance = agreement_by_chance(readings.reshape(-1, len(runs)), step)
+    by_chance = estimate_agreement_by_chance(readings.reshape(-1, len(runs)), step)
     near = [
         run
         for run in runs
@@ -233,29 +233,29 @@ def _copied_directions(measurements: MeasurementSet, readings: FloatArray) -> It
     ):
         if found:
             of_runs = _RUN if len(found) == 1 else _RUNS
-            yield words.given(runs=of_runs.given(runs=_numbers(measurements, found)))
+            yield words.given(runs=of_runs.given(runs=_list_run_numbers(measurements, found)))
 
 
-def _numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
+def _list_run_numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
     return ", ".join(str(int(measurements.runs[each])) for each in runs)
 
 
-def _stray_targets(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the target that lies apart from its neighbours in every run, far more than any other."""
     positions, step = measurements.target_positions, _step(measurements)
     unit = measurements.axis.position_unit
-    for stray in found_in_both(*(stray_target(positions, each, step) for each in readings)):
+    for stray in join_found_in_both(*(find_stray_target(positions, each, step) for each in readings)):
         target = float(positions[stray.position])
         yield _STRAY.given(
-            target=_with_unit(unit.from_si(target), unit.symbol),
-            distance=_size(measurements, abs(stray.distance)),
+            target=_write_with_unit(unit.from_si(target), unit.symbol),
+            distance=_write_size(measurements, abs(stray.distance)),
         )
 
 
 def _step(measurements: MeasurementSet) -> float:
     """Return the step of the last digit of the readings, m or rad."""
     unit = measurements.axis.deviation_unit
-    return unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    return unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
 
 
 _RUN, _RUNS = Words("run {runs}"), Words("runs {runs}")
@@ -268,7 +268,7 @@ def _are_identical(one: FloatArray, other: FloatArray) -> bool:
     return bool(both.sum() >= _FEWEST_POSITIONS and varies and np.array_equal(one[both], other[both]))
 
 
-def _other_unit(measurements: MeasurementSet) -> Iterator[Words]:
+def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
     """Yield whether all deviations are so small, or so large, that they seem to be in another unit."""
     axis = measurements.axis
     known = measurements.deviation[np.isfinite(measurements.deviation)]
@@ -283,17 +283,19 @@ def _other_unit(measurements: MeasurementSet) -> Iterator[Words]:
     else:
         return
     yield words.given(
-        range=_size(measurements, full_range),
-        length=_with_unit(axis.position_unit.from_si(length), axis.position_unit.symbol),
+        range=_write_size(measurements, full_range),
+        length=_write_with_unit(axis.position_unit.from_si(length), axis.position_unit.symbol),
         unit=axis.deviation_unit.symbol,
     )
 
 
-def _temperatures(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_other_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield the temperatures that were logged otherwise than the job states them."""
     for name, kind in CONDITIONS.items():
         stated = getattr(job.keys.environment, name, None)
-        logged = condition_at_readings(name, job, measurements) if name in measurements.conditions else None
+        logged = (
+            find_condition_at_readings(name, job, measurements) if name in measurements.conditions else None
+        )
         if not name.endswith("temperature") or not isinstance(stated, float) or logged is None:
             continue
         low, high = (kind.unit.from_si(float(each)) for each in (logged.min(), logged.max()))
@@ -306,15 +308,17 @@ def _temperatures(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
             )
 
 
-def _resolution(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_coarser_steps(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield whether the readings have coarser steps than the job says."""
     stated = job.keys.uncertainty.resolution
     unit = measurements.axis.deviation_unit
     if not stated or measurements.provenance.corrections:
         return
-    given = 10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS)
+    given = 10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS)
     if given > stated * (1 + 1e-9):
-        yield _COARSER.given(stated=_with_unit(stated, unit.symbol), given=_with_unit(given, unit.symbol))
+        yield _COARSER.given(
+            stated=_write_with_unit(stated, unit.symbol), given=_write_with_unit(given, unit.symbol)
+        )
 
 
 def _mean(values: FloatArray, axis: int) -> FloatArray:
@@ -328,11 +332,11 @@ def _median(values: FloatArray, axis: int) -> FloatArray:
     return np.asarray(np.nanmedian(np.where(empty, 0.0, values), axis=axis))
 
 
-def _size(measurements: MeasurementSet, value: float) -> Words:
+def _write_size(measurements: MeasurementSet, value: float) -> Words:
     unit = measurements.axis.deviation_unit
-    return _with_unit(float(f"{unit.from_si(value):.3g}"), unit.symbol)
+    return _write_with_unit(float(f"{unit.from_si(value):.3g}"), unit.symbol)
 
 
-def _with_unit(value: float, unit: str) -> Words:
+def _write_with_unit(value: float, unit: str) -> Words:
     phrase = with_unit("{value}", unit)
     return Words(phrase).given(value=float(f"{value:.6g}"))

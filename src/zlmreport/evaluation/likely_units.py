@@ -12,8 +12,8 @@ import numpy as np
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
-from zlmreport.language.formatting import plain
-from zlmreport.measurement.arrays import decimals_of
+from zlmreport.language.formatting import write_plain
+from zlmreport.measurement.arrays import count_decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
@@ -61,21 +61,23 @@ _SMALL, _MANY_TIMES = 0.5, 50.0
 _MOST_DECIMALS = 3
 
 
-def doubts(job: Job, measurements: MeasurementSet, evaluations: Sequence[Evaluation]) -> tuple[Words, ...]:
+def find_doubts(
+    job: Job, measurements: MeasurementSet, evaluations: Sequence[Evaluation]
+) -> tuple[Words, ...]:
     """Return a sentence for each value of a job or its readings that seems to be in another unit.
 
     `evaluations`: Of its readings, with the limits that it states.
     """
     return (
-        *_conditions(job, measurements),
-        *_expansion(job),
-        *(sentence for each in evaluations for sentence in _limits(each)),
-        *_kind_of_axis(measurements),
-        *_angles(measurements),
+        *_find_unlikely_conditions(job, measurements),
+        *_find_unlikely_expansion(job),
+        *(sentence for each in evaluations for sentence in _find_unlikely_limits(each)),
+        *_find_other_kind_of_axis(measurements),
+        *_find_unlikely_angles(measurements),
     )
 
 
-def _conditions(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_unlikely_conditions(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     for name, kind in CONDITIONS.items():
         value = getattr(job.keys.environment, name, None)
         logged = measurements.conditions.get(name)
@@ -83,16 +85,16 @@ def _conditions(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
             value = kind.unit.from_si(float(np.nanmedian(logged)))
         low, high = kind.usual
         if isinstance(value, float) and not low <= value <= high:
-            meant = _other_unit(value, kind)
+            meant = _find_other_unit(value, kind)
             sentence = _UNLIKELY
             if meant:
                 sentence = _MEANT.given(
-                    other=_named(meant), meant=float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
+                    other=_name_unit(meant), meant=float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
                 )
             yield sentence.given(name=CONDITION_NAMES[name], value=value, unit=kind.unit.symbol)
 
 
-def _expansion(job: Job) -> Iterator[Words]:
+def _find_unlikely_expansion(job: Job) -> Iterator[Words]:
     """Yield the expansion coefficients that no material of a machine has."""
     environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
     material = corrections.material if corrections else None
@@ -121,23 +123,23 @@ def _is_of_a_material(expansion: float, name: Words) -> bool:
     return _EXPANSIONS[0] <= expansion <= _EXPANSIONS[1] or _LEAST_EXPANSION <= expansion <= -_EXPANSIONS[0]
 
 
-def _other_unit(value: float, kind: ConditionKind) -> Scale | None:
+def _find_other_unit(value: float, kind: ConditionKind) -> Scale | None:
     """Return the unit in which a value would be a usual one, if there is one."""
     low, high = kind.usual
     others = (unit for unit in kind.units.values() if low <= kind.unit.from_si(unit.to_si(value)) <= high)
     return next(others, None)
 
 
-def _named(unit: Scale) -> Words:
+def _name_unit(unit: Scale) -> Words:
     return Words("of 1") if unit.symbol == "1" else same(unit.symbol)
 
 
-def _limits(evaluation: Evaluation) -> Iterator[Words]:
+def _find_unlikely_limits(evaluation: Evaluation) -> Iterator[Words]:
     """Yield what is said of the limits of a standard that do not fit the readings."""
     measurements = evaluation.measurements
     axis, targets = measurements.axis, measurements.target_positions
     unit = axis.deviation_unit
-    step = unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    step = unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
     small, large = [], []
     for each in evaluation.parameters:
         if each.limit is None or each.quantity.unit is not None:
@@ -153,21 +155,21 @@ def _limits(evaluation: Evaluation) -> Iterator[Words]:
         (_LARGE_LIMITS, large),
     ):
         if found:
-            limits = Words("{limits}").given(limits=_in_a_line(found, evaluation))
+            limits = Words("{limits}").given(limits=_name_in_a_line(found, evaluation))
             yield sentence.given(designation=evaluation.designation, limits=limits, unit=unit.symbol)
 
 
-def _in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words:
+def _name_in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words:
     unit = evaluation.measurements.axis.deviation_unit
     places = {f"limit{index}": unit.from_si(each.limit or 0.0) for index, each in enumerate(parameters)}
     phrase = ", ".join(
-        f"{plain(each.quantity.notation)} {{limit{index}}} {unit.symbol}"
+        f"{write_plain(each.quantity.notation)} {{limit{index}}} {unit.symbol}"
         for index, each in enumerate(parameters)
     )
     return Words(phrase).given(**places)
 
 
-def _angles(measurements: MeasurementSet) -> Iterator[Words]:
+def _find_unlikely_angles(measurements: MeasurementSet) -> Iterator[Words]:
     """Yield whether angles seem to have been read in too large a unit."""
     axis, readings = measurements.axis, measurements.deviation
     if axis.measurand.is_position or axis.deviation_unit not in ANGLES or not np.isfinite(readings).any():
@@ -180,7 +182,7 @@ def _angles(measurements: MeasurementSet) -> Iterator[Words]:
         )
 
 
-def _kind_of_axis(measurements: MeasurementSet) -> Iterator[Words]:
+def _find_other_kind_of_axis(measurements: MeasurementSet) -> Iterator[Words]:
     """Yield whether degrees seem to have been taken for millimetres, or the other way round."""
     axis, targets = measurements.axis, measurements.target_positions
     first, last = axis.travel or (float(targets[0]), float(targets[-1]))

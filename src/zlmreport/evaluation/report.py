@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter, changes
+from zlmreport.evaluation.evaluation import Decision, Evaluation, Parameter, compare_parameters
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
@@ -34,7 +34,8 @@ def report_evaluation(evaluation: Evaluation, language: Language = Language.ENGL
         "designation": evaluation.designation,
         "parameters": [report_parameter(each, unit, language) for each in evaluation.parameters],
         "positions": [
-            _position(evaluation, index) for index in range(len(evaluation.measurements.target_positions))
+            _collect_position(evaluation, index)
+            for index in range(len(evaluation.measurements.target_positions))
         ],
         "findings": [
             {
@@ -58,15 +59,15 @@ def report_changes(before: Evaluation, after: Evaluation) -> dict[str, Any]:
                 "symbol": each.either.quantity.symbol,
                 "value": each.either.quantity.unit_or(unit).from_si(each.value),
                 "unit": each.either.quantity.unit_or(unit).ascii,
-                **_expanded(each.expanded_uncertainty, each.either.quantity.unit_or(unit)),
+                **_collect_expanded(each.expanded_uncertainty, each.either.quantity.unit_or(unit)),
             }
-            for each in changes(before, after)
+            for each in compare_parameters(before, after)
             if each.value is not None
         ],
     }
 
 
-def _expanded(uncertainty: float | None, unit: Unit) -> dict[str, float]:
+def _collect_expanded(uncertainty: float | None, unit: Unit) -> dict[str, float]:
     return {} if uncertainty is None else {"expanded_uncertainty": unit.from_si(uncertainty)}
 
 
@@ -78,7 +79,7 @@ def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> di
         "name": parameter.quantity.name.in_language(language),
         "value": unit.from_si(parameter.value),
         "unit": unit.ascii,
-        **_expanded(parameter.expanded_uncertainty, unit),
+        **_collect_expanded(parameter.expanded_uncertainty, unit),
     }
     if parameter.coverage_factor is not None:
         values["coverage_factor"] = parameter.coverage_factor
@@ -92,11 +93,11 @@ def report_parameter(parameter: Parameter, unit: Unit, language: Language) -> di
         values["limit"] = unit.from_si(parameter.limit)
         values["conforms"] = parameter.conforms
     if parameter.decision is not None:
-        values["decision"] = _decision(parameter.decision, unit)
+        values["decision"] = _collect_decision(parameter.decision, unit)
     return values
 
 
-def _decision(decision: Decision, unit: Unit) -> dict[str, Any]:
+def _collect_decision(decision: Decision, unit: Unit) -> dict[str, Any]:
     stated: dict[str, Any] = {"statement": decision.conformity.value}
     if decision.acceptance_limit is not None:
         stated["acceptance_limit"] = unit.from_si(decision.acceptance_limit)
@@ -107,20 +108,20 @@ def _decision(decision: Decision, unit: Unit) -> dict[str, Any]:
     return stated
 
 
-def _position(evaluation: Evaluation, index: int) -> dict[str, Any]:
+def _collect_position(evaluation: Evaluation, index: int) -> dict[str, Any]:
     measurements = evaluation.measurements
     statistics = evaluation.statistics
     row: dict[str, Any] = {"target": measurements.axis.typed(float(measurements.target_positions[index]))}
     for approach in measurements.approaches:
         row[f"n_{DIRECTIONS[approach]}"] = int(statistics.count[approach.index, index])
-    for symbol, values in position_columns(evaluation).items():
+    for symbol, values in collect_position_columns(evaluation).items():
         value = float(values[index])
         if not math.isnan(value):
             row[symbol] = measurements.axis.deviation_unit.from_si(value)
     return row
 
 
-def position_columns(evaluation: Evaluation) -> dict[str, FloatArray]:
+def collect_position_columns(evaluation: Evaluation) -> dict[str, FloatArray]:
     """Return the columns of the table by position, shape (m,), m or rad; NaN where not defined."""
     statistics, expanded = evaluation.statistics, evaluation.mean_uncertainty
     columns = {

@@ -143,13 +143,13 @@ def position_statistics(deviations: FloatArray, positions: FloatArray | None = N
     # Of one test in a notebook the masks alone would cost more than the sums.
     complete = _is_complete(readings)
     for run in runs:
-        count += _added(total, np.asfortranarray(run), complete=complete)
+        count += _add_defined(total, np.asfortranarray(run), complete=complete)
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = total / count
         for run in runs:
             residual = np.subtract(run, mean, order="F")
             residual *= residual
-            _added(squares, residual, complete=complete)
+            _add_defined(squares, residual, complete=complete)
         standard_deviation = np.sqrt(squares / (count - 1))
     standard_deviation[count < 2] = np.nan
     places = np.full(readings.shape[-2], np.nan) if positions is None else positions.view()
@@ -158,21 +158,23 @@ def position_statistics(deviations: FloatArray, positions: FloatArray | None = N
     return PositionStatistics(readings, count, mean, standard_deviation, places)
 
 
-def statistics_of(measurements: MeasurementSet) -> PositionStatistics:
+def compute_statistics_of(measurements: MeasurementSet) -> PositionStatistics:
     """Return the statistics of a test, or of several measured lines together."""
     if measurements.tests:
-        return joined_statistics({name: statistics_of(each) for name, each in measurements.tests.items()})
+        return join_statistics(
+            {name: compute_statistics_of(each) for name, each in measurements.tests.items()}
+        )
     return position_statistics(measurements.deviations(), measurements.target_positions)
 
 
-def joined_statistics(tests: Mapping[str, PositionStatistics]) -> PositionStatistics:
+def join_statistics(tests: Mapping[str, PositionStatistics]) -> PositionStatistics:
     """Return the statistics of several measured lines together, which have the same batch dimensions."""
     batch = next(iter(tests.values())).mean.shape[:-2]
     none = position_statistics(np.empty((*batch, len(Approach), 0, 0)), np.empty(0))
     return replace(none, tests=dict(tests))
 
 
-def _added(total: FloatArray, values: FloatArray, *, complete: bool) -> BoolArray | bool:
+def _add_defined(total: FloatArray, values: FloatArray, *, complete: bool) -> BoolArray | bool:
     """Add to a sum the values that are not NaN, and return which they are."""
     if complete or not (missing := np.isnan(values)).any():  # nearly always, and then three times as fast
         total += values

@@ -26,7 +26,7 @@ class Stray(NamedTuple):
     distance: float  #: From the line through its neighbours, with its sign, m or rad.
 
 
-def stray_target(positions: FloatArray, readings: FloatArray, step: float) -> Stray | None:
+def find_stray_target(positions: FloatArray, readings: FloatArray, step: float) -> Stray | None:
     """Return the one target of a direction that stands apart; None without one.
 
     `positions`: (position,), rising, m or rad; `readings`: (position, run), m or rad, NaN where none
@@ -39,15 +39,15 @@ def stray_target(positions: FloatArray, readings: FloatArray, step: float) -> St
     at, typical = positions[there], np.nanmedian(readings[there], axis=1)
     if not np.ptp(typical):
         return None
-    misfits = np.abs(_misfits(at, typical)[0])
+    misfits = np.abs(_measure_misfits(at, typical)[0])
     best: tuple[float, int] | None = None
     for tried in np.argsort(-misfits)[:_TRIED].tolist():
-        rough = float(np.abs(_misfits(np.delete(at, tried), np.delete(typical, tried))[0]).max())
+        rough = float(np.abs(_measure_misfits(np.delete(at, tried), np.delete(typical, tried))[0]).max())
         best = (rough, tried) if best is None or rough < best[0] else best
     if best is None:
         return None
     rough, stray = best
-    of_all, factors = _misfits(at, typical)
+    of_all, factors = _measure_misfits(at, typical)
     distance = float(of_all[stray] * factors[stray])
     of_runs = readings[there][stray] - typical[stray] + distance
     in_every_run = bool(np.nanmin(np.sign(distance) * of_runs) > abs(distance) / 2)
@@ -55,7 +55,7 @@ def stray_target(positions: FloatArray, readings: FloatArray, step: float) -> St
     return Stray(int(indices[stray]), distance) if is_apart and in_every_run else None
 
 
-def _misfits(positions: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _measure_misfits(positions: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return how far each value lies from the line through the two nearest others, for the noise of that.
 
     Returns
@@ -73,7 +73,7 @@ def _misfits(positions: FloatArray, values: FloatArray) -> tuple[FloatArray, Flo
     return distances / factors, factors
 
 
-def found_in_both(one: Stray | None, other: Stray | None) -> Sequence[Stray]:
+def join_found_in_both(one: Stray | None, other: Stray | None) -> Sequence[Stray]:
     """Return what stands apart in one direction or the other, once where it does so in both."""
     found = [each for each in (one, other) if each]
     return found[:1] if len(found) == 2 and found[0].position == found[1].position else found

@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from zlmreport.errors import Problem
-from zlmreport.evaluation.correction.compensated import compensated_by_instrument
+from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
 from zlmreport.evaluation.uncertainty.reasons import is_reference
-from zlmreport.job.contradictions import last_day
+from zlmreport.job.contradictions import find_last_day
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import Coordinate
@@ -55,10 +55,10 @@ class _Break(NamedTuple):
     is_broken: bool  #: Whether by the job's own words, so that a calibration certificate is refused.
 
 
-def doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each place at which the chain does not hold, or is not said to."""
-    found = (*_of_instruments(job.keys), *_of_temperatures(job, measurements))
-    return (*(each.words for each in found), *_scope(job, measurements))
+    found = (*_find_breaks_of_instruments(job.keys), *_find_breaks_of_temperatures(job, measurements))
+    return (*(each.words for each in found), *_say_out_of_scope(job, measurements))
 
 
 def is_shown(job: Job) -> bool:
@@ -67,14 +67,16 @@ def is_shown(job: Job) -> bool:
     of_all = [each.keys for each in (job, *lines, *(one.as_found for one in lines if one.as_found))]
     instrument = job.keys.instrument
     is_named = instrument is not None and is_reference(instrument.certificate or "")
-    return is_named and not any(each.is_broken for keys in of_all for each in _of_instruments(keys))
+    return is_named and not any(
+        each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)
+    )
 
 
-def refusals(job: Job) -> Iterator[Problem]:
+def find_broken_chain(job: Job) -> Iterator[Problem]:
     """Yield what breaks the chain of a calibration certificate by the job's own words."""
     if job.keys.certificate.kind != "certificate":
         return
-    for each in _of_instruments(job.keys):
+    for each in _find_breaks_of_instruments(job.keys):
         if each.is_broken:
             yield Problem(
                 job.place_of(each.key),
@@ -84,17 +86,21 @@ def refusals(job: Job) -> Iterator[Problem]:
             )
 
 
-def _of_instruments(keys: JobKeys) -> Iterator[_Break]:
+def _find_breaks_of_instruments(keys: JobKeys) -> Iterator[_Break]:
     instrument, environment = keys.instrument, keys.environment
     if instrument is not None:
-        yield from _calibrated(keys, instrument, "instrument", _INSTRUMENT)
+        yield from _find_breaks_of_calibration(keys, instrument, "instrument", _INSTRUMENT)
     for number, each in enumerate(environment.thermometers if environment else ()):
-        yield from _calibrated(keys, each, f"environment.thermometers.{number}", same(each.name))
+        yield from _find_breaks_of_calibration(
+            keys, each, f"environment.thermometers.{number}", same(each.name)
+        )
 
 
-def _calibrated(keys: JobKeys, device: Instrument | SensorKeys, key: str, what: Words) -> Iterator[_Break]:
+def _find_breaks_of_calibration(
+    keys: JobKeys, device: Instrument | SensorKeys, key: str, what: Words
+) -> Iterator[_Break]:
     """Yield where the calibration of a device does not cover the day of the measurement."""
-    first, last = keys.measurement.date, last_day(keys.measurement)
+    first, last = keys.measurement.date, find_last_day(keys.measurement)
     is_instrument = key == "instrument"
     if not is_reference(device.certificate or "") and not is_instrument:
         yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
@@ -106,29 +112,29 @@ def _calibrated(keys: JobKeys, device: Instrument | SensorKeys, key: str, what: 
             words = _NOT_DATED.given(what=what)
             yield _Break(f"{key}.calibrated", words, is_broken=False)
     elif first and day > first:
-        words = _AFTER.given(what=what, date=_written(day), measured=_written(first))
+        words = _AFTER.given(what=what, date=_write_day(day), measured=_write_day(first))
         yield _Break(f"{key}.calibrated", words, is_broken=True)
     elif first and (first - day).days > _OLD * _DAYS_OF_A_YEAR:
         years = int((first - day).days / _DAYS_OF_A_YEAR)
-        words = _OLD_CALIBRATION.given(what=what, date=_written(day), years=years)
+        words = _OLD_CALIBRATION.given(what=what, date=_write_day(day), years=years)
         yield _Break(f"{key}.calibrated", words, is_broken=False)
     if device.due and last and device.due < last:
-        words = _OVERDUE.given(what=what, date=_written(device.due), measured=_written(last))
+        words = _OVERDUE.given(what=what, date=_write_day(device.due), measured=_write_day(last))
         yield _Break(f"{key}.due", words, is_broken=True)
 
 
-def _written(day: dt.date) -> Words:
+def _write_day(day: dt.date) -> Words:
     return same(day.isoformat())
 
 
-def _of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]:
+def _find_breaks_of_temperatures(job: Job, measurements: MeasurementSet) -> Iterator[_Break]:
     """Yield that a temperature enters the results and nobody says by which thermometer it was measured."""
     environment, corrections = job.keys.environment, job.keys.corrections
     if job.keys.certificate.kind != "certificate" or (environment and environment.thermometers):
         return
     by_program = corrections is not None and (corrections.material or corrections.air)
     is_counted = by_program or _is_expanded(job, measurements)
-    if is_counted and not compensated_by_instrument(job, measurements).material:
+    if is_counted and not find_compensated_by_instrument(job, measurements).material:
         yield _Break("environment.thermometers", _NO_THERMOMETER, is_broken=False)
 
 
@@ -143,7 +149,7 @@ def _is_expanded(job: Job, measurements: MeasurementSet) -> bool:
     )
 
 
-def _scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield which results lie outside the scope for which the laboratory is accredited."""
     cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
     if cmc is None:

@@ -19,7 +19,7 @@ from zlmreport.job.fleet import FleetFile
 from zlmreport.job.job import Job
 from zlmreport.plugin import kinds
 from zlmreport.plugin.registry import FILES, Registry
-from zlmreport.plugin.registry.find import plugin_points
+from zlmreport.plugin.registry.find import find_plugin_points
 
 #: Files younger than this when a certificate is begun may change while it is made without looking different
 #: afterwards, on file systems whose clock has a coarse tick; seconds.
@@ -73,17 +73,17 @@ class KnownFile:
 def is_intact(path: Path, file: KnownFile) -> bool:
     """Whether a file is as it was issued; a PDF that was only added to, as a signature is, counts as such."""
     if file.look is None or file.role != ".pdf":
-        return sha256_of(path) == file.sha256
+        return compute_sha256(path) == file.sha256
     with path.open("rb") as opened:
         begin = opened.read(file.look.size)
     return hashlib.sha256(begin).hexdigest() == file.sha256
 
 
-def sha256_of(path: Path) -> str:
+def compute_sha256(path: Path) -> str:
     """Return the digest of a file's bytes, hexadecimal; of a folder, that of its files with their names."""
     if path.is_dir():
         held = [each for each in sorted(path.iterdir()) if each.is_file() and not each.name.startswith(".")]
-        return hashlib.sha256(repr([(each.name, sha256_of(each)) for each in held]).encode()).hexdigest()
+        return hashlib.sha256(repr([(each.name, compute_sha256(each)) for each in held]).encode()).hexdigest()
     with path.open("rb") as opened:
         return hashlib.file_digest(opened, "sha256").hexdigest()
 
@@ -93,7 +93,7 @@ class CertificateBasis:
     """Everything that a certificate depends on."""
 
     files: tuple[KnownFile, ...]  #: The job, what it extends, readings, tables, pictures.
-    #: The program and the plugins that took part, with their versions, as `program_versions` says.
+    #: The program and the plugins that took part, with their versions, as `find_program_versions` says.
     programs: Mapping[str, str]
     formats: tuple[str, ...]  #: Identifiers of the renderers.
     defaults: str = ""  #: Digest of the defaults of the fleet; empty without any.
@@ -145,7 +145,7 @@ class Disk:
         if path not in self._digests:
             self._digests[path] = None
             with contextlib.suppress(OSError):
-                self._digests[path] = sha256_of(self.folder / path)
+                self._digests[path] = compute_sha256(self.folder / path)
         return self._digests[path]
 
     def _look(self, path: str) -> FileStamp | None:
@@ -156,7 +156,7 @@ class Disk:
         return self._looks[path]
 
 
-def changes(basis: CertificateBasis, disk: Disk, now: CertificateBasis) -> Iterator[str]:
+def say_changes(basis: CertificateBasis, disk: Disk, now: CertificateBasis) -> Iterator[str]:
     """Yield what has changed since a certificate was made, in words.
 
     `now`: The programs, formats and defaults of tonight; formats are empty where the job itself names them,
@@ -169,12 +169,12 @@ def changes(basis: CertificateBasis, disk: Disk, now: CertificateBasis) -> Itera
         yield "the defaults of the fleet changed"
     for name, version in basis.programs.items():
         if now.programs.get(name) != version:
-            yield _changed_program(name, version, now.programs.get(name))
+            yield _say_changed_program(name, version, now.programs.get(name))
     if now.formats and now.formats != basis.formats:
         yield f"formats changed from {', '.join(basis.formats)} to {', '.join(now.formats)}"
 
 
-def _changed_program(name: str, before: str, now: str | None) -> str:
+def _say_changed_program(name: str, before: str, now: str | None) -> str:
     if now is None:
         return f"{name} is not installed any more"
     version, version_now = before.partition(" ")[0], now.partition(" ")[0]
@@ -183,7 +183,7 @@ def _changed_program(name: str, before: str, now: str | None) -> str:
     return f"{name} changed from {version} to {version_now}"
 
 
-def path_in(folder: Path, path: Path) -> str:
+def write_path_in(folder: Path, path: Path) -> str:
     """Return a path as a ledger keeps it: relative to a folder, or from the root."""
     return str(path.relative_to(folder) if path.is_relative_to(folder) else path.absolute())
 
@@ -195,7 +195,7 @@ _OWN_PACKAGES = (OWN, "zlmreport_plugins", "zlmreport_templates")
 _ALL = "the set of plugins"
 
 
-def program_versions(
+def find_program_versions(
     environment: Mapping[str, str] = os.environ, files: Sequence[Path] = ()
 ) -> Mapping[str, str]:
     """Return the version of the program and of every plugin: its release, and a digest of its code.
@@ -204,12 +204,13 @@ def program_versions(
     """
     packages: dict[str, set[str]] = {OWN: set(_OWN_PACKAGES)}
     releases: dict[str, str] = {}
-    for point, _ in plugin_points():
+    for point, _ in find_plugin_points():
         name = point.dist.name if point.dist else point.name
         packages.setdefault(name, set()).add(point.module.partition(".")[0])
         releases[name] = point.dist.version if point.dist else ""
     found = {
-        name: f"{releases.get(name, '')} {_digest(_code_of(sorted(own)))}" for name, own in packages.items()
+        name: f"{releases.get(name, '')} {_digest(_list_code_of(sorted(own)))}"
+        for name, own in packages.items()
     }
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
     for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
@@ -223,8 +224,8 @@ def release(version: str) -> str:
     return version.partition(" ")[0] or "of no release"
 
 
-def programs_of(job: Job, formats: Iterable[str], registry: Registry) -> frozenset[str]:
-    """Return the names of what takes part in a job, as `program_versions` has them."""
+def name_programs_of(job: Job, formats: Iterable[str], registry: Registry) -> frozenset[str]:
+    """Return the names of what takes part in a job, as `find_program_versions` has them."""
     keys: list[tuple[kinds.Kind[Any], str]] = [(kinds.SOURCE, each.identifier) for each in job.sources]
     keys.extend((kinds.STANDARD, choice.identifier) for part in job.parts for choice in part.standards)
     keys.extend((kinds.RENDERER, identifier) for identifier in formats)
@@ -233,7 +234,7 @@ def programs_of(job: Job, formats: Iterable[str], registry: Registry) -> frozens
     return frozenset(names | {OWN} | ({_ALL} if any(part.effects for part in job.parts) else set()))
 
 
-def _code_of(packages: Iterable[str]) -> Iterator[Path]:
+def _list_code_of(packages: Iterable[str]) -> Iterator[Path]:
     """Yield the files of packages, in order, without importing any."""
     for package in packages:
         spec = PathFinder.find_spec(package)
@@ -252,7 +253,7 @@ def _digest(files: Iterable[Path]) -> str:
     return digest.hexdigest()[:16]
 
 
-def named_files(job: Job) -> dict[Path, str]:
+def digest_named_files(job: Job) -> dict[Path, str]:
     """Return the digests of the files and the folder of templates that a job names, as they are now.
 
     Whoever reads one may not say what it read. Taken before the work begins, a digest is at worst that of an
@@ -261,16 +262,16 @@ def named_files(job: Job) -> dict[Path, str]:
     templates = job.keys.certificate.style.templates
     options = [each.options for part in job.parts for each in (*part.sources, *part.standards)]
     keys = [each.keys for each in (job, *job.parts)]
-    named = [path for path in _paths([*keys, *options]) if path.is_file()]
-    return {path: sha256_of(path) for path in (*named, *([templates] if templates else ()))}
+    named = [path for path in _list_paths([*keys, *options]) if path.is_file()]
+    return {path: compute_sha256(path) for path in (*named, *([templates] if templates else ()))}
 
 
-def files_behind(
+def list_files_behind(
     certificate: Certificate, named: Mapping[Path, str], job: Job, fleet: FleetFile, begun: float
 ) -> Iterator[KnownFile]:
     """Yield every file that a certificate was made from, once; those that nobody wrote are none.
 
-    `named`: Of `named_files`, before the work on it began.
+    `named`: Of `digest_named_files`, before the work on it began.
     `begun`: When the work on it began, s: a file written after that may be another than the one that was
         read.
     """
@@ -281,23 +282,23 @@ def files_behind(
     templates = job.keys.certificate.style.templates
     stated = [(each.role.key, each.file.path, each.file.sha256) for each in certificate.sources]
     for role, path, sha256 in (*stated, *(("file", *each) for each in named.items())):
-        if path is None or not path.is_file() or path_in(folder, path) in seen:
+        if path is None or not path.is_file() or write_path_in(folder, path) in seen:
             continue
-        seen.add(path_in(folder, path))
+        seen.add(write_path_in(folder, path))
         look = FileStamp.at(path)
         kind, settled = "job" if path == own else role, look if look.is_settled(begun) else None
-        yield KnownFile(kind, path_in(folder, path), sha256, settled)
+        yield KnownFile(kind, write_path_in(folder, path), sha256, settled)
     if templates:
-        yield KnownFile("templates", path_in(folder, templates), named[templates])
+        yield KnownFile("templates", write_path_in(folder, templates), named[templates])
 
 
-def _paths(value: object) -> Iterator[Path]:
+def _list_paths(value: object) -> Iterator[Path]:
     """Yield every path among values."""
     if isinstance(value, Path):
         yield value
     elif isinstance(value, BaseModel):
         for name in type(value).model_fields:
-            yield from _paths(getattr(value, name))
+            yield from _list_paths(getattr(value, name))
     elif isinstance(value, list | tuple):
         for each in value:
-            yield from _paths(each)
+            yield from _list_paths(each)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from datetime import date
 from statistics import fmean, stdev
 
-from zlmreport.fleet.drifts import Trend, holm
+from zlmreport.fleet.drifts import Trend, adjust_by_holm
 from zlmreport.fleet.trend import Calibration, Series
 from zlmreport.model.fitting.distributions import f_tail, t_quantile
 
@@ -33,7 +33,7 @@ class Cause:
     after: str = ""
 
 
-def cause_of(trend: Trend, effects: Iterable[Series]) -> Cause | None:
+def find_cause_of(trend: Trend, effects: Iterable[Series]) -> Cause | None:
     """Return what a step came with; None without a step."""
     step, calibrations = trend.step, trend.series.calibrations
     if step is None or trend.course is None:
@@ -92,7 +92,7 @@ class Shared:
     machines: tuple[str, ...]  #: By their names.
 
 
-def shared(effects: Iterable[Series]) -> tuple[Shared, ...]:
+def find_shared(effects: Iterable[Series]) -> tuple[Shared, ...]:
     """Return what machines of one type share: where the mean of the machines differs from zero.
 
     The machines' latest values are held against zero by Student's t; how much they scatter is told by
@@ -105,18 +105,20 @@ def shared(effects: Iterable[Series]) -> tuple[Shared, ...]:
         if latest.entry.type:
             found[latest.entry.type, each.axis, each.symbol, each.unit][each.machine] = latest
     groups = [(key, of_type) for key, of_type in sorted(found.items()) if len(of_type) >= LEAST_MACHINES]
-    p_values = holm({index: _p_value(of_type.values()) for index, (_, of_type) in enumerate(groups)})
+    p_values = adjust_by_holm(
+        {index: _compute_p_value(of_type.values()) for index, (_, of_type) in enumerate(groups)}
+    )
     named = (groups[index] for index in sorted(p_values) if p_values[index] < _LEVEL)
-    return tuple(_shared(key, of_type) for key, of_type in named)
+    return tuple(_make_shared(key, of_type) for key, of_type in named)
 
 
-def _p_value(calibrations: Iterable[Calibration]) -> float:
+def _compute_p_value(calibrations: Iterable[Calibration]) -> float:
     values = [each.parameter.value for each in calibrations]
     mean, deviation = fmean(values), stdev(values) / math.sqrt(len(values))
     return f_tail((mean / deviation) ** 2, 1, len(values) - 1) if deviation else float(not mean)
 
 
-def _shared(key: tuple[str, str, str, str], of_type: dict[str, Calibration]) -> Shared:
+def _make_shared(key: tuple[str, str, str, str], of_type: dict[str, Calibration]) -> Shared:
     values = [each.parameter.value for each in of_type.values()]
     number = len(values)
     expanded = t_quantile(_COVERAGE, number - 1) * stdev(values) / math.sqrt(number)

@@ -156,7 +156,7 @@ class Database:
         except IntegrityError:
             raise
         except SQLAlchemyError as error:
-            raise no_access(self.address, error) from error
+            raise make_no_access(self.address, error) from error
 
 
 def open_database(address: str, *, create: bool) -> Database:
@@ -168,11 +168,11 @@ def open_database(address: str, *, create: bool) -> Database:
     Raises `InputError` if the address is none, or the ledger is of another version of the program;
     `AccessError` if the database cannot be opened.
     """
-    url = url_of(address)
+    url = make_url_of(address)
     is_new_file = url.get_backend_name() == "sqlite" and not Path(url.database or "").exists()
     if is_new_file and not create:
         url = URL.create("sqlite")
-    database = Database(_engine(url, address), address)
+    database = Database(_make_engine(url, address), address)
     try:
         with database.transaction() as connection:
             METADATA.create_all(connection)
@@ -197,7 +197,7 @@ def copy(database: Database, to: Path) -> None:
         file.replace(to)
 
 
-def url_of(address: str) -> URL:
+def make_url_of(address: str) -> URL:
     """Return the URL of a ledger."""
     if "://" not in address:
         return URL.create("sqlite", database=address)
@@ -212,19 +212,19 @@ def url_of(address: str) -> URL:
     return url
 
 
-def shown(address: str) -> str:
+def show_address(address: str) -> str:
     """Return the address without its password."""
-    return url_of(address).render_as_string(hide_password=True) if "://" in address else address
+    return make_url_of(address).render_as_string(hide_password=True) if "://" in address else address
 
 
-def no_access(address: str, error: SQLAlchemyError) -> AccessError:
+def make_no_access(address: str, error: SQLAlchemyError) -> AccessError:
     """Return the error of a ledger that cannot be used."""
     reason = getattr(error, "orig", None) or error
     message = f"the ledger cannot be used: {' '.join(str(reason).split())[:300]}"
-    return AccessError([*AccessError.at(Place(shown(address)), message).problems])
+    return AccessError([*AccessError.at(Place(show_address(address)), message).problems])
 
 
-def _engine(url: URL, address: str) -> Engine:
+def _make_engine(url: URL, address: str) -> Engine:
     if url.get_backend_name() == "sqlite":
         if not url.database:
             return create_engine(url, poolclass=StaticPool)
@@ -234,16 +234,16 @@ def _engine(url: URL, address: str) -> Engine:
             message = f"its folder cannot be made: {error.strerror or error}"
             raise AccessError.at(Place(address), message) from error
         engine = create_engine(url, connect_args={"timeout": _PATIENCE})
-        event.listen(engine, "connect", _made_durable)
+        event.listen(engine, "connect", _make_durable)
         return engine
     try:
         return create_engine(url, pool_pre_ping=True)
     except (NoSuchModuleError, ModuleNotFoundError) as error:
         message = f"{error}; install zlmreport[cluster], and write postgresql+psycopg://…"
-        raise InputError.at(Place(shown(address)), message) from error
+        raise InputError.at(Place(show_address(address)), message) from error
 
 
-def _made_durable(connection: Any, _record: Any) -> None:
+def _make_durable(connection: Any, _record: Any) -> None:
     """Let readers in while it is written, and lose nothing when the power fails."""
     for pragma in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON"):
         connection.execute(f"PRAGMA {pragma}")
@@ -277,7 +277,7 @@ def _demand_format(connection: Connection, address: str) -> None:
         connection.execute(update(FORMATS).values(format=FORMAT))
     elif found != FORMAT:
         raise InputError.at(
-            Place(shown(address)),
+            Place(show_address(address)),
             f"is a ledger of format {found}, and this program writes format {FORMAT}; "
             "use the version of zlmreport that wrote it",
         )
@@ -288,21 +288,21 @@ _KEY = int.from_bytes(hashlib.sha256(b"zlmreport fleet").digest()[:8], "big", si
 
 
 @contextlib.contextmanager
-def locked(database: Database, holder: str) -> Iterator[None]:
+def lock(database: Database, holder: str) -> Iterator[None]:
     """Hold the lock of a ledger.
 
     Raises `AccessError` if another holds it.
     """
     if database.engine.url.get_backend_name() == "sqlite":
-        with _locked_file(Path(f"{database.engine.url.database}.lock"), database.address, holder):
+        with _lock_file(Path(f"{database.engine.url.database}.lock"), database.address, holder):
             yield
     else:
-        with _locked_database(database):
+        with _lock_database(database):
             yield
 
 
 @contextlib.contextmanager
-def _locked_file(path: Path, address: str, holder: str) -> Iterator[None]:
+def _lock_file(path: Path, address: str, holder: str) -> Iterator[None]:
     try:
         import fcntl  # noqa: PLC0415 - not on every system
     except ImportError as error:
@@ -313,7 +313,7 @@ def _locked_file(path: Path, address: str, holder: str) -> Iterator[None]:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             file.seek(0)
-            raise _taken(address, file.read().strip()) from None
+            raise _raise_taken(address, file.read().strip()) from None
         file.truncate(0)
         file.write(holder)
         file.flush()
@@ -321,15 +321,15 @@ def _locked_file(path: Path, address: str, holder: str) -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _locked_database(database: Database) -> Iterator[None]:
+def _lock_database(database: Database) -> Iterator[None]:
     """Hold a lock of a session of its own, which ends with the connection."""
     with database.engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
         try:
             has_it = connection.scalar(select(func.pg_try_advisory_lock(_KEY)))
         except SQLAlchemyError as error:
-            raise no_access(database.address, error) from error
+            raise make_no_access(database.address, error) from error
         if not has_it:
-            raise _taken(database.address, "")
+            raise _raise_taken(database.address, "")
         yield
 
 
@@ -337,7 +337,7 @@ class TakenError(AccessError):
     """Another holds the lock of a ledger."""
 
 
-def _taken(address: str, holder: str) -> TakenError:
+def _raise_taken(address: str, holder: str) -> TakenError:
     by = f" ({holder})" if holder else ""
     message = f"another night is at work on this ledger{by}; this one does nothing"
-    return TakenError([*AccessError.at(Place(shown(address)), message).problems])
+    return TakenError([*AccessError.at(Place(show_address(address)), message).problems])

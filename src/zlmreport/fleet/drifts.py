@@ -18,22 +18,22 @@ from dataclasses import dataclass, replace
 from datetime import date
 from statistics import fmean
 
-from zlmreport.fleet.scatter import ScatterLikelihood, learned
+from zlmreport.fleet.scatter import ScatterLikelihood, learn_scatter
 from zlmreport.fleet.steps import (
     SMALL,
     ParameterCourse,
     ParameterStep,
-    chances,
-    course,
-    squares_between,
+    compute_chances,
+    judge_course,
+    sum_squares_between,
 )
 from zlmreport.fleet.trend import (
     DAYS_PER_YEAR,
     LimitCrossing,
     Series,
     TrendLine,
+    fit_line_through,
     forecast,
-    line_through,
     rank_p_value,
 )
 
@@ -82,7 +82,7 @@ class Trend:
         return self.line.p_value if self.line else None
 
 
-def by_axis(trends: Iterable[Trend]) -> Mapping[tuple[str, str], list[Trend]]:
+def group_by_axis(trends: Iterable[Trend]) -> Mapping[tuple[str, str], list[Trend]]:
     """Return trends by machine and axis, in the order in which the axes come first."""
     found: defaultdict[tuple[str, str], list[Trend]] = defaultdict(list)
     for each in trends:
@@ -90,16 +90,16 @@ def by_axis(trends: Iterable[Trend]) -> Mapping[tuple[str, str], list[Trend]]:
     return found
 
 
-def trends(series: Iterable[Series]) -> tuple[Trend, ...]:
+def judge_trends(series: Iterable[Series]) -> tuple[Trend, ...]:
     """Return the trend of each series of a fleet, in the same order."""
     every = tuple(series)
-    stepping = _stepping(every)
-    excluded = _excluded(stepping.values())
+    stepping = _find_steps(every)
+    excluded = _list_excluded_days(stepping.values())
     looked_at = [
-        _looked_at(each, stepping.get(index), excluded[each.machine, each.axis])
+        _judge_trend(each, stepping.get(index), excluded[each.machine, each.axis])
         for index, each in enumerate(every)
     ]
-    scales = _scales(every)
+    scales = _choose_scales(every)
     families: defaultdict[tuple[str, str], dict[int, float]] = defaultdict(dict)
     for index, trend in enumerate(looked_at):
         if trend.p_value is not None and trend.rank_p_value is not None:
@@ -107,9 +107,9 @@ def trends(series: Iterable[Series]) -> tuple[Trend, ...]:
             borne_out = trend.rank_p_value <= FALSE_SHARE and not _is_small(trend, scales[index])
             axis = trend.series.machine, trend.series.axis
             families[axis][index] = trend.p_value if borne_out else 1.0
-    named = named_in_families(families.values(), FALSE_SHARE)
+    named = name_in_families(families.values(), FALSE_SHARE)
     return tuple(
-        _named(trend, stepping.get(index)) if index in named else trend
+        _name_trend(trend, stepping.get(index)) if index in named else trend
         for index, trend in enumerate(looked_at)
     )
 
@@ -125,7 +125,7 @@ class _Stepping:
     course: ParameterCourse
 
 
-def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
+def _find_steps(series: Sequence[Series]) -> Mapping[int, _Stepping]:
     """Return what those series say that are asked: with a limit, or else the first of an axis."""
     by_axis: defaultdict[tuple[str, str], list[int]] = defaultdict(list)
     for index, each in enumerate(series):
@@ -143,22 +143,23 @@ def _stepping(series: Sequence[Series]) -> Mapping[int, _Stepping]:
             for index, scale in scales.items()
         }
         # Of the latest tests each may begin a step; what was taken for one is left out the second time.
-        known = [squares_between(each[:-1], ()) for each in values.values()]
+        known = [sum_squares_between(each[:-1], ()) for each in values.values()]
         for _ in range(2):
-            others = learned(known)
+            others = learn_scatter(known)
             courses = [
-                course(values[index], fleet, part)
+                judge_course(values[index], fleet, part)
                 for (index, part), fleet in zip(shares.items(), others, strict=True)
             ]
             known = [
-                squares_between(each, own.steps) for each, own in zip(values.values(), courses, strict=True)
+                sum_squares_between(each, own.steps)
+                for each, own in zip(values.values(), courses, strict=True)
             ]
         for index, fleet, own in zip(shares, others, courses, strict=True):
             found[index] = _Stepping(series[index], scales[index], values[index], fleet, own)
     return found
 
 
-def _excluded(stepping: Iterable[_Stepping]) -> Mapping[tuple[str, str], frozenset[date]]:
+def _list_excluded_days(stepping: Iterable[_Stepping]) -> Mapping[tuple[str, str], frozenset[date]]:
     """Return the days of each axis that are no part of a line: before a step, odd ones, a new step."""
     found: defaultdict[tuple[str, str], frozenset[date]] = defaultdict(frozenset)
     for each in stepping:
@@ -170,7 +171,7 @@ def _excluded(stepping: Iterable[_Stepping]) -> Mapping[tuple[str, str], frozens
     return found
 
 
-def _scales(series: Sequence[Series]) -> Sequence[float | None]:
+def _choose_scales(series: Sequence[Series]) -> Sequence[float | None]:
     """Return against what a change of each series is small: its limit, or the least of its standard."""
     least: dict[tuple[str, str, str, str], float] = {}
     for each in series:
@@ -189,19 +190,19 @@ def _is_small(trend: Trend, scale: float | None) -> bool:
     return abs(trend.line.slope) * trend.years < SMALL * scale
 
 
-def named_in_families(families: Iterable[Mapping[int, float]], level: float) -> frozenset[int]:
+def name_in_families(families: Iterable[Mapping[int, float]], level: float) -> frozenset[int]:
     """Return the tests that are named, out of p-values in families.
 
     `families`: Of each family, the p-value of each of its tests.
     `level`: Largest expected share of false names.
     """
-    adjusted = [holm(p_values) for p_values in families]
-    chosen = chosen_by_benjamini_hochberg([min(each.values()) for each in adjusted], level)
+    adjusted = [adjust_by_holm(p_values) for p_values in families]
+    chosen = choose_by_benjamini_hochberg([min(each.values()) for each in adjusted], level)
     within = level * chosen / max(1, len(adjusted))
     return frozenset(index for each in adjusted for index, p in each.items() if p <= within)
 
 
-def holm(p_values: Mapping[int, float]) -> dict[int, float]:
+def adjust_by_holm(p_values: Mapping[int, float]) -> dict[int, float]:
     """Return p-values adjusted by Holm's method.
 
     Whoever rejects those up to α rejects any true hypothesis with a chance of no more than α.
@@ -215,7 +216,7 @@ def holm(p_values: Mapping[int, float]) -> dict[int, float]:
     return adjusted
 
 
-def chosen_by_benjamini_hochberg(p_values: Sequence[float], level: float) -> int:
+def choose_by_benjamini_hochberg(p_values: Sequence[float], level: float) -> int:
     """Return how many of the smallest p-values are chosen: the most for which p₍ᵣ₎ ≤ α·r/m."""
     number = len(p_values)
     return max(
@@ -223,7 +224,7 @@ def chosen_by_benjamini_hochberg(p_values: Sequence[float], level: float) -> int
     )
 
 
-def _looked_at(series: Series, stepping: _Stepping | None, excluded: frozenset[date]) -> Trend:
+def _judge_trend(series: Series, stepping: _Stepping | None, excluded: frozenset[date]) -> Trend:
     kept = tuple(each for each in series.calibrations if each.measured not in excluded)
     trend = Trend(series, since=kept[0].measured if kept else None)
     if stepping:
@@ -233,18 +234,18 @@ def _looked_at(series: Series, stepping: _Stepping | None, excluded: frozenset[d
         trend = replace(trend, course=stepping.course, scale=scale, step=step)
     if len({each.measured for each in kept}) < LEAST_DATES:
         return trend
-    line = line_through(replace(series, calibrations=kept))
+    line = fit_line_through(replace(series, calibrations=kept))
     years = (kept[-1].measured - kept[0].measured).days / DAYS_PER_YEAR
     order = rank_p_value([each.parameter.value for each in kept])
     return replace(trend, line=line, rank_p_value=order, years=years)
 
 
-def _named(trend: Trend, stepping: _Stepping | None) -> Trend:
+def _name_trend(trend: Trend, stepping: _Stepping | None) -> Trend:
     """Return a trend as the drift that it was named, or as a step where that is more likely."""
     probability = 0.0
     if stepping:
         since = stepping.course.since
-        likely = chances([stepping.values[index] for index in since], stepping.fleet)
+        likely = compute_chances([stepping.values[index] for index in since], stepping.fleet)
         best = max(range(len(since)), key=lambda each: likely.steps[each])
         if sum(likely.steps) > likely.drift:
             values = [stepping.values[index] * stepping.scale for index in since]

@@ -14,9 +14,9 @@ from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 
 from zlmreport.files import Document
-from zlmreport.fleet.drifts import Trend, by_axis
+from zlmreport.fleet.drifts import Trend, group_by_axis
 from zlmreport.fleet.ledger import Taught
-from zlmreport.fleet.records import About, file_name
+from zlmreport.fleet.records import About, make_file_name
 from zlmreport.fleet.state import FleetState
 from zlmreport.fleet.trend import Series
 from zlmreport.language import Language, Words
@@ -29,33 +29,33 @@ _QUANTITIES = ((LENGTHS, "meters"), (ANGLES, "radians"))
 _Samples = Iterable[tuple[Mapping[str, str], float | None]]
 
 
-def metrics(state: FleetState) -> str:
+def write_metrics(state: FleetState) -> str:
     """Return the text of the file."""
-    return "".join((*_of_fleet(state), *_of_axes(state), *_of_parameters(state)))
+    return "".join((*_list_fleet_metrics(state), *_list_axis_metrics(state), *_list_parameter_metrics(state)))
 
 
-def heartbeat(fleet: str, moment: datetime, *, is_at_work: bool) -> str:
+def write_heartbeat(fleet: str, moment: datetime, *, is_at_work: bool) -> str:
     """Return the file by which a night shows that it is alive."""
     labels = {"fleet": fleet}
     beat = [(labels, moment.timestamp())]
     about = "1 while a run is at work, and after one that was killed."
-    return _family(
+    return _write_family(
         "fleet_heartbeat_timestamp_seconds", "When a run last gave a sign of life.", beat
-    ) + _family("fleet_at_work", about, [(labels, float(is_at_work))])
+    ) + _write_family("fleet_at_work", about, [(labels, float(is_at_work))])
 
 
-def _family(name: str, about: str, samples: _Samples) -> str:
+def _write_family(name: str, about: str, samples: _Samples) -> str:
     """Return a metric: what it says, and its samples; none of what is not known."""
     lines = []
     for labels, value in samples:
         if value is not None:
-            stated = ",".join(f'{key}="{_escaped(text, quotes=True)}"' for key, text in labels.items())
+            stated = ",".join(f'{key}="{_escape(text, quotes=True)}"' for key, text in labels.items())
             lines.append(f"zlmreport_{name}{{{stated}}} {value!r}\n")
-    head = f"# HELP zlmreport_{name} {_escaped(about)}\n# TYPE zlmreport_{name} gauge\n"
+    head = f"# HELP zlmreport_{name} {_escape(about)}\n# TYPE zlmreport_{name} gauge\n"
     return "".join((head, *lines)) if lines else ""
 
 
-def _of_fleet(state: FleetState) -> Iterator[str]:
+def _list_fleet_metrics(state: FleetState) -> Iterator[str]:
     fleet, night = {"fleet": state.name}, state.night
     began, seconds = (night.began.timestamp(), night.seconds) if night else (None, None)
     jobs = [({**fleet, "state": name}, float(count)) for name, count in state.counts.items()]
@@ -67,23 +67,25 @@ def _of_fleet(state: FleetState) -> Iterator[str]:
         ("jobs", "Jobs of the fleet by their state after the last run.", jobs),
         ("notice", "1 if the last run as a whole was not as it should be.", notices),
     ):
-        yield _family(f"fleet_{name}", about, samples)
+        yield _write_family(f"fleet_{name}", about, samples)
 
 
-def _of_axes(state: FleetState) -> Iterator[str]:
+def _list_axis_metrics(state: FleetState) -> Iterator[str]:
     def of_axis(axis: tuple[str, str], day: date) -> tuple[Mapping[str, str], float]:
-        return {"fleet": state.name, "machine": axis[0], "axis": axis[1]}, _timestamp(day)
+        return {"fleet": state.name, "machine": axis[0], "axis": axis[1]}, _make_timestamp(day)
 
     measured = [
         of_axis(axis, max(each.series.calibrations[-1].measured for each in trends))
-        for axis, trends in by_axis(state.trends).items()
+        for axis, trends in group_by_axis(state.trends).items()
     ]
-    yield _family("axis_measured_timestamp_seconds", "Date of the last measurement of the axis.", measured)
+    yield _write_family(
+        "axis_measured_timestamp_seconds", "Date of the last measurement of the axis.", measured
+    )
     due = [of_axis(term.entry.axis_key, term.due) for term in state.terms]
-    yield _family("axis_due_timestamp_seconds", "When the axis is to be measured again.", due)
+    yield _write_family("axis_due_timestamp_seconds", "When the axis is to be measured again.", due)
 
 
-def _of_parameters(state: FleetState) -> Iterator[str]:
+def _list_parameter_metrics(state: FleetState) -> Iterator[str]:
     def family(name: str, about: str, values: Iterable[tuple[Series, float | None]]) -> str:
         samples = (
             (
@@ -98,22 +100,22 @@ def _of_parameters(state: FleetState) -> Iterator[str]:
             )
             for each, value in values
         )
-        return _family(f"parameter_{name}", about, samples)
+        return _write_family(f"parameter_{name}", about, samples)
 
     for units, quantity in _QUANTITIES:
         of_kind = [each for each in state.trends if _UNITS.get(each.series.unit) in units]
         for name, about, value in _AMOUNTS:
-            amounts = ((each.series, _in_si(each.series.unit, value(each))) for each in of_kind)
+            amounts = ((each.series, _convert_to_si(each.series.unit, value(each))) for each in of_kind)
             yield family(f"{name}_{quantity}", about, amounts)
     for name, about, value in _STATEMENTS:
         yield family(name, about, ((each.series, value(each)) for each in state.trends))
 
 
-def _in_si(unit: str, value: float | None) -> float | None:
+def _convert_to_si(unit: str, value: float | None) -> float | None:
     return None if value is None else _UNITS[unit].to_si(value)
 
 
-def _timestamp(day: date) -> float:
+def _make_timestamp(day: date) -> float:
     return datetime(day.year, day.month, day.day, tzinfo=UTC).timestamp()
 
 
@@ -161,12 +163,12 @@ _STATEMENTS: tuple[tuple[str, str, Callable[[Trend], float | None]], ...] = (
     (
         "limit_reached_timestamp_seconds",
         "When a drift meets its limit.",
-        lambda trend: _timestamp(trend.forecast.expected) if trend.forecast else None,
+        lambda trend: _make_timestamp(trend.forecast.expected) if trend.forecast else None,
     ),
 )
 
 
-def _escaped(text: str, *, quotes: bool = False) -> str:
+def _escape(text: str, *, quotes: bool = False) -> str:
     escaped = text.replace("\\", "\\\\").replace("\n", "\\n")
     return escaped.replace('"', '\\"') if quotes else escaped
 
@@ -179,7 +181,7 @@ _DESCRIPTION = Words("Measured last on {measured}, certificate {number}.")
 _NOTICE = timedelta(days=14)
 
 
-def calendar(state: FleetState, language: Language) -> bytes:
+def write_calendar(state: FleetState, language: Language) -> bytes:
     """Return the calendar: a whole day for each axis that is to be measured again, with a reminder.
 
     The same ledger gives the same bytes; an axis keeps its entry until it has been measured.
@@ -219,7 +221,7 @@ def calendar(state: FleetState, language: Language) -> bytes:
     return bytes(days.to_ical())
 
 
-def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
+def make_priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     """Yield the files of priors that are not there yet: of each type of machine, for each kind of axis.
 
     A file is named after the last day of whose tests it knows, and stays as it is: certificates are made with
@@ -228,18 +230,18 @@ def priors(taught: Iterable[Taught], folder: Path) -> Iterator[Document]:
     `taught`: In the order of measurement; a test of a machine without a manufacturer and model teaches
         nobody.
     """
-    from zlmreport.model.fitting.priors import Lesson, as_text, learned  # noqa: PLC0415 - only where there is a model
+    from zlmreport.model.fitting.priors import Lesson, learn_priors, write_as_text  # noqa: PLC0415 - only where there is a model
 
     groups: defaultdict[tuple[str, str], list[Taught]] = defaultdict(list)
     seen: set[frozenset[str]] = set()
     for each in taught:
         if each.subject.type and each.readings not in seen:
-            groups[file_name(each.subject.type), each.lesson["kind"]].append(each)
+            groups[make_file_name(each.subject.type), each.lesson["kind"]].append(each)
             seen.add(each.readings)
     for (type_, kind), tests in sorted(groups.items()):
         last = tests[-1].subject.measured
         path = folder / f"{type_}.{kind}.{last}.yaml"
         if not path.exists():
-            found = learned([Lesson.from_json(each.lesson) for each in tests])
+            found = learn_priors([Lesson.from_json(each.lesson) for each in tests])
             origin = f"the fleet, of {tests[-1].subject.type} and until {last},"
-            yield Document(path, as_text(found, origin).encode())
+            yield Document(path, write_as_text(found, origin).encode())

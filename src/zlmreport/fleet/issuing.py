@@ -15,11 +15,11 @@ from enum import Enum
 from pathlib import Path
 
 from zlmreport.errors import Place, Problem, as_problems
-from zlmreport.files import beside, take_names
-from zlmreport.fleet.basis import FileStamp, KnownFile, sha256_of
+from zlmreport.files import take_names, write_beside
+from zlmreport.fleet.basis import FileStamp, KnownFile, compute_sha256
 from zlmreport.fleet.ledger import Night, NumberTakenError
 from zlmreport.fleet.making import Failed, FinishedFile, MadeCertificate
-from zlmreport.fleet.plan import Evening, PlannedJob, inputs_digest
+from zlmreport.fleet.plan import Evening, PlannedJob, digest_inputs
 from zlmreport.fleet.records import LedgerEntry, State, Subject
 from zlmreport.job.fleet import FleetFile
 
@@ -40,7 +40,7 @@ class Laid:
 
 
 @contextlib.contextmanager
-def laid(folder: Path, files: Iterable[FinishedFile]) -> Iterator[Laid]:
+def lay(folder: Path, files: Iterable[FinishedFile]) -> Iterator[Laid]:
     """Write files under hidden names, and push them to the disk; what gets no name within is removed.
 
     Raises `OSError` if one cannot be written.
@@ -51,7 +51,7 @@ def laid(folder: Path, files: Iterable[FinishedFile]) -> Iterator[Laid]:
     def hidden(path: Path) -> Path:
         return path.with_name(f".{path.name}.{digests[path][:16]}{_SUFFIX}")
 
-    with beside({folder / file.path: file.content for file in files}, hidden) as names:
+    with write_beside({folder / file.path: file.content for file in files}, hidden) as names:
         known = [
             KnownFile(file.role, file.path, file.sha256, FileStamp.at(names[folder / file.path]))
             for file in files
@@ -63,11 +63,11 @@ def tidy(folder: Path, known: Iterable[KnownFile]) -> int:
     """End what an interrupted night left half done, and return the number of files that got their names."""
     digests = {file.path: file.sha256 for file in known}
     named = 0
-    for hidden in _hidden(folder):
+    for hidden in _list_hidden(folder):
         name, _, begin = hidden.name.removesuffix(_SUFFIX)[1:].rpartition(".")
         path = hidden.with_name(name)
         sha256 = digests.get(str(path.relative_to(folder)), "")
-        if sha256.startswith(begin) and sha256_of(hidden) == sha256:
+        if sha256.startswith(begin) and compute_sha256(hidden) == sha256:
             hidden.replace(path)
             named += 1
         else:
@@ -75,7 +75,7 @@ def tidy(folder: Path, known: Iterable[KnownFile]) -> int:
     return named
 
 
-def _hidden(folder: Path) -> Iterator[Path]:
+def _list_hidden(folder: Path) -> Iterator[Path]:
     for root, _, files in os.walk(folder):
         yield from (Path(root, name) for name in sorted(files) if name.endswith(_SUFFIX))
 
@@ -155,7 +155,7 @@ class Desk:
         message = "\n".join(map(str, result.problems))
         state, hint, digest = State.FAILED, "", ""
         if result.is_stopped:
-            before, digest = self.known.standings.get(planned.job), inputs_digest(planned.path, self.known)
+            before, digest = self.known.standings.get(planned.job), digest_inputs(planned.path, self.known)
             is_again = before and before.state in {State.STOPPED, State.SET_ASIDE} and before.digest == digest
             state, hint = (State.SET_ASIDE, _ASIDE) if is_again else (State.STOPPED, "")
         self.night.add(replace(self._entry(planned, subject, state, message + hint), digest=digest))
@@ -178,11 +178,11 @@ class Desk:
             message = before.message  # made again for another reason, it still differs for the first
         else:
             message = planned.why if planned.issued else _UNKNOWN
-        with laid(self.fleet.output, made.files) as files:
+        with lay(self.fleet.output, made.files) as files:
             entry = self._entry(planned, made.subject, State.DRAFT, message, made)
             self.night.add(entry, files.known, made.basis)
             files.name()
-        return _happened(What.DRAFT, planned, made, made.files)
+        return _record_happened(What.DRAFT, planned, made, made.files)
 
     def _issued(self, planned: PlannedJob, made: MadeCertificate) -> Happened:
         output = self.fleet.output
@@ -192,14 +192,14 @@ class Desk:
             if file not in missing and file.path not in known:
                 look = FileStamp.at(output / file.path)
                 known[file.path] = KnownFile(file.role, file.path, file.sha256, look)
-        with laid(output, missing) as files:
+        with lay(output, missing) as files:
             known |= {file.path: file for file in files.known}
             entry = self._entry(planned, made.subject, State.MADE, "", made)
             self.night.issue(entry, tuple(known.values()), made.basis, made.lesson)
             files.name()
         self._forget_draft(planned)
         what = What.ISSUED if not planned.issued else What.RESTORED if missing else What.CONFIRMED
-        return _happened(what, planned, made, missing)
+        return _record_happened(what, planned, made, missing)
 
     def _forget_draft(self, planned: PlannedJob) -> None:
         """Remove a draft that says nothing else any more than the certificate."""
@@ -230,7 +230,7 @@ class Desk:
         )
 
 
-def _happened(
+def _record_happened(
     what: What, planned: PlannedJob, made: MadeCertificate, written: Sequence[FinishedFile]
 ) -> Happened:
     verdicts = [each.conforms for each in made.parameters if each.limit is not None]

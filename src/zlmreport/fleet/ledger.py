@@ -28,7 +28,7 @@ from zlmreport.fleet.database import (
     Database,
     TakenError,
     copy,
-    locked,
+    lock,
     open_database,
 )
 from zlmreport.fleet.records import (
@@ -109,7 +109,7 @@ class Night:
         latest = select(func.max(ENTRIES.c.id)).where(*own).scalar_subquery()
         query = select(PARAMETERS).where(PARAMETERS.c.entry == latest).order_by(PARAMETERS.c.row)
         with self.database.transaction() as connection:
-            return tuple(map(_parameter, connection.execute(query)))
+            return tuple(map(_read_parameter, connection.execute(query)))
 
     def beat(self, now: str) -> None:
         """Give a sign of life."""
@@ -195,7 +195,7 @@ class Night:
         basis: CertificateBasis | None,
         lesson: Mapping[str, Any] | None = None,
     ) -> int:
-        identity = _added(
+        identity = _add_row(
             connection,
             insert(ENTRIES).values(
                 fleet=self.fleet,
@@ -219,7 +219,7 @@ def _is_still_so(news: Row[Any]) -> bool:
     return news.ended is None and NewsKind(news.kind).is_condition
 
 
-def _added(connection: Connection, row: Insert) -> int:
+def _add_row(connection: Connection, row: Insert) -> int:
     """Add a row and return its key."""
     key = connection.execute(row).inserted_primary_key
     if key is None:
@@ -307,12 +307,12 @@ class Ledger(Closable):
         )
         with self._database.transaction() as connection:
             stated = {
-                entry: tuple(map(_parameter, rows))
+                entry: tuple(map(_read_parameter, rows))
                 for entry, rows in itertools.groupby(connection.execute(parameters), lambda row: row.entry)
             }
             rows = connection.execute(entries).all()
         for row in rows:
-            yield _entry(row, stated.get(row.id, ()))
+            yield _make_entry(row, stated.get(row.id, ()))
 
     def last_night(self) -> PastNight | None:
         """Return the last night of the fleet; None before the first."""
@@ -323,7 +323,9 @@ class Ledger(Closable):
                 return None
             states = select(ENTRIES.c.state, func.count()).where(ENTRIES.c.night == night.id)
             came_to = {State(row[0]): row[1] for row in connection.execute(states.group_by(ENTRIES.c.state))}
-        notices = tuple(NightNotice(About(about), _words(*texts)) for about, *texts in night.notices or ())
+        notices = tuple(
+            NightNotice(About(about), _read_words(*texts)) for about, *texts in night.notices or ()
+        )
         ended, beat = (dt.datetime.fromisoformat(at) if at else None for at in (night.ended, night.beat))
         return PastNight(dt.datetime.fromisoformat(night.began), ended, notices, came_to, beat)
 
@@ -342,10 +344,10 @@ class Ledger(Closable):
                     State(row.state),
                     row.began,
                     row.message,
-                    _files(row.files),
+                    _read_files(row.files),
                     CertificateBasis.from_json(row.basis) if row.basis else None,
                     row.digest,
-                    Subject(**_subject(row)),
+                    Subject(**_read_subject(row)),
                 )
                 for row in connection.execute(query)
             }
@@ -369,7 +371,7 @@ class Ledger(Closable):
         )
         with self._database.transaction() as connection:
             return {
-                row.number: Issued(row.fleet, row.job, row.began, _files(row.files))
+                row.number: Issued(row.fleet, row.job, row.began, _read_files(row.files))
                 for row in connection.execute(query)
             }
 
@@ -386,7 +388,7 @@ class Ledger(Closable):
             for row in connection.execute(query):
                 files = CertificateBasis.from_json(row.basis).files if row.basis else ()
                 readings = frozenset(file.sha256 for file in files if file.role == "readings")
-                yield Taught(Subject(**_subject(row)), readings, row.lesson)
+                yield Taught(Subject(**_read_subject(row)), readings, row.lesson)
 
     @contextlib.contextmanager
     def night(self, began: str, fleet_file: str) -> Iterator[Night]:
@@ -401,7 +403,7 @@ class Ledger(Closable):
         holder = f"{fleet_file} on {socket.gethostname()}, since {began}"
         with contextlib.ExitStack() as stack:
             try:
-                stack.enter_context(locked(self._database, holder))
+                stack.enter_context(lock(self._database, holder))
                 stuck = None
             except TakenError:
                 stuck = self._stuck(began)
@@ -416,7 +418,7 @@ class Ledger(Closable):
         before = self.last_night()
         own = {"fleet": self._fleet, "began": began, "host": socket.gethostname(), "process": os.getpid()}
         with self._database.transaction() as connection:
-            identity = _added(connection, insert(NIGHTS).values(beat=began, **own))
+            identity = _add_row(connection, insert(NIGHTS).values(beat=began, **own))
         was_interrupted = before is not None and before.ended is None
         return Night(self._database, self._fleet, identity, began, was_interrupted, took_over)
 
@@ -441,42 +443,42 @@ def _enter_soon(stack: contextlib.ExitStack, database: Database, holder: str) ->
     """Hold the lock that one who was killed gives up as the system clears it away."""
     for _ in range(_ATTEMPTS):
         with contextlib.suppress(TakenError):
-            stack.enter_context(locked(database, holder))
+            stack.enter_context(lock(database, holder))
             return
         time.sleep(_PAUSE)
-    stack.enter_context(locked(database, holder))
+    stack.enter_context(lock(database, holder))
 
 
-def _entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> LedgerEntry:
+def _make_entry(row: Row[Any], parameters: tuple[RecordedParameter, ...]) -> LedgerEntry:
     return LedgerEntry(
-        **_subject(row),
+        **_read_subject(row),
         job=row.job,
         night=row.began,
         digest=row.digest,
         state=State(row.state),
         message=row.message,
-        files=tuple(file.path for file in _files(row.files)),
+        files=tuple(file.path for file in _read_files(row.files)),
         parameters=parameters,
         seconds=row.seconds,
     )
 
 
-def _subject(row: Row[Any]) -> dict[str, Any]:
+def _read_subject(row: Row[Any]) -> dict[str, Any]:
     """Return what an entry is about; what an older program did not note is empty."""
     kept = {each.name: getattr(row, each.name) for each in fields(Subject)}
     return {name: value if name == "interval" else value or "" for name, value in kept.items()}
 
 
-def _parameter(row: Row[Any]) -> RecordedParameter:
+def _read_parameter(row: Row[Any]) -> RecordedParameter:
     return RecordedParameter(
         row.standard, row.symbol, row.value, row.unit, row.expanded_uncertainty, row.limit, row.conforms
     )
 
 
-def _words(*texts: str) -> Words:
+def _read_words(*texts: str) -> Words:
     """Return the text of a notice as it was kept in each language; an older program kept fewer."""
     return Words.of({language.value: text for language, text in zip(Language, texts, strict=False)})
 
 
-def _files(kept: list[list[Any]]) -> tuple[KnownFile, ...]:
+def _read_files(kept: list[list[Any]]) -> tuple[KnownFile, ...]:
     return tuple(map(KnownFile.from_json, kept))

@@ -17,19 +17,19 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place, Problem, as_problems
-from zlmreport.files import confined
+from zlmreport.files import confine as confined
 from zlmreport.fleet.basis import (
     CertificateBasis,
-    files_behind,
-    named_files,
-    program_versions,
-    programs_of,
+    digest_named_files,
+    find_program_versions,
+    list_files_behind,
+    name_programs_of,
     release,
 )
-from zlmreport.fleet.records import RecordedParameter, Subject, folder_of, parameters_of
+from zlmreport.fleet.records import RecordedParameter, Subject, find_folder_of, list_parameters_of
 from zlmreport.job.fleet import FleetFile, load_fleet
 from zlmreport.job.job import Job
-from zlmreport.job.loading import chosen_formats, load
+from zlmreport.job.loading import choose_formats_once, load
 from zlmreport.language import Words
 from zlmreport.model.effects.effect import Effect
 from zlmreport.plugin.protocols import Renderer
@@ -43,7 +43,7 @@ MARK = ".draft"
 _TITLE = Words("Draft, not issued: {title}")
 
 
-def drafted(certificate: Certificate) -> Certificate:
+def draft(certificate: Certificate) -> Certificate:
     """Return a certificate as a draft: its number stands already for a document with another content."""
 
     def marked(title: str) -> str:
@@ -122,7 +122,7 @@ class Failed:
     is_stopped: bool = False
 
 
-def late(task: Task) -> Failed:
+def report_late(task: Task) -> Failed:
     """Return the answer of a task that was stopped because its time was over."""
     message = f"was stopped: it was not made within {task.limits.seconds:g} s, the limit of a job"
     return Failed((Problem(Place(str(task.job)), message),), is_stopped=True)
@@ -132,15 +132,17 @@ def late(task: Task) -> Failed:
 _ONE_AT_A_TIME = threading.Lock()
 
 
-def work(task: Task) -> MadeCertificate | Failed:
+def make_certificate(task: Task) -> MadeCertificate | Failed:
     """Make a certificate; whatever goes wrong is the answer and no exception."""
     with _ONE_AT_A_TIME, confined(task.confine):
         subject = Subject()
         try:
             begun, start = time.time(), time.monotonic()
             registry = _registry(task.plugins)
-            fleet = _fleet(task.fleet, task.content, task.plugins)
-            job = load(task.job, registry, chosen_formats(fleet.formats, registry), defaults=fleet.defaults)
+            fleet = _read_fleet(task.fleet, task.content, task.plugins)
+            job = load(
+                task.job, registry, choose_formats_once(fleet.formats, registry), defaults=fleet.defaults
+            )
             subject = Subject.of(job)
             return replace(_made(task, job, fleet, begun), seconds=time.monotonic() - start)
         except MemoryError:
@@ -157,15 +159,15 @@ def warm(plugins: tuple[Path, ...]) -> None:
 
 def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertificate:
     registry = _registry(task.plugins)
-    programs = _programs(task, job, registry)
-    named = named_files(job)
+    programs = _find_programs(task, job, registry)
+    named = digest_named_files(job)
     renderers = [registry.renderer(identifier) for identifier in job.formats]
     _demand_one_of_a_suffix(task.job, renderers)
     outcome = pipeline.run(job, registry)
     certificate = outcome.certificate
     suffixes = [each.suffix for each in renderers]
     contents = [each.content for each in outcome.documents]
-    folder = PurePosixPath(task.folder or folder_of(job.keys, fleet.keys.output.layout))
+    folder = PurePosixPath(task.folder or find_folder_of(job.keys, fleet.keys.output.layout))
     # Files that have the number already, though no ledger may know them.
     paths = {suffix: fleet.output / folder / f"{certificate.number}{suffix}" for suffix in suffixes}
     there = {suffix: path.read_bytes() for suffix, path in paths.items() if path.is_file()}
@@ -175,25 +177,25 @@ def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
         issued.get(suffix, digest) != digest
         for suffix, digest in zip(suffixes, map(_digest, contents), strict=True)
     )
-    parameters = tuple(parameters_of(certificate))
+    parameters = tuple(list_parameters_of(certificate))
     is_whole = all(task.issued.get(suffix, "") == digests.get(suffix) for suffix in suffixes)
     if is_draft and is_whole and task.stated is not None and _are_alike(task.stated, parameters):
         is_draft, contents = False, [there[suffix] for suffix in suffixes]
     if is_draft:
-        rendered = pipeline.render(drafted(certificate), renderers, registry)
+        rendered = pipeline.render(draft(certificate), renderers, registry)
         contents = [rendered[each.identifier] for each in renderers]
     stem = certificate.number + (MARK if is_draft else "")
-    files = tuple(files_behind(certificate, named, job, fleet, begun))
+    files = tuple(list_files_behind(certificate, named, job, fleet, begun))
     return MadeCertificate(
         subject=Subject.of(job),
-        basis=CertificateBasis(files, programs, job.formats, defaults_digest(fleet)),
+        basis=CertificateBasis(files, programs, job.formats, digest_defaults(fleet)),
         files=tuple(
             FinishedFile(suffix, str(folder / f"{stem}{suffix}"), content)
             for suffix, content in zip(suffixes, contents, strict=True)
         ),
         parameters=parameters,
         is_draft=is_draft,
-        lesson=None if is_draft else _lesson_of(certificate, job, registry.effects),
+        lesson=None if is_draft else _find_lesson(certificate, job, registry.effects),
     )
 
 
@@ -210,7 +212,7 @@ def _demand_one_of_a_suffix(job: Path, renderers: Sequence[Renderer]) -> None:
             )
 
 
-def _lesson_of(certificate: Certificate, job: Job, effects: Sequence[Effect]) -> Mapping[str, Any] | None:
+def _find_lesson(certificate: Certificate, job: Job, effects: Sequence[Effect]) -> Mapping[str, Any] | None:
     """Return what the readings of a certificate teach; None without a model that describes them.
 
     A job that knows of earlier tests, or of further ones, is diagnosed once more without them: each test
@@ -231,16 +233,16 @@ def _lesson_of(certificate: Certificate, job: Job, effects: Sequence[Effect]) ->
 
 def _are_alike(before: Iterable[RecordedParameter], now: Iterable[RecordedParameter]) -> bool:
     """Whether two certificates state the same values, to the rounding of doubles."""
-    return sorted(map(_rounded, before)) == sorted(map(_rounded, now))
+    return sorted(map(_round_parameter, before)) == sorted(map(_round_parameter, now))
 
 
-def _rounded(parameter: RecordedParameter) -> str:
+def _round_parameter(parameter: RecordedParameter) -> str:
     numbers = (parameter.value, parameter.expanded_uncertainty, parameter.limit)
     shown = ("" if number is None else f"{number:.9g}" for number in numbers)
     return repr((parameter.standard, parameter.symbol, parameter.unit, *shown, parameter.conforms))
 
 
-def defaults_digest(fleet: FleetFile) -> str:
+def digest_defaults(fleet: FleetFile) -> str:
     """Return the digest of a fleet's defaults; empty without any."""
     return _digest(fleet.defaults.as_yaml().encode()) if fleet.defaults else ""
 
@@ -249,10 +251,10 @@ def _digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def _programs(task: Task, job: Job, registry: Registry) -> dict[str, str]:
+def _find_programs(task: Task, job: Job, registry: Registry) -> dict[str, str]:
     """Return the versions of what takes part; refuse to work with other releases than the night's."""
     here = _versions(task.plugins)
-    names = sorted(programs_of(job, job.formats, registry))
+    names = sorted(name_programs_of(job, job.formats, registry))
     for name in names:
         own, begun_with = (release(each.get(name, "")) for each in (here, task.programs))
         if own != begun_with:
@@ -271,9 +273,9 @@ def _registry(plugins: tuple[Path, ...]) -> Registry:
 
 @functools.cache
 def _versions(plugins: tuple[Path, ...]) -> Mapping[str, str]:
-    return program_versions(files=plugins)
+    return find_program_versions(files=plugins)
 
 
 @functools.lru_cache(maxsize=4)
-def _fleet(path: Path, content: bytes, plugins: tuple[Path, ...]) -> FleetFile:
+def _read_fleet(path: Path, content: bytes, plugins: tuple[Path, ...]) -> FleetFile:
     return load_fleet(path, content, lambda: _registry(plugins).extensions)

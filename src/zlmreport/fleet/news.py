@@ -13,20 +13,20 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Problem, ZlmreportError
-from zlmreport.fleet.causes import cause_of
-from zlmreport.fleet.drifts import Trend, by_axis
+from zlmreport.fleet.causes import find_cause_of
+from zlmreport.fleet.drifts import Trend, group_by_axis
 from zlmreport.fleet.issuing import Happened, What
 from zlmreport.fleet.overview_words import ABOUTS
 from zlmreport.fleet.plan import Evening
-from zlmreport.fleet.records import About, News, NewsKind, NightNotice, named
+from zlmreport.fleet.records import About, News, NewsKind, NightNotice, name_axis
 from zlmreport.fleet.state import FleetState
 from zlmreport.job.contradictions import validate
 from zlmreport.job.fleet import FleetFile
-from zlmreport.job.tree import Keys, Scalar, found_at
+from zlmreport.job.tree import Keys, Scalar, find_at
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number, general_number
-from zlmreport.measurement.units import behind, printed_symbol
+from zlmreport.language.formatting import write_fixed_number, write_general_number
+from zlmreport.measurement.units import find_printed_symbol, write_behind
 from zlmreport.plugin.kinds import NOTIFIER
 from zlmreport.plugin.protocols import Message, Notifier, Occasion
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -53,7 +53,7 @@ _UNTOLD = Words("the news was not sent by {way}: {reason}")
 _FAILED = Words("{job} failed")
 
 
-def news_of_night(notices: Iterable[NightNotice], language: Language) -> Iterator[News]:
+def find_news_of_night(notices: Iterable[NightNotice], language: Language) -> Iterator[News]:
     """Yield what concerns the whole night."""
     for each in notices:
         text = each.text.in_language(language)
@@ -61,23 +61,23 @@ def news_of_night(notices: Iterable[NightNotice], language: Language) -> Iterato
         yield News(NewsKind.NIGHT, subject, f"{ABOUTS[each.about].in_language(language)}: {text}")
 
 
-def news_of(state: FleetState, language: Language) -> Iterator[News]:
+def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
     """Yield all that is so on a morning, whether or not it was told before."""
-    yield from news_of_night(state.notices, language)
+    yield from find_news_of_night(state.notices, language)
     for failure in state.failures:
         entry = failure.entry
         message = entry.message.partition("\n")[0]
         told = message if message.startswith(entry.job) else f"{entry.job}: {message}"
         yield News(NewsKind.FAILED, f"{entry.job}|{message}", told)
-    for (machine, axis), trends in by_axis(state.not_met).items():
-        stated = ", ".join(_not_met(each, language) for each in trends)
-        yield News(NewsKind.NOT_MET, f"{machine}|{axis}", f"{named(machine, axis)}: {stated}")
-    for (machine, axis), trends in by_axis(state.changed).items():
-        yield _changed(machine, axis, trends, state, language)
-    for (machine, axis), trends in by_axis(state.drifting).items():
-        stated = "; ".join(_drift(each, language) for each in trends)
+    for (machine, axis), trends in group_by_axis(state.not_met).items():
+        stated = ", ".join(_say_not_met(each, language) for each in trends)
+        yield News(NewsKind.NOT_MET, f"{machine}|{axis}", f"{name_axis(machine, axis)}: {stated}")
+    for (machine, axis), trends in group_by_axis(state.changed).items():
+        yield _report_change(machine, axis, trends, state, language)
+    for (machine, axis), trends in group_by_axis(state.drifting).items():
+        stated = "; ".join(_say_drift(each, language) for each in trends)
         yield News(
-            NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{named(machine, axis)}: {stated}"
+            NewsKind.DRIFTING, f"{machine}|{axis}|{trends[0].since}", f"{name_axis(machine, axis)}: {stated}"
         )
     for term in state.overdue:
         entry = term.entry
@@ -100,7 +100,7 @@ def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
     return Message(Occasion.DIGEST, title, "\n\n".join(parts) + "\n")
 
 
-def news_of_job(happened: Happened, known: Evening) -> Message | None:
+def find_news_of_job(happened: Happened, known: Evening) -> Message | None:
     """Return what people may be told as it happens; a job that failed before is no news."""
     fleet, language = known.fleet, known.fleet.keys.language
     if happened.what is What.ISSUED:
@@ -117,47 +117,49 @@ def news_of_job(happened: Happened, known: Evening) -> Message | None:
     return Message(Occasion.FAILURE, f"{fleet.name}: {said}", text)
 
 
-def _changed(machine: str, axis: str, trends: Sequence[Trend], state: FleetState, language: Language) -> News:
+def _report_change(
+    machine: str, axis: str, trends: Sequence[Trend], state: FleetState, language: Language
+) -> News:
     """Return the change of an axis: one event, however many of its parameters show it."""
     stepped = [each for each in trends if each.step]
-    told = named(machine, axis)
+    told = name_axis(machine, axis)
     if not stepped:
         subject = f"{machine}|{axis}|scatter|{trends[0].since}"
         return News(NewsKind.CHANGED, subject, f"{told}: {_WILDER.in_language(language)}")
-    cause = cause_of(stepped[0], state.effects)
+    cause = find_cause_of(stepped[0], state.effects)
     since = cause.since.isoformat() if cause else ""
     changes = ", ".join(
-        f"{each.series.symbol} {_signed(each.step.change, each.series.unit, language)}"
+        f"{each.series.symbol} {_write_signed(each.step.change, each.series.unit, language)}"
         for each in stepped
         if each.step
     )
     text = f"{told}: {_SINCE.given(changes=changes, since=since).in_language(language)}"
     if cause and cause.effect:
-        text += f"; {cause.effect} {_signed(cause.change, cause.unit, language)}"
+        text += f"; {cause.effect} {_write_signed(cause.change, cause.unit, language)}"
     if cause and cause.after:
         text += _INSTRUMENT.given(after=cause.after, before=cause.before).in_language(language)
     return News(NewsKind.CHANGED, f"{machine}|{axis}|{since}", text)
 
 
-def _not_met(trend: Trend, language: Language) -> str:
+def _say_not_met(trend: Trend, language: Language) -> str:
     latest, sign = trend.series.latest, language.decimal_sign
-    unit = behind(printed_symbol(trend.series.unit))
-    value = f"{fixed_number(latest.value, 1, sign)}{unit}"
-    limit = f"{general_number(latest.limit or 0.0, sign)}{unit}"
+    unit = write_behind(find_printed_symbol(trend.series.unit))
+    value = f"{write_fixed_number(latest.value, 1, sign)}{unit}"
+    limit = f"{write_general_number(latest.limit or 0.0, sign)}{unit}"
     return _NOT_MET.given(symbol=trend.series.symbol, value=value, limit=limit).in_language(language)
 
 
-def _drift(trend: Trend, language: Language) -> str:
-    change = _signed(trend.line.slope if trend.line else 0.0, trend.series.unit, language)
+def _say_drift(trend: Trend, language: Language) -> str:
+    change = _write_signed(trend.line.slope if trend.line else 0.0, trend.series.unit, language)
     told = _DRIFT.given(symbol=trend.series.symbol, change=change).in_language(language)
     if trend.forecast:
         told += _REACHED.given(month=f"{trend.forecast.expected:%Y-%m}").in_language(language)
     return told
 
 
-def _signed(change: float, unit: str, language: Language) -> str:
-    number = fixed_number(abs(change), 1, language.decimal_sign)
-    return f"{'+' if change > 0 else '−'} {number}{behind(printed_symbol(unit))}"
+def _write_signed(change: float, unit: str, language: Language) -> str:
+    number = write_fixed_number(abs(change), 1, language.decimal_sign)
+    return f"{'+' if change > 0 else '−'} {number}{write_behind(find_printed_symbol(unit))}"
 
 
 #: For which the night waits until a message is taken, s: nothing that tells of a night may stop it.
@@ -218,7 +220,7 @@ class Ways:
         return not reason
 
 
-def ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:
+def find_ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:
     """Return the ways that a fleet file names, each with its own keys checked.
 
     Raises `InputError` with every mistake in these keys, in the order of their places.
@@ -226,15 +228,17 @@ def ways_of(fleet: FleetFile, plugins: tuple[Path, ...]) -> Ways:
     if not fleet.keys.notify:
         return Ways()
     registry, problems = find_plugins(files=plugins), list[Problem]()
-    found = [_way(fleet, index, registry, problems) for index in range(len(fleet.keys.notify))]
+    found = [_make_channel(fleet, index, registry, problems) for index in range(len(fleet.keys.notify))]
     if problems:
         raise InputError(sorted(set(problems)))
     return Ways(tuple(way for way in found if way))
 
 
-def _way(fleet: FleetFile, index: int, registry: Registry, problems: list[Problem]) -> NewsChannel | None:
-    keys, core = found_at(fleet.tree, ("notify", index)), fleet.keys.notify[index]
-    named = found_at(fleet.tree, ("notify", index, "plugin"))
+def _make_channel(
+    fleet: FleetFile, index: int, registry: Registry, problems: list[Problem]
+) -> NewsChannel | None:
+    keys, core = find_at(fleet.tree, ("notify", index)), fleet.keys.notify[index]
+    named = find_at(fleet.tree, ("notify", index, "plugin"))
     if not isinstance(keys, Keys) or not isinstance(named, Scalar):
         return None
     try:

@@ -14,19 +14,33 @@ from pathlib import Path
 from typing import Protocol
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.files import Document, confinement, write
-from zlmreport.fleet.basis import CertificateBasis, Disk, changes, path_in, program_versions
-from zlmreport.fleet.exports import heartbeat, priors
+from zlmreport.files import Document, find_confinement, write
+from zlmreport.fleet.basis import CertificateBasis, Disk, find_program_versions, say_changes, write_path_in
+from zlmreport.fleet.exports import make_priors, write_heartbeat
 from zlmreport.fleet.issuing import Desk, Happened, What, tidy
 from zlmreport.fleet.ledger import Ledger, Night, Standing
-from zlmreport.fleet.making import Failed, Limits, Task, defaults_digest
-from zlmreport.fleet.news import Ways, digest, news_of, news_of_job, news_of_night, ways_of
-from zlmreport.fleet.notices import documents, left, missing, notices, of_last, vanished
-from zlmreport.fleet.plan import Due, Evening, PlannedJob, plan, reasons
-from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, State, due_date
+from zlmreport.fleet.making import Failed, Limits, Task, digest_defaults
+from zlmreport.fleet.news import (
+    Ways,
+    digest,
+    find_news_of,
+    find_news_of_job,
+    find_news_of_night,
+    find_ways_of,
+)
+from zlmreport.fleet.notices import (
+    find_left_documents,
+    find_missing,
+    find_vanished,
+    list_notices,
+    say_left,
+    say_of_last,
+)
+from zlmreport.fleet.plan import Due, Evening, PlannedJob, find_reasons, plan
+from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, State, compute_due_date
 from zlmreport.fleet.state import Rules, state_of
 from zlmreport.fleet.workers import Cluster, Pool
-from zlmreport.job.fleet import FleetFile, found_jobs, is_retired, job_files
+from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, list_job_files
 from zlmreport.language import Words, same
 from zlmreport.plugin.protocols import Occasion
 
@@ -52,24 +66,26 @@ class Watch(Protocol):
         """Take note of a new file of priors."""
 
 
-def evening(fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]) -> Evening:
+def prepare_evening(
+    fleet: FleetFile, jobs: tuple[Path, ...], ledger: Ledger, plugins: tuple[Path, ...]
+) -> Evening:
     """Return what is known before a night."""
     now = CertificateBasis(
         files=(),
-        programs=program_versions(files=plugins),
+        programs=find_program_versions(files=plugins),
         formats=tuple(identifier for identifier, _ in fleet.formats),
-        defaults=defaults_digest(fleet),
+        defaults=digest_defaults(fleet),
     )
-    at_work = tuple(path for path in jobs if not is_retired(path_in(fleet.path.parent, path), fleet))
+    at_work = tuple(path for path in jobs if not is_retired(write_path_in(fleet.path.parent, path), fleet))
     return Evening(fleet, at_work, ledger.standings(), ledger.certificates(), now)
 
 
 def foretell(fleet: FleetFile, plugins: tuple[Path, ...]) -> tuple[PlannedJob, ...]:
     """Return what a night would do; nothing is made or written."""
-    jobs = job_files(fleet)
+    jobs = list_job_files(fleet)
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
-        known = evening(fleet, jobs, ledger, plugins)
-    return plan(known, reasons(known))
+        known = prepare_evening(fleet, jobs, ledger, plugins)
+    return plan(known, find_reasons(known))
 
 
 class MissingError(AccessError):
@@ -95,30 +111,30 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
     of the jobs.
     """
     plugins, ends = order.plugins, time.monotonic() + order.seconds
-    jobs, unmatched = found_jobs(fleet)
-    ways, language = ways_of(fleet, plugins), fleet.keys.language
+    jobs, unmatched = find_jobs(fleet)
+    ways, language = find_ways_of(fleet, plugins), fleet.keys.language
     with Ledger.open(fleet.ledger, fleet.name, create=not unmatched) as ledger:
         last = ledger.last_night()
-        known = evening(fleet, jobs, ledger, plugins)
-        gone = vanished(known)
+        known = prepare_evening(fleet, jobs, ledger, plugins)
+        gone = find_vanished(known)
         if unmatched and not gone:
             raise InputError(unmatched)
-        lacking = missing(known, gone)
-        with ledger.night(_now(), str(fleet.path)) as night, _alive(fleet):
+        lacking = find_missing(known, gone)
+        with ledger.night(_now(), str(fleet.path)) as night, _show_alive(fleet):
             if lacking:
                 place, notice = lacking
-                noticed = (*of_last(night, last), notice)
+                noticed = (*say_of_last(night, last), notice)
                 night.notice(noticed)
-                night.report(tuple(news_of_night(noticed, language)), is_all=False)
+                night.report(tuple(find_news_of_night(noticed, language)), is_all=False)
                 _tell(fleet, night, ways, watch, last)
                 night.notice((*noticed, *ways.untold.values()))
                 if not night.was_interrupted:  # else the next night still has to tidy up
                     night.end(_now())
                 raise MissingError.at(place, notice.english)
             mistakes = (NightNotice(About.JOBS, same(each.message)) for each in unmatched)
-            noticed = (*notices(known, night, gone, last), *mistakes)
+            noticed = (*list_notices(known, night, gone, last), *mistakes)
             night.notice(noticed)
-            night.report(tuple(news_of_night(noticed, language)), is_all=False)  # it may be killed, too
+            night.report(tuple(find_news_of_night(noticed, language)), is_all=False)  # it may be killed, too
             for notice in noticed:
                 watch.noticed(notice)
             witness = _Witness(watch, known, ways)
@@ -134,14 +150,14 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 names = [known.job_of(path) for path in known.jobs]
                 now = PastNight(began, None, noticed)
                 state = state_of(fleet.name, ledger.entries(), names, now, rules)
-                night.report(tuple(news_of(state, language)))
+                night.report(tuple(find_news_of(state, language)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
             night.end(_now())
 
 
 @contextlib.contextmanager
-def _alive(fleet: FleetFile) -> Iterator[None]:
+def _show_alive(fleet: FleetFile) -> Iterator[None]:
     """Show that the night is at work, and then that it has ended."""
     _beat(fleet, is_at_work=True)
     try:
@@ -152,7 +168,7 @@ def _alive(fleet: FleetFile) -> Iterator[None]:
 
 def _beat(fleet: FleetFile, *, is_at_work: bool) -> None:
     """Write the sign of life; where it cannot be written, its age tells."""
-    text = heartbeat(fleet.name, dt.datetime.fromisoformat(_now()), is_at_work=is_at_work)
+    text = write_heartbeat(fleet.name, dt.datetime.fromisoformat(_now()), is_at_work=is_at_work)
     with contextlib.suppress(AccessError):
         write([Document(fleet.heartbeat, text.encode())])
 
@@ -169,7 +185,7 @@ class _Witness:
     def happened(self, happened: Happened) -> None:
         self.saw_something |= happened.what is not What.UNCHANGED
         self.watch.happened(happened)
-        message = news_of_job(happened, self.known)
+        message = find_news_of_job(happened, self.known)
         if message:
             for way in self.ways.of(message.occasion):
                 self.ways.tell(way, message, self.watch.noticed)
@@ -180,7 +196,7 @@ def _teach(fleet: FleetFile, ledger: Ledger, watch: Watch) -> Iterator[NightNoti
     if fleet.keys.priors is None:
         return
     try:
-        for path in write(priors(ledger.lessons(), fleet.keys.priors)):
+        for path in write(make_priors(ledger.lessons(), fleet.keys.priors)):
             watch.learned(path)
     except AccessError as error:
         notice = NightNotice(About.PRIORS, _UNTAUGHT.given(problem=str(error.problems[0])))
@@ -219,7 +235,7 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
     night = work.night
     if night.was_interrupted:
         _tidy(known)
-    why = reasons(known)
+    why = find_reasons(known)
     with contextlib.ExitStack() as stack:
         due = sum(map(bool, why.values()))
         executor = (
@@ -233,14 +249,16 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
         desk = Desk(known, night)
         for happened in (
             *map(desk.vanished, work.gone),
-            *overdue(known, night.subjects(NewsKind.OVERDUE), night.began),
+            *find_overdue(known, night.subjects(NewsKind.OVERDUE), night.began),
         ):
             witness.happened(happened)
         for each in planned:
             if each.due not in _MADE:
-                witness.happened(_not_made(each, desk))
+                witness.happened(_record_not_made(each, desk))
         tasks = {each.path.absolute(): each for each in planned if each.due in _MADE}
-        remaining = [(each, _task(each, known, order.plugins, work)) for each in reversed(tasks.values())]
+        remaining = [
+            (each, _make_task(each, known, order.plugins, work)) for each in reversed(tasks.values())
+        ]
 
         def waiting() -> Iterator[Task]:
             while remaining and time.monotonic() < work.ends:
@@ -253,8 +271,8 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
                 witness.happened(replace(happened, is_upgrade=is_upgrade))
         for each, _ in reversed(remaining):
             witness.happened(Happened(What.LEFT, each.job, each.number, each.why))
-    yield from left(len(remaining), due)
-    yield from documents(known, planned)
+    yield from say_left(len(remaining), due)
+    yield from find_left_documents(known, planned)
 
 
 def _write_sign_of_life(fleet: FleetFile, night: Night) -> None:
@@ -263,7 +281,7 @@ def _write_sign_of_life(fleet: FleetFile, night: Night) -> None:
     _beat(fleet, is_at_work=True)
 
 
-def _not_made(planned: PlannedJob, desk: Desk) -> Happened:
+def _record_not_made(planned: PlannedJob, desk: Desk) -> Happened:
     if planned.due is Due.NOTHING:
         return Happened(What.UNCHANGED, planned.job, planned.number)
     if planned.due is Due.SET_ASIDE:
@@ -273,7 +291,7 @@ def _not_made(planned: PlannedJob, desk: Desk) -> Happened:
     return desk.failed(planned, Failed(planned.problems))
 
 
-def overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened]:
+def find_overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened]:
     """Yield the axes that should have been measured again, and of which no night told that."""
     latest: dict[tuple[str, str], tuple[str, Standing]] = {}
     for job, standing in sorted(known.standings.items()):
@@ -284,7 +302,7 @@ def overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened
                 latest[axis] = job, standing
     for job, standing in latest.values():
         subject = standing.subject
-        due = due_date(subject.measured, subject.interval or known.fleet.keys.interval)
+        due = compute_due_date(subject.measured, subject.interval or known.fleet.keys.interval)
         if due and due <= now[:10] and subject.term(due) not in told:
             why = (
                 f"{subject.of_axis} was measured on {subject.measured}, and was to be measured again by {due}"
@@ -292,7 +310,7 @@ def overdue(known: Evening, told: Container[str], now: str) -> Iterator[Happened
             yield Happened(What.OVERDUE, job, standing.number, why)
 
 
-def _task(planned: PlannedJob, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:
+def _make_task(planned: PlannedJob, known: Evening, plugins: tuple[Path, ...], work: _Work) -> Task:
     issued, limits = planned.issued, known.fleet.keys.limits
     patience = max(Limits().seconds, _TIMES_LONGEST * work.longest.get(planned.job, 0.0))
     is_elsewhere = known.fleet.keys.executor.kind == "dask"  # other machines work in other folders
@@ -306,7 +324,7 @@ def _task(planned: PlannedJob, known: Evening, plugins: tuple[Path, ...], work: 
         programs=known.now.programs,
         limits=Limits(limits.seconds or patience, limits.megabytes),
         stated=work.night.stated(planned.job) if _is_upgrade(planned, known) else None,
-        confine=confinement(),
+        confine=find_confinement(),
     )
 
 
@@ -316,7 +334,7 @@ def _is_upgrade(planned: PlannedJob, known: Evening) -> bool:
     if standing is None or standing.basis is None or standing.state is not State.MADE:
         return False
     as_before = replace(known.now, programs=standing.basis.programs)
-    return not any(changes(standing.basis, Disk(known.fleet.path.parent), as_before))
+    return not any(say_changes(standing.basis, Disk(known.fleet.path.parent), as_before))
 
 
 def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]) -> Pool | Cluster:

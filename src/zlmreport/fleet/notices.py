@@ -10,7 +10,7 @@ from zlmreport.errors import Place, ZlmreportError
 from zlmreport.fleet.basis import Disk
 from zlmreport.fleet.ledger import Night
 from zlmreport.fleet.overview_words import AS_DRAFTS
-from zlmreport.fleet.plan import Evening, PlannedJob, damage
+from zlmreport.fleet.plan import Evening, PlannedJob, find_damage
 from zlmreport.fleet.records import About, NightNotice, PastNight, State
 from zlmreport.job.fleet import FleetFile, is_retired, number_of
 from zlmreport.language import Words, same
@@ -67,7 +67,7 @@ _DOCUMENTS = Words(
 _MORE = Words("{numbers} and {more} more")
 
 
-def vanished(known: Evening) -> tuple[str, ...]:
+def find_vanished(known: Evening) -> tuple[str, ...]:
     """Return the jobs that the ledger knows, whose files are gone, and not on purpose."""
     there = set(map(known.job_of, known.jobs))
     return tuple(
@@ -75,19 +75,19 @@ def vanished(known: Evening) -> tuple[str, ...]:
     )
 
 
-def notices(
+def list_notices(
     known: Evening, night: Night, gone: Sequence[str], last: PastNight | None
 ) -> Iterator[NightNotice]:
     """Yield what is to be said before a night, and lets it go on."""
-    yield from of_last(night, last)
+    yield from say_of_last(night, last)
     if last and dt.datetime.fromisoformat(night.began) < last.began:
         yield NightNotice(About.CLOCK, _CLOCK.given(now=night.began, last=last.began.isoformat()))
-    new, before = _newly_gone(known, gone), len(known.jobs) + len(gone)
+    new, before = _find_newly_gone(known, gone), len(known.jobs) + len(gone)
     if len(new) > _FEW and len(new) > _PART * before:
         yield NightNotice(About.JOBS, _MANY_GONE.given(gone=len(new), before=before))
 
 
-def of_last(night: Night, last: PastNight | None) -> Iterator[NightNotice]:
+def say_of_last(night: Night, last: PastNight | None) -> Iterator[NightNotice]:
     """Yield how the night before ended, if it did not end by itself; one that was refused since told it."""
     if night.took_over:
         yield NightNotice(About.STUCK, _STUCK.given(night=night.took_over))
@@ -96,23 +96,23 @@ def of_last(night: Night, last: PastNight | None) -> Iterator[NightNotice]:
     told = {each.about for each in last.notices}
     if About.BROKEN not in told or not told & _REFUSALS:
         states = [_CAME_TO[each].given(number=last.came_to[each]) for each in State if each in last.came_to]
-        came_to = _listed(states) if states else _NOTHING
+        came_to = _list_phrases(states) if states else _NOTHING
         beat = (last.beat or last.began).isoformat()
         text = _BROKEN.given(night=last.began.isoformat(), beat=beat, states=came_to)
         yield NightNotice(About.BROKEN, text)
 
 
-def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotice] | None:
+def find_missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotice] | None:
     """Return what is not there and where: a folder that is not mounted, another fleet's ledger; else None."""
     fleet = known.fleet
-    new = _newly_gone(known, gone)
+    new = _find_newly_gone(known, gone)
     if (gone and not known.jobs) or (len(new) > _FEW and len(new) > len(known.jobs)):
         text = _MOST_GONE.given(gone=len(new or gone), number=len(known.jobs) + len(gone))
         return Place(str(fleet.path)), NightNotice(About.JOBS, text)
     own = [each for each in known.certificates.values() if each.fleet == fleet.name and each.files]
     if fleet.output.exists() and not fleet.output.is_dir():
         return Place(str(fleet.output)), NightNotice(About.FOLDER, _NO_FOLDER)
-    is_empty = not fleet.output.is_dir() or not _other_than_reports(fleet)
+    is_empty = not fleet.output.is_dir() or not _has_other_than_reports(fleet)
     if own and is_empty:
         return Place(str(fleet.output)), NightNotice(About.FOLDER, _EMPTY.given(number=len(own)))
     if known.standings or is_empty:
@@ -127,13 +127,13 @@ def missing(known: Evening, gone: Sequence[str]) -> tuple[Place, NightNotice] | 
     return None
 
 
-def left(number: int, due: int) -> Iterator[NightNotice]:
+def say_left(number: int, due: int) -> Iterator[NightNotice]:
     """Yield how many jobs there was no time for."""
     if number:
         yield NightNotice(About.LEFT, _LEFT.given(number=number, due=due) if due > 1 else _LEFT_ALONE)
 
 
-def documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterator[NightNotice]:
+def find_left_documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterator[NightNotice]:
     """Yield, after a night, what became of certificates that no job made again.
 
     They are those of retired jobs, of jobs that have another number by now, or that are drafts.
@@ -146,7 +146,7 @@ def documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterator[NightNo
         if issued.fleet == fleet.name
         and number not in refused
         and not is_retired(number, fleet)
-        and any(damage(fleet.output, issued.files, shelf))
+        and any(find_damage(fleet.output, issued.files, shelf))
     ]
     if damaged:
         numbers = same(", ".join(damaged[:_NAMED]))
@@ -155,18 +155,18 @@ def documents(known: Evening, planned: Iterable[PlannedJob]) -> Iterator[NightNo
         yield NightNotice(About.DOCUMENTS, _DOCUMENTS.given(numbers=text))
 
 
-def _listed(words: Sequence[Words]) -> Words:
+def _list_phrases(words: Sequence[Words]) -> Words:
     """Return phrases one after the other."""
     names = [f"word{index}" for index in range(len(words))]
     phrase = ", ".join(f"{{{name}}}" for name in names)
     return Words(phrase, values=dict(zip(names, words, strict=True)))
 
 
-def _newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:
+def _find_newly_gone(known: Evening, gone: Sequence[str]) -> Sequence[str]:
     return [job for job in gone if known.standings[job].state is not State.VANISHED]
 
 
-def _other_than_reports(fleet: FleetFile) -> bool:
+def _has_other_than_reports(fleet: FleetFile) -> bool:
     """Whether anything lies in the folder of certificates but overviews, which are written there, too."""
     return any(path.name not in fleet.reports for path in fleet.output.iterdir())
 

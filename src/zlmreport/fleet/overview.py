@@ -23,29 +23,29 @@ from zlmreport.document.typesetting.overview import (
     OverviewTableContext,
     OverviewToolsContext,
     TileContext,
-    drawing,
-    overview_script,
-    overview_style,
+    make_drawing,
+    make_overview_style,
+    read_overview_script,
 )
-from zlmreport.document.typesetting.resources import fingerprint
+from zlmreport.document.typesetting.resources import digest_script
 from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.causes import LEAST_MACHINES, Shared, shared
-from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, by_axis
-from zlmreport.fleet.overview_cells import CellWriter, Names, key_of
-from zlmreport.fleet.overview_trend import trend_in_full
+from zlmreport.fleet.causes import LEAST_MACHINES, Shared, find_shared
+from zlmreport.fleet.drifts import FALSE_SHARE, LEAST_DATES, Trend, group_by_axis
+from zlmreport.fleet.overview_cells import CellWriter, Names, make_key_of
+from zlmreport.fleet.overview_trend import show_trend_in_full
 from zlmreport.fleet.records import LedgerEntry, NightNotice, PastNight, RecordedParameter, State
 from zlmreport.fleet.state import SOON, DueDate, FailingJob, FleetState
-from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, level_of
-from zlmreport.fleet.trend import Calibration, Series, line_through
-from zlmreport.fleet.trend_graph import Period, trend_graph
+from zlmreport.fleet.steps import LEAST_BEFORE, SEEN, SMALL, compute_level_of
+from zlmreport.fleet.trend import Calibration, Series, fit_line_through
+from zlmreport.fleet.trend_graph import Period, draw_trend
 from zlmreport.language import Language, Words
 from zlmreport.version import __version__
 
 _MINUTE = 60
 
 
-def overview(state: FleetState, language: Language, names: Names, files: str) -> str:
+def make_overview(state: FleetState, language: Language, names: Names, files: str) -> str:
     """Return the page; the same ledger gives the same page.
 
     `files`: Folder of the certificates, relative to that of the page.
@@ -53,31 +53,31 @@ def overview(state: FleetState, language: Language, names: Names, files: str) ->
     dates = [each.measured for trend in state.trends for each in trend.series.calibrations]
     period = Period(min(dates, default=date.min), max(dates, default=date.min))
     printed = replace(state, trends=tuple(map(names.as_printed, state.trends)))
-    chosen = _shown_in_full(printed)
-    anchors = {key_of(each.series): f"trend-{number}" for number, each in enumerate(chosen, 1)}
+    chosen = _choose_shown_in_full(printed)
+    anchors = {make_key_of(each.series): f"trend-{number}" for number, each in enumerate(chosen, 1)}
     cells = CellWriter(language, names, period, files, state.effects, anchors)
-    script = overview_script()
+    script = read_overview_script()
     return render(
         OverviewContext(
             language=language.value,
             title=cells.say(words.TITLE),
             subtitle=state.name,
             generator=f"zlmreport {__version__}",
-            style=overview_style(),
+            style=make_overview_style(),
             script=script,
-            policy=fingerprint(script),
-            facts=tuple(_facts(printed, cells)),
-            tiles=tuple(_tiles(printed, cells)),
+            policy=digest_script(script),
+            facts=tuple(_list_facts(printed, cells)),
+            tiles=tuple(_make_tiles(printed, cells)),
             tiles_title=cells.say(words.HEADLINE),
-            sections=tuple(map(render, _sections(printed, cells))),
-            trends=tuple(render(trend_in_full(each, cells)) for each in chosen),
+            sections=tuple(map(render, _make_sections(printed, cells))),
+            trends=tuple(render(show_trend_in_full(each, cells)) for each in chosen),
         )
     )
 
 
-def _facts(state: FleetState, cells: CellWriter) -> Iterator[tuple[str, str]]:
+def _list_facts(state: FleetState, cells: CellWriter) -> Iterator[tuple[str, str]]:
     yield cells.say(words.LAST_RUN), cells.say(_run(state.night))
-    yield cells.say(words.JOBS), cells.say(_jobs_done(state))
+    yield cells.say(words.JOBS), cells.say(_say_jobs_done(state))
     yield cells.say(words.CERTIFICATES), str(len(state.certificates))
 
 
@@ -94,21 +94,21 @@ def _run(night: PastNight | None) -> Words:
     return words.RAN.given(began=began, duration=duration.given(number=seconds))
 
 
-def _jobs_done(state: FleetState) -> Words:
+def _say_jobs_done(state: FleetState) -> Words:
     """Return what became of the jobs of the last run."""
     counts = state.counts
     drafts = words.AS_DRAFTS.given(number=counts["draft"])
     return words.JOBS_DONE.given(jobs=state.jobs, drafts=drafts, **counts)
 
 
-def _tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
+def _make_tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
     counted = (
         (len(state.notices), words.NOTICED, "noticed"),
         (len(state.failures), words.FAILED, "failed"),
         (len(state.not_met), words.NOT_MET, "not-met"),
         (len(state.undecided), words.UNDECIDED, "undecided"),
-        (len(by_axis(state.changed)), words.CHANGED, "changed"),
-        (len(by_axis(state.drifting)), words.DRIFTING, "drifting"),
+        (len(group_by_axis(state.changed)), words.CHANGED, "changed"),
+        (len(group_by_axis(state.drifting)), words.DRIFTING, "drifting"),
         (len(state.overdue), words.OVERDUE, "overdue"),
         (len(state.soon), words.DUE_SOON, "due"),
         (len(state.drafts), words.DRAFTS, "drafts"),
@@ -121,23 +121,23 @@ def _tiles(state: FleetState, cells: CellWriter) -> Iterator[TileContext]:
     yield TileContext(str(len(state.axes)), cells.say(words.AXES), "calm", "machines")
 
 
-def _sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSectionContext]:
-    needed = tuple(map(render, needs(state, cells)))
+def _make_sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSectionContext]:
+    needed = tuple(map(render, list_needs(state, cells)))
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
     if state.terms:
-        soon = _DUE.of(_terms(state.soon, cells), cells)
+        soon = _DUE.of(_list_terms(state.soon, cells), cells)
         nothing = "" if state.soon else cells.say(words.NOTHING_DUE.given(days=SOON.days))
         tables = (render(soon),) if state.soon else ()
         yield OverviewSectionContext("due", cells.say(words.DUE_SOON), nothing, "calm", tables)
-    common = shared(state.effects)
+    common = find_shared(state.effects)
     if common:
         found = [(OverviewCellContext(each.axis, note=each.type), [each]) for each in common]
         tables = (render(_SHARED.of(found, cells)),)
         yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
-    shown = (render(tools(state, cells)), render(machines(state, cells))) if state.trends else ()
+    shown = (render(make_tools(state, cells)), render(list_machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
-    reading = (render(legend(cells)),)
+    reading = (render(make_legend(cells)),)
     yield OverviewSectionContext("reading", cells.say(words.READING), "", "", reading)
 
 
@@ -177,11 +177,11 @@ class _Table(Generic[T]):
         )
 
 
-def _message(text: str) -> OverviewCellContext:
+def _make_message(text: str) -> OverviewCellContext:
     return OverviewCellContext(text, style="message")
 
 
-def _date(moment: str) -> OverviewCellContext:
+def _make_date(moment: str) -> OverviewCellContext:
     return OverviewCellContext(moment[:10], style="date")
 
 
@@ -193,15 +193,15 @@ _VALUES = (
 _COURSE = (words.COURSE, CellWriter.course)
 _OF_LIMITS = (*_VALUES, _COURSE, (words.CERTIFICATE, CellWriter.latest))
 _OF_TERMS: tuple[tuple[Words, Callable[[CellWriter, DueDate], OverviewCellContext]], ...] = (
-    (words.MEASURED_ON, lambda _, term: _date(term.entry.measured)),
-    (words.DUE, lambda _, term: _date(term.due.isoformat())),
+    (words.MEASURED_ON, lambda _, term: _make_date(term.entry.measured)),
+    (words.DUE, lambda _, term: _make_date(term.due.isoformat())),
 )
 _NOTICED: _Table[NightNotice] = _Table(
     "noticed",
     words.NOTICED,
     words.NOTICED_CAPTION,
     words.ABOUT,
-    ((words.MESSAGE, lambda cells, notice: _message(cells.say(notice.text))),),
+    ((words.MESSAGE, lambda cells, notice: _make_message(cells.say(notice.text))),),
 )
 _FAILED: _Table[FailingJob] = _Table(
     "failed",
@@ -209,8 +209,8 @@ _FAILED: _Table[FailingJob] = _Table(
     words.FAILED_CAPTION,
     words.JOB,
     (
-        (words.MESSAGE, lambda _, failure: _message(failure.entry.message)),
-        (words.SINCE, lambda _, failure: _date(failure.since)),
+        (words.MESSAGE, lambda _, failure: _make_message(failure.entry.message)),
+        (words.SINCE, lambda _, failure: _make_date(failure.since)),
     ),
 )
 _NOT_MET = _Table("not-met", words.NOT_MET, words.NOT_MET_CAPTION, words.AXIS, _OF_LIMITS)
@@ -239,9 +239,9 @@ _DRAFTS: _Table[LedgerEntry] = _Table(
     words.DRAFTS_CAPTION,
     words.CERTIFICATE,
     (
-        (words.REASON, lambda _, entry: _message(entry.message)),
+        (words.REASON, lambda _, entry: _make_message(entry.message)),
         (words.JOB, lambda _, entry: OverviewCellContext(entry.job)),
-        (words.SINCE, lambda _, entry: _date(entry.night)),
+        (words.SINCE, lambda _, entry: _make_date(entry.night)),
     ),
 )
 _SHARED: _Table[Shared] = _Table(
@@ -260,7 +260,7 @@ _SHARED: _Table[Shared] = _Table(
 )
 
 
-def needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableContext]:
+def list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableContext]:
     """Yield a table of each kind of thing that needs somebody; none where there is nothing of the kind."""
     noticed = [(OverviewCellContext(cells.say(words.ABOUTS[each.about])), [each]) for each in state.notices]
     failed = [
@@ -269,28 +269,32 @@ def needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableContext
     tables = (
         _NOTICED.of(noticed, cells),
         _FAILED.of(failed, cells),
-        _NOT_MET.of(_axes(state.not_met, cells), cells),
-        _UNDECIDED.of(_axes(state.undecided, cells), cells),
-        _CHANGED.of(_axes(state.changed, cells), cells),
-        _DRIFTING.of(_drifts(state.drifting, cells), cells),
-        _OVERDUE.of(_terms(state.overdue, cells), cells),
+        _NOT_MET.of(_list_axes(state.not_met, cells), cells),
+        _UNDECIDED.of(_list_axes(state.undecided, cells), cells),
+        _CHANGED.of(_list_axes(state.changed, cells), cells),
+        _DRIFTING.of(_list_drifts(state.drifting, cells), cells),
+        _OVERDUE.of(_list_terms(state.overdue, cells), cells),
         _DRAFTS.of([(cells.issued(each), [each]) for each in state.drafts], cells),
     )
     return (each for each in tables if each.groups)
 
 
-def _axes(trends: Sequence[Trend], cells: CellWriter) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
-    return ((cells.axis(each[0]), each) for each in by_axis(trends).values())
+def _list_axes(
+    trends: Sequence[Trend], cells: CellWriter
+) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
+    return ((cells.axis(each[0]), each) for each in group_by_axis(trends).values())
 
 
-def _terms(
+def _list_terms(
     terms: Sequence[DueDate], cells: CellWriter
 ) -> Iterator[tuple[OverviewCellContext, list[DueDate]]]:
     return ((cells.issued(each.entry), [each]) for each in terms)
 
 
-def _drifts(trends: Sequence[Trend], cells: CellWriter) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
-    for head, of_axis in _axes(trends, cells):
+def _list_drifts(
+    trends: Sequence[Trend], cells: CellWriter
+) -> Iterator[tuple[OverviewCellContext, list[Trend]]]:
+    for head, of_axis in _list_axes(trends, cells):
         # An axis of which nothing is limited still shows its first parameter.
         shown = [each for each in of_axis if each.series.latest.limit is not None] or of_axis[:1]
         also = cells.symbols(each for each in of_axis if each not in shown)
@@ -298,10 +302,10 @@ def _drifts(trends: Sequence[Trend], cells: CellWriter) -> Iterator[tuple[Overvi
         yield replace(head, note=note), shown
 
 
-def machines(state: FleetState, cells: CellWriter) -> OverviewMachinesContext:
+def list_machines(state: FleetState, cells: CellWriter) -> OverviewMachinesContext:
     """Return all axes, machine by machine: of each its parameters, a row each."""
-    marks, due = _marks(state), {term.entry.axis_key: term.due for term in state.terms}
-    axes = by_axis(state.trends)
+    marks, due = _list_marks(state), {term.entry.axis_key: term.due for term in state.terms}
+    axes = group_by_axis(state.trends)
     of_machine = groupby(axes.items(), key=lambda item: item[0][0])
     headings = (words.AXIS, *(heading for heading, _ in _OF_AXES), words.MEASURED_ON)
     return OverviewMachinesContext(
@@ -309,7 +313,7 @@ def machines(state: FleetState, cells: CellWriter) -> OverviewMachinesContext:
         count=str(len(axes)),
         caption=cells.say(words.MACHINE_CAPTION.given(first=cells.period.first.isoformat())),
         headings=tuple(map(cells.say, headings)),
-        machines=tuple(_machine(dict(its_axes), marks, due, cells) for _, its_axes in of_machine),
+        machines=tuple(_make_machine(dict(its_axes), marks, due, cells) for _, its_axes in of_machine),
     )
 
 
@@ -323,7 +327,7 @@ _OF_AXES: tuple[tuple[Words, Callable[[CellWriter, Trend], OverviewCellContext]]
 )
 
 
-def _machine(
+def _make_machine(
     axes: Mapping[tuple[str, str], Sequence[Trend]],
     marks: Sequence[tuple[str, Words, frozenset[tuple[str, str]]]],
     due: Mapping[tuple[str, str], date],
@@ -331,8 +335,8 @@ def _machine(
 ) -> OverviewMachineContext:
     rows = []
     for key, trends in axes.items():
-        shown = _shown(trends)
-        facts = _facts_of(trends, [mark for mark, _, marked in marks if key in marked], due.get(key))
+        shown = _choose_shown(trends)
+        facts = _list_facts_of(trends, [mark for mark, _, marked in marks if key in marked], due.get(key))
         for number, trend in enumerate(shown):
             beside = tuple(cell(cells, trend) for _, cell in _OF_AXES)
             head = None if number else cells.quantity(trend)
@@ -344,18 +348,18 @@ def _machine(
     return OverviewMachineContext(name, cells.say(counted), tuple(rows))
 
 
-def _shown_in_full(state: FleetState) -> tuple[Trend, ...]:
+def _choose_shown_in_full(state: FleetState) -> tuple[Trend, ...]:
     """Return the trends whose small graphs stand anywhere, in the order of the ledger."""
-    of_axes = [each for trends in by_axis(state.trends).values() for each in _shown(trends)]
-    drifting = [each for trends in by_axis(state.drifting).values() for each in trends]
+    of_axes = [each for trends in group_by_axis(state.trends).values() for each in _choose_shown(trends)]
+    drifting = [each for trends in group_by_axis(state.drifting).values() for each in trends]
     named = (*of_axes, *state.not_met, *state.undecided, *state.changed, *drifting)
-    keys = {key_of(each.series) for each in named}
-    return tuple(each for each in state.trends if key_of(each.series) in keys)
+    keys = {make_key_of(each.series) for each in named}
+    return tuple(each for each in state.trends if make_key_of(each.series) in keys)
 
 
-def tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
+def make_tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
     """Return what a reader searches, chooses and orders the axes by: only what there is can be chosen."""
-    choices = [(key, f"{cells.say(label)} ({len(axes)})") for key, label, axes in _marks(state) if axes]
+    choices = [(key, f"{cells.say(label)} ({len(axes)})") for key, label, axes in _list_marks(state) if axes]
     orders = (
         *(("machine", words.BY_MACHINE), ("used", words.BY_USE)),
         *((("due", words.BY_DUE),) if state.terms else ()),
@@ -369,27 +373,29 @@ def tools(state: FleetState, cells: CellWriter) -> OverviewToolsContext:
             ("order", cells.say(words.ORDER), tuple((key, cells.say(label)) for key, label in orders)),
         ),
         # How many are shown the page says itself, whenever somebody searches.
-        found=cells.say(words.FOUND.given(shown="{shown}", number=len(by_axis(state.trends)))),
+        found=cells.say(words.FOUND.given(shown="{shown}", number=len(group_by_axis(state.trends)))),
     )
 
 
-def _marks(state: FleetState) -> Sequence[tuple[str, Words, frozenset[tuple[str, str]]]]:
+def _list_marks(state: FleetState) -> Sequence[tuple[str, Words, frozenset[tuple[str, str]]]]:
     """Return what an axis may be chosen by, named as the tables of what needs somebody, with these axes."""
     return (
-        ("not-met", words.NOT_MET, frozenset(by_axis(state.not_met))),
-        ("undecided", words.UNDECIDED, frozenset(by_axis(state.undecided))),
-        ("changed", words.CHANGED, frozenset(by_axis(state.changed))),
-        ("drifting", words.DRIFTING, frozenset(by_axis(state.drifting))),
+        ("not-met", words.NOT_MET, frozenset(group_by_axis(state.not_met))),
+        ("undecided", words.UNDECIDED, frozenset(group_by_axis(state.undecided))),
+        ("changed", words.CHANGED, frozenset(group_by_axis(state.changed))),
+        ("drifting", words.DRIFTING, frozenset(group_by_axis(state.drifting))),
         ("overdue", words.OVERDUE, frozenset(term.entry.axis_key for term in state.overdue)),
         ("due", words.DUE_SOON, frozenset(term.entry.axis_key for term in state.soon)),
     )
 
 
-def _latest(trends: Sequence[Trend]) -> Calibration:
+def _find_latest(trends: Sequence[Trend]) -> Calibration:
     return max((trend.series.calibrations[-1] for trend in trends), key=lambda each: each.measured)
 
 
-def _facts_of(trends: Sequence[Trend], marks: Sequence[str], due: date | None) -> tuple[tuple[str, str], ...]:
+def _list_facts_of(
+    trends: Sequence[Trend], marks: Sequence[str], due: date | None
+) -> tuple[tuple[str, str], ...]:
     """Return by what a reader chooses and orders an axis."""
     latest = [trend.series.latest for trend in trends]
     used = [abs(each.value) / each.limit for each in latest if each.limit]
@@ -397,12 +403,12 @@ def _facts_of(trends: Sequence[Trend], marks: Sequence[str], due: date | None) -
         ("axis", "\n".join(trends[0].series.axis_key)),
         ("marks", " ".join(marks)),
         ("used", f"{max(used):.3f}" if used else ""),
-        ("measured", _latest(trends).measured.isoformat()),
+        ("measured", _find_latest(trends).measured.isoformat()),
         ("due", due.isoformat() if due else ""),
     )
 
 
-def _shown(trends: Sequence[Trend]) -> tuple[Trend, ...]:
+def _choose_shown(trends: Sequence[Trend]) -> tuple[Trend, ...]:
     """Return the parameters with a limit, and the first of each standard that limits none."""
     limited = {each.series.standard for each in trends if each.series.latest.limit is not None}
     first = {
@@ -422,7 +428,7 @@ _SAMPLE = (8.4, 9.9, 11.2, 13.5, 14.6, 17.0, 18.4, 20.6)
 _UNCERTAINTY, _LIMIT = 1.5, 20.0
 
 
-def legend(cells: CellWriter) -> OverviewLegendContext:
+def make_legend(cells: CellWriter) -> OverviewLegendContext:
     """Return the legend."""
     terms = (
         (words.TERM_VALUE, words.MEANING_VALUE),
@@ -434,7 +440,7 @@ def legend(cells: CellWriter) -> OverviewLegendContext:
     steps = words.STEP_METHOD.given(
         scatters=round(SEEN),
         least=LEAST_BEFORE,
-        alarms=round(1 / level_of(LEAST_BEFORE)),
+        alarms=round(1 / compute_level_of(LEAST_BEFORE)),
         small=round(100 * SMALL),
     )
     method = words.DRIFT_METHOD.given(least=LEAST_DATES, share=round(100 * FALSE_SHARE))
@@ -442,7 +448,9 @@ def legend(cells: CellWriter) -> OverviewLegendContext:
     calibrations = sample.series.calibrations
     period = Period(calibrations[0].measured, calibrations[-1].measured)
     return OverviewLegendContext(
-        drawing=drawing(trend_graph(sample, period, cells.say(words.SAMPLE), cells.language.decimal_sign)),
+        drawing=make_drawing(
+            draw_trend(sample, period, cells.say(words.SAMPLE), cells.language.decimal_sign)
+        ),
         terms=tuple((cells.say(term), cells.say(meaning)) for term, meaning in terms),
         paragraphs=(cells.say(steps), cells.say(method), cells.say(words.FORECAST_METHOD)),
     )
@@ -459,4 +467,4 @@ def _sample() -> Trend:
         for quarter, value in enumerate(_SAMPLE)
     )
     series = Series("", "", "", "", "um", calibrations)
-    return Trend(series, line_through(series), drifts=True)
+    return Trend(series, fit_line_through(series), drifts=True)

@@ -8,19 +8,25 @@ from datetime import date
 from pathlib import Path
 from urllib.parse import quote
 
-from zlmreport.document.typesetting.overview import LinkContext, OverviewCellContext, drawing
-from zlmreport.document.typesetting.templates import symbol
+from zlmreport.document.typesetting.overview import LinkContext, OverviewCellContext, make_drawing
+from zlmreport.document.typesetting.templates import set_symbol
 from zlmreport.evaluation.evaluation import Quantity
 from zlmreport.fleet import overview_words as words
-from zlmreport.fleet.causes import cause_of
+from zlmreport.fleet.causes import find_cause_of
 from zlmreport.fleet.drifts import LEAST_DATES, Trend
 from zlmreport.fleet.records import LedgerEntry
 from zlmreport.fleet.trend import MOST_YEARS_AHEAD, Series
-from zlmreport.fleet.trend_graph import Period, trend_graph
+from zlmreport.fleet.trend_graph import Period, draw_trend
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number, general_number, p_value, plain, rounded_pair
-from zlmreport.measurement.error_symbol import error_named
-from zlmreport.measurement.units import printed_symbol, with_unit
+from zlmreport.language.formatting import (
+    round_pair,
+    write_fixed_number,
+    write_general_number,
+    write_p_value,
+    write_plain,
+)
+from zlmreport.measurement.error_symbol import find_error_named
+from zlmreport.measurement.units import find_printed_symbol, with_unit
 from zlmreport.plugin.protocols import Standard
 
 
@@ -88,7 +94,7 @@ class CellWriter:
         series = trend.series
         notation = self.names.notation(series.standard, series.symbol)
         return OverviewCellContext(
-            symbol(notation), style="parameter", note=self.names.designation(series.standard)
+            set_symbol(notation), style="parameter", note=self.names.designation(series.standard)
         )
 
     def value(self, trend: Trend) -> OverviewCellContext:
@@ -104,7 +110,7 @@ class CellWriter:
         if latest.limit is None:
             return OverviewCellContext("–", style="number")
         text = with_unit(
-            general_number(latest.limit, self.language.decimal_sign), printed_symbol(latest.unit)
+            write_general_number(latest.limit, self.language.decimal_sign), find_printed_symbol(latest.unit)
         )
         return OverviewCellContext(text, style="number")
 
@@ -123,10 +129,13 @@ class CellWriter:
     def course(self, trend: Trend) -> OverviewCellContext:
         """Return the small graph, which leads to the trend in full."""
         alternative = self.alternative(trend)
-        image = trend_graph(trend, self.period, alternative, self.language.decimal_sign)
-        anchor = self.anchors.get(key_of(trend.series), "")
+        image = draw_trend(trend, self.period, alternative, self.language.decimal_sign)
+        anchor = self.anchors.get(make_key_of(trend.series), "")
         return OverviewCellContext(
-            drawing=drawing(image), style="course", address=f"#{anchor}" if anchor else "", title=alternative
+            drawing=make_drawing(image),
+            style="course",
+            address=f"#{anchor}" if anchor else "",
+            title=alternative,
         )
 
     def drift(self, trend: Trend) -> OverviewCellContext:
@@ -139,7 +148,7 @@ class CellWriter:
         if not trend.drifts:
             return self._quiet(words.STEADY, self._visible(trend))
         chance = words.CHANCE.given(
-            p=p_value(trend.line.p_value, self.language.decimal_sign, least=_LEAST_P),
+            p=write_p_value(trend.line.p_value, self.language.decimal_sign, least=_LEAST_P),
             number=len(series.calibrations),
         )
         slope, rises = trend.line.slope, trend.line.slope > 0
@@ -171,7 +180,7 @@ class CellWriter:
 
     def came_with(self, trend: Trend) -> OverviewCellContext:
         """Return what else changed: a parameter of the error model, the instrument."""
-        cause = cause_of(trend, self.effects)
+        cause = find_cause_of(trend, self.effects)
         if cause is None:
             return OverviewCellContext("–", style="quiet")
         effect = f"{cause.effect} {self._signed(cause.change, cause.unit)}" if cause.effect else ""
@@ -187,11 +196,13 @@ class CellWriter:
         return f"{'+' if value > 0 else '−'} {self._number(abs(value), 1, unit)}"
 
     def _number(self, value: float, decimals: int, unit: str) -> str:
-        return with_unit(fixed_number(value, decimals, self.language.decimal_sign), printed_symbol(unit))
+        return with_unit(
+            write_fixed_number(value, decimals, self.language.decimal_sign), find_printed_symbol(unit)
+        )
 
     def _pair(self, value: float, expanded_uncertainty: float, unit: str, sign: str = "") -> str:
-        number, stated = rounded_pair(value, expanded_uncertainty, self.language.decimal_sign)
-        return with_unit(f"{sign}{number} ± {stated}", printed_symbol(unit))
+        number, stated = round_pair(value, expanded_uncertainty, self.language.decimal_sign)
+        return with_unit(f"{sign}{number} ± {stated}", find_printed_symbol(unit))
 
     def _quiet(self, said: Words, note: str = "") -> OverviewCellContext:
         return OverviewCellContext(self.say(said), style="quiet", note=note)
@@ -200,13 +211,13 @@ class CellWriter:
         """Return when the limit is met."""
         line, last = trend.line, trend.series.calibrations[-1]
         if trend.forecast:
-            bounds = {"earliest": _month(trend.forecast.earliest)}
+            bounds = {"earliest": _write_month(trend.forecast.earliest)}
             interval = words.NOT_BEFORE
             if trend.forecast.latest:
-                bounds["latest"] = _month(trend.forecast.latest)
+                bounds["latest"] = _write_month(trend.forecast.latest)
                 interval = words.BETWEEN
             note = self.say(interval.given(**bounds))
-            return OverviewCellContext(_month(trend.forecast.expected), style="due", note=note)
+            return OverviewCellContext(_write_month(trend.forecast.expected), style="due", note=note)
         if trend.series.latest.limit is None:
             return self._quiet(words.WITHOUT_LIMIT)
         if line is not None and line.slope * line.at(last.measured) < 0:
@@ -225,7 +236,7 @@ class CellWriter:
         """Return the axis; of an error that is not its positioning the symbol, with what it is."""
         axis = trend.series.axis
         try:
-            found = error_named(axis)
+            found = find_error_named(axis)
         except ValueError:
             return OverviewCellContext(axis)
         return OverviewCellContext(axis, note=self.say(found.measurand.title))
@@ -268,7 +279,7 @@ class CellWriter:
     def symbols(self, trends: Iterable[Trend]) -> str:
         """Return the symbols of trends as a plain line."""
         notations = [self.names.notation(each.series.standard, each.series.symbol) for each in trends]
-        return ", ".join(dict.fromkeys(map(plain, notations)))
+        return ", ".join(dict.fromkeys(map(write_plain, notations)))
 
     def alternative(self, trend: Trend) -> str:
         """Return what a graph of a trend shows, in a sentence or two."""
@@ -276,7 +287,7 @@ class CellWriter:
         text = self.say(
             words.ALTERNATIVE.given(
                 number=len(series.calibrations),
-                symbol=plain(self.names.notation(series.standard, series.symbol)),
+                symbol=write_plain(self.names.notation(series.standard, series.symbol)),
                 first=series.calibrations[0].measured.isoformat(),
                 last=series.calibrations[-1].measured.isoformat(),
                 value=self._number(series.latest.value, _DECIMALS, series.unit),
@@ -291,11 +302,11 @@ class CellWriter:
         return text
 
 
-def key_of(series: Series) -> tuple[str, str, str, str]:
+def make_key_of(series: Series) -> tuple[str, str, str, str]:
     """Return what tells a parameter of an axis from every other."""
     return series.machine, series.axis, series.standard, series.symbol
 
 
-def _month(day: date) -> str:
+def _write_month(day: date) -> str:
     """Return year and month: a forecast knows no days."""
     return day.strftime("%Y-%m")

@@ -10,21 +10,21 @@ from zlmreport.document.typesetting.overview import (
     OverviewGroupContext,
     OverviewTableContext,
     OverviewTrendContext,
-    drawing,
+    make_drawing,
 )
 from zlmreport.document.typesetting.templates import render
 from zlmreport.fleet import overview_words as words
 from zlmreport.fleet.drifts import Trend
-from zlmreport.fleet.overview_cells import CellWriter, key_of
+from zlmreport.fleet.overview_cells import CellWriter, make_key_of
 from zlmreport.fleet.trend import Series
-from zlmreport.fleet.trend_graph import LARGE, trend_graph
+from zlmreport.fleet.trend_graph import LARGE, draw_trend
 
 
-def trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
+def show_trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
     """Return what is shown of a trend when its small graph is chosen."""
     series = trend.series
-    key = cells.anchors[key_of(series)]
-    image = trend_graph(trend, cells.period, cells.alternative(trend), cells.language.decimal_sign, LARGE)
+    key = cells.anchors[make_key_of(series)]
+    image = draw_trend(trend, cells.period, cells.alternative(trend), cells.language.decimal_sign, LARGE)
     title = words.TREND.given(axis=series.axis, machine=cells.machine(series))
     effects = [each for each in cells.effects if each.axis_key == series.axis_key]
     return OverviewTrendContext(
@@ -32,28 +32,33 @@ def trend_in_full(trend: Trend, cells: CellWriter) -> OverviewTrendContext:
         title=cells.say(title),
         subtitle=f"{cells.symbols([trend])}, {cells.names.designation(series.standard)}",
         close=cells.say(words.CLOSE),
-        drawing=drawing(image),
-        facts=tuple(_facts(trend, cells)),
-        tables=tuple(map(render, filter(None, (_tests(key, series, cells), _effects(key, effects, cells))))),
+        drawing=make_drawing(image),
+        facts=tuple(_list_facts(trend, cells)),
+        tables=tuple(
+            map(
+                render,
+                filter(None, (_lay_out_tests(key, series, cells), _lay_out_effects(key, effects, cells))),
+            )
+        ),
     )
 
 
-def _facts(trend: Trend, cells: CellWriter) -> Iterator[tuple[str, str]]:
+def _list_facts(trend: Trend, cells: CellWriter) -> Iterator[tuple[str, str]]:
     """Yield what the tests say of a change and of a drift, and when the limit is reached."""
     if trend.step or trend.is_wilder:
         changed, came_with = cells.change(trend), cells.came_with(trend)
-        yield cells.say(words.CHANGE_FACT), _in_a_line(changed)
-        yield cells.say(words.CAME_WITH), _in_a_line(came_with)
-    yield cells.say(words.DRIFT_FACT), _in_a_line(cells.drift(trend))
+        yield cells.say(words.CHANGE_FACT), _write_in_a_line(changed)
+        yield cells.say(words.CAME_WITH), _write_in_a_line(came_with)
+    yield cells.say(words.DRIFT_FACT), _write_in_a_line(cells.drift(trend))
     if trend.drifts:
-        yield cells.say(words.REACHED), _in_a_line(cells.reached(trend))
+        yield cells.say(words.REACHED), _write_in_a_line(cells.reached(trend))
 
 
-def _in_a_line(cell: OverviewCellContext) -> str:
+def _write_in_a_line(cell: OverviewCellContext) -> str:
     return "; ".join(filter(None, (cell.content, cell.note)))
 
 
-def _tests(key: str, series: Series, cells: CellWriter) -> OverviewTableContext:
+def _lay_out_tests(key: str, series: Series, cells: CellWriter) -> OverviewTableContext:
     """Return every test, the latest first."""
     rows = []
     for each in reversed(series.calibrations):
@@ -75,7 +80,7 @@ def _tests(key: str, series: Series, cells: CellWriter) -> OverviewTableContext:
     )
 
 
-def _effects(key: str, effects: Sequence[Series], cells: CellWriter) -> OverviewTableContext | None:
+def _lay_out_effects(key: str, effects: Sequence[Series], cells: CellWriter) -> OverviewTableContext | None:
     """Return the parameters of the error model of an axis; None where it has none."""
     if not effects:
         return None

@@ -11,12 +11,20 @@ from enum import Enum
 from pathlib import Path
 
 from zlmreport.errors import Place, Problem, ZlmreportError
-from zlmreport.fleet.basis import CertificateBasis, Disk, KnownFile, changes, is_intact, path_in, sha256_of
+from zlmreport.fleet.basis import (
+    CertificateBasis,
+    Disk,
+    KnownFile,
+    compute_sha256,
+    is_intact,
+    say_changes,
+    write_path_in,
+)
 from zlmreport.fleet.ledger import Issued, Standing
 from zlmreport.fleet.records import State
 from zlmreport.job.extends import compose
 from zlmreport.job.fleet import FleetFile, number_of
-from zlmreport.job.tree import found_at, scalars
+from zlmreport.job.tree import find_at, walk_scalars
 
 
 class Due(Enum):
@@ -56,22 +64,22 @@ class Evening:
 
     def job_of(self, path: Path) -> str:
         """Return a job file as the ledger names it."""
-        return path_in(self.fleet.path.parent, path)
+        return write_path_in(self.fleet.path.parent, path)
 
 
-def reasons(evening: Evening) -> Mapping[Path, str]:
+def find_reasons(evening: Evening) -> Mapping[Path, str]:
     """Return why each job is due; nothing for one that is not. No job is read that is as it was."""
     sources, shelf = Disk(evening.fleet.path.parent), Disk(evening.fleet.output)
     return {
-        path: _why(evening.standings.get(evening.job_of(path)), evening, sources, shelf)
+        path: _say_why(evening.standings.get(evening.job_of(path)), evening, sources, shelf)
         for path in evening.jobs
     }
 
 
 def plan(evening: Evening, why: Mapping[Path, str]) -> tuple[PlannedJob, ...]:
     """Return every job with what is due about it, in the order of job files."""
-    planned = [_planned(path, why[path], evening) for path in evening.jobs]
-    return tuple(_without_shared_numbers(planned, evening))
+    planned = [_plan_job(path, why[path], evening) for path in evening.jobs]
+    return tuple(_refuse_shared_numbers(planned, evening))
 
 
 #: What became of a job, before the day.
@@ -85,21 +93,21 @@ _ENDED = {
 }
 
 
-def _why(standing: Standing | None, evening: Evening, sources: Disk, shelf: Disk) -> str:
+def _say_why(standing: Standing | None, evening: Evening, sources: Disk, shelf: Disk) -> str:
     """Say why a job is due; nothing if it is not."""
     if standing is None:
         return "new"
     if standing.basis is None:
-        return f"{_ENDED[standing.state]} {_day(standing.night)}"
-    found = list(changes(standing.basis, sources, evening.now))
+        return f"{_ENDED[standing.state]} {_read_day(standing.night)}"
+    found = list(say_changes(standing.basis, sources, evening.now))
     if found:
-        return f"{'; '.join(found)} since {_day(standing.night)}"
+        return f"{'; '.join(found)} since {_read_day(standing.night)}"
     certificate = evening.certificates.get(standing.number)
     files = certificate.files if certificate and standing.state is State.MADE else standing.files
-    return "; ".join(damage(evening.fleet.output, files, shelf))
+    return "; ".join(find_damage(evening.fleet.output, files, shelf))
 
 
-def damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[str]:
+def find_damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[str]:
     """Yield what has become of a certificate's own files."""
     for file in files:
         if not shelf.has(file):
@@ -108,13 +116,13 @@ def damage(folder: Path, files: Sequence[KnownFile], shelf: Disk) -> Iterator[st
             yield f"{file.path} is not as it was issued"
 
 
-def _planned(path: Path, why: str, evening: Evening) -> PlannedJob:
+def _plan_job(path: Path, why: str, evening: Evening) -> PlannedJob:
     """Return what is due about a job, with what its number means."""
     job = evening.job_of(path)
     standing = evening.standings.get(job)
     if not why and standing:
         return PlannedJob(path, job, Due.NOTHING, number=standing.number)
-    if standing and standing.state is State.SET_ASIDE and standing.digest == inputs_digest(path, evening):
+    if standing and standing.state is State.SET_ASIDE and standing.digest == digest_inputs(path, evening):
         return PlannedJob(path, job, Due.SET_ASIDE, why, standing.number)
     try:
         number, place = number_of(path, evening.fleet.defaults)
@@ -122,11 +130,11 @@ def _planned(path: Path, why: str, evening: Evening) -> PlannedJob:
         return PlannedJob(path, job, Due.REFUSAL, why, problems=error.problems)
     issued = evening.certificates.get(number)
     planned = PlannedJob(path, job, Due.COMPARISON if issued else Due.CERTIFICATE, why, number, issued)
-    refusal = _refusal(issued, evening) if issued else ""
-    return _refused(planned, Problem(place, refusal)) if refusal else planned
+    refusal = _say_refusal(issued, evening) if issued else ""
+    return _refuse_job(planned, Problem(place, refusal)) if refusal else planned
 
 
-def inputs_digest(path: Path, evening: Evening) -> str:
+def digest_inputs(path: Path, evening: Evening) -> str:
     """Return the digest of all that a job states and of every file that it names, with tonight's programs.
 
     It is formed without reading the job's data as data: what stopped a worker must not stop the night.
@@ -139,16 +147,16 @@ def inputs_digest(path: Path, evening: Evening) -> str:
         return digest.hexdigest()
     for file in composed.files:
         digest.update(file.sha256.encode())
-    templates = found_at(composed.keys, ("certificate", "style", "templates"))
-    for scalar in scalars(composed.keys):
+    templates = find_at(composed.keys, ("certificate", "style", "templates"))
+    for scalar in walk_scalars(composed.keys):
         named = Path(scalar.place.file).parent / scalar.text
         with contextlib.suppress(OSError, ValueError):
             if named.is_file() or scalar is templates:
-                digest.update(sha256_of(named).encode())
+                digest.update(compute_sha256(named).encode())
     return digest.hexdigest()
 
 
-def _refusal(issued: Issued, evening: Evening) -> str:
+def _say_refusal(issued: Issued, evening: Evening) -> str:
     """Say why nothing is made under the number of a certificate; nothing if there is no reason."""
     if issued.fleet != evening.fleet.name:
         return f"its number was issued for {issued.job} of the fleet {issued.fleet!r}"
@@ -156,20 +164,20 @@ def _refusal(issued: Issued, evening: Evening) -> str:
         path = evening.fleet.output / file.path
         if path.is_file() and not is_intact(path, file):
             return (
-                f"{path} is not as it was issued on {_day(issued.night)}; move it away, and the next night "
-                "restores it"
+                f"{path} is not as it was issued on {_read_day(issued.night)}; move it away, "
+                "and the next night restores it"
             )
     return ""
 
 
-def _without_shared_numbers(planned: Sequence[PlannedJob], evening: Evening) -> Iterator[PlannedJob]:
+def _refuse_shared_numbers(planned: Sequence[PlannedJob], evening: Evening) -> Iterator[PlannedJob]:
     """Yield the jobs, refusing those that have another's number; the one issued with it keeps it."""
     by_number: dict[str, list[PlannedJob]] = defaultdict(list)
     for each in planned:
         by_number[each.number].append(each)
     for each in planned:
         others = [other for other in by_number[each.number] if other is not each]
-        if not each.number or not others or _holds(each) or each.due is Due.REFUSAL:
+        if not each.number or not others or _is_rightly_held(each) or each.due is Due.REFUSAL:
             yield each
             continue
         place, *places = (_number_place(one.path, evening.fleet) for one in (each, *others))
@@ -177,7 +185,7 @@ def _without_shared_numbers(planned: Sequence[PlannedJob], evening: Evening) -> 
             f"the number {each.number} stands in {', '.join(map(str, places))} too; each certificate has "
             "one of its own"
         )
-        yield _refused(each, Problem(place, message))
+        yield _refuse_job(each, Problem(place, message))
 
 
 def _number_place(path: Path, fleet: FleetFile) -> Place:
@@ -189,14 +197,14 @@ def _number_place(path: Path, fleet: FleetFile) -> Place:
     return place
 
 
-def _refused(planned: PlannedJob, problem: Problem) -> PlannedJob:
+def _refuse_job(planned: PlannedJob, problem: Problem) -> PlannedJob:
     return replace(planned, due=Due.REFUSAL, problems=(problem,))
 
 
-def _holds(each: PlannedJob) -> bool:
+def _is_rightly_held(each: PlannedJob) -> bool:
     """Whether a number is rightly this job's, whoever else states it."""
     return each.due is Due.NOTHING or (each.issued is not None and each.issued.job == each.job)
 
 
-def _day(night: str) -> str:
+def _read_day(night: str) -> str:
     return night[:10]

@@ -12,16 +12,16 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
-from zlmreport.fleet.basis import FileStamp, KnownFile, path_in, sha256_of
+from zlmreport.fleet.basis import FileStamp, KnownFile, compute_sha256, write_path_in
 from zlmreport.fleet.ledger import Ledger, Night, NumberTakenError
 from zlmreport.fleet.making import MARK
-from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State, Subject, parameters_of_model
-from zlmreport.job.fleet import FleetFile, job_files, number_of
+from zlmreport.fleet.records import LedgerEntry, RecordedParameter, State, Subject, list_parameters_of_model
+from zlmreport.job.fleet import FleetFile, list_job_files, number_of
 from zlmreport.job.loading import load
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.attached import SCHEMA, stated_by
-from zlmreport.verification.carrier import opened, read_file
+from zlmreport.verification.attached import SCHEMA, find_stated_by
+from zlmreport.verification.carrier import open_pdf, read_file
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,18 +41,18 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
     Raises `InputError` if the ledger knows certificates of the fleet already; `AccessError` if it cannot be
     used, or a night is at work on it.
     """
-    files = _by_number(fleet.output)
+    files = _group_by_number(fleet.output)
     numbers: list[str] = []
     problems: list[Problem] = []
     others = dict(files)
     with Ledger.open(fleet.ledger, fleet.name) as ledger:
         known = [each for each in ledger.certificates().values() if each.fleet == fleet.name]
         if known:
-            certificates = counted(len(known), "certificate")
+            certificates = count_in_words(len(known), "certificate")
             message = f"the ledger knows {certificates} of this fleet; move it away first"
             raise InputError.at(Place(str(fleet.ledger)), message)
         with ledger.night(now, str(fleet.path)) as night:
-            for job in job_files(fleet):
+            for job in list_job_files(fleet):
                 number = ""
                 with contextlib.suppress(ZlmreportError):  # the next night says what is wrong with it
                     number, _ = number_of(job, fleet.defaults)
@@ -67,19 +67,19 @@ def rebuild(fleet: FleetFile, registry: Registry, now: str) -> Rebuilt:
                 except (OSError, ValueError, NumberTakenError) as error:
                     problems.append(Problem(Place(str(files[number][0])), f"cannot be taken: {error}"))
             night.end(now)
-    problems.extend(_without_jobs(others))
+    problems.extend(_find_without_jobs(others))
     return Rebuilt(tuple(numbers), tuple(problems))
 
 
-def _without_jobs(files: Mapping[str, list[Path]]) -> Iterator[Problem]:
+def _find_without_jobs(files: Mapping[str, list[Path]]) -> Iterator[Problem]:
     """Yield the certificates that are there, and of which no job has the number."""
     for number, paths in files.items():
         with contextlib.suppress(ZlmreportError, OSError, ValueError):  # of other files nothing is said
-            _results(paths)
+            _read_results(paths)
             yield Problem(Place(str(paths[0])), f"no job has the number {number}; it is not in the ledger")
 
 
-def _by_number(folder: Path) -> Mapping[str, list[Path]]:
+def _group_by_number(folder: Path) -> Mapping[str, list[Path]]:
     """Return the files of certificates by the number that they are named after; drafts are none."""
     found: defaultdict[str, list[Path]] = defaultdict(list)
     for path in sorted(folder.rglob("*")):
@@ -93,21 +93,23 @@ def _take(job: Path, files: list[Path], fleet: FleetFile, registry: Registry, ni
     with contextlib.suppress(ZlmreportError):
         subject = Subject.of(load(job, registry, defaults=fleet.defaults))
     known = tuple(
-        KnownFile(path.suffix, path.relative_to(fleet.output).as_posix(), sha256_of(path), FileStamp.at(path))
+        KnownFile(
+            path.suffix, path.relative_to(fleet.output).as_posix(), compute_sha256(path), FileStamp.at(path)
+        )
         for path in files
     )
     entry = LedgerEntry(
         **asdict(replace(subject, number=files[0].stem)),
-        job=path_in(fleet.path.parent, job),
+        job=write_path_in(fleet.path.parent, job),
         night=night.began,
         state=State.MADE,
         files=tuple(file.path for file in known),
-        parameters=tuple(_parameters(_results(files))),
+        parameters=tuple(_read_parameters(_read_results(files))),
     )
     night.issue(entry, known, None)
 
 
-def _results(files: list[Path]) -> Mapping[str, Any]:
+def _read_results(files: list[Path]) -> Mapping[str, Any]:
     """Return what a certificate states: its results file, or the one that its PDF carries."""
     by_suffix = {path.suffix: path for path in files}
     if ".json" in by_suffix:
@@ -116,13 +118,13 @@ def _results(files: list[Path]) -> Mapping[str, Any]:
             return results
     if ".pdf" in by_suffix:
         path = by_suffix[".pdf"]
-        stated = stated_by(opened(read_file(path), Place(str(path))))
+        stated = find_stated_by(open_pdf(read_file(path), Place(str(path))))
         if stated:
             return stated.tree
     raise ValueError("neither a results file nor a PDF that carries one says what it states")
 
 
-def _parameters(results: Mapping[str, Any]) -> Iterator[RecordedParameter]:
+def _read_parameters(results: Mapping[str, Any]) -> Iterator[RecordedParameter]:
     for evaluation in results["evaluations"]:
         for each in evaluation["parameters"]:
             if isinstance(each["value"], int | float) and math.isfinite(each["value"]):
@@ -135,4 +137,4 @@ def _parameters(results: Mapping[str, Any]) -> Iterator[RecordedParameter]:
                     limit=each.get("limit"),
                     conforms=each.get("conforms"),
                 )
-    yield from parameters_of_model(results.get("model", {}))
+    yield from list_parameters_of_model(results.get("model", {}))

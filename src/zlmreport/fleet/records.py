@@ -159,7 +159,7 @@ class RecordedParameter:
     conforms: bool | None = None  #: None without a limit, or where the decision rule leaves it open.
 
 
-def due_date(measured: str, interval: int | None) -> str:
+def compute_due_date(measured: str, interval: int | None) -> str:
     """Return the day by which an axis is to be measured again, ISO 8601; nothing without an interval."""
     if not interval:
         return ""
@@ -171,35 +171,35 @@ _NOT_IN_NAMES = re.compile(r"[^\w.-]+")
 _LONGEST_NAME = 100
 
 
-def designation(machine: MachineUnderTest) -> str:
+def write_designation(machine: MachineUnderTest) -> str:
     """Return a machine's manufacturer, model and serial number: what it is called in a fleet."""
     return " ".join(filter(None, (machine.type, machine.serial)))
 
 
-def folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
+def find_folder_of(keys: JobKeys, layout: str) -> PurePosixPath:
     """Return the folder of a job's certificate, below that of all certificates.
 
     `layout`: Names of folders with placeholders, as `zlmreport.job.fleet` has them.
     """
     machine = keys.machine
     values = {
-        "machine": designation(machine),
+        "machine": write_designation(machine),
         "manufacturer": machine.manufacturer,
         "model": machine.model,
         "serial": machine.serial,
         "axis": keys.axis.name,
         "number": keys.certificate.number,
     }
-    named = {name: file_name(value or f"no {name}") for name, value in values.items()}
+    named = {name: make_file_name(value or f"no {name}") for name, value in values.items()}
     return PurePosixPath(layout.format(**named))
 
 
-def file_name(text: str) -> str:
+def make_file_name(text: str) -> str:
     """Return a text as the name of one file or folder."""
     return _NOT_IN_NAMES.sub("-", text).strip("-.")[:_LONGEST_NAME] or "-"
 
 
-def named(machine: str, axis: str) -> str:
+def name_axis(machine: str, axis: str) -> str:
     """Return an axis for people, as far as it is known."""
     return ", ".join(part for part in (machine, axis) if part)
 
@@ -230,7 +230,7 @@ class Subject:
     @property
     def of_axis(self) -> str:
         """Machine and axis for people, as far as they are known."""
-        return named(*self.axis_key)
+        return name_axis(*self.axis_key)
 
     @classmethod
     def of(cls, job: Job) -> Self:
@@ -238,15 +238,15 @@ class Subject:
         keys = job.keys
         day = keys.measurement.date
         measured = day.isoformat() if day else ""
-        machine, used = designation(keys.machine), keys.instrument
+        machine, used = write_designation(keys.machine), keys.instrument
         # Not by its certificate: a new one makes no new instrument of it.
         stated = (used.manufacturer, used.name, used.serial) if used else ()
         instrument = " ".join(part for part in stated if part)
         number, interval = keys.certificate.number, keys.fleet.interval
-        return cls(number, machine, _quantity(job), measured, interval, instrument, keys.machine.type)
+        return cls(number, machine, _name_quantity(job), measured, interval, instrument, keys.machine.type)
 
 
-def _quantity(job: Job) -> str:
+def _name_quantity(job: Job) -> str:
     """Return what was measured of a machine: an axis, whose positioning it is, or the symbol of an error."""
     return job.axis.name if job.axis.measurand.is_position else job.axis.error or job.axis.name
 
@@ -265,7 +265,7 @@ class LedgerEntry(Subject):
     seconds: float | None = None  #: How long it took; None where nothing was made.
 
 
-def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
+def list_parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
     """Yield every parameter by every standard, in the units of the results file."""
     for evaluation in certificate.evaluations:
         usual = evaluation.measurements.axis.deviation_unit
@@ -276,17 +276,17 @@ def parameters_of(certificate: Certificate) -> Iterator[RecordedParameter]:
                 symbol=each.quantity.symbol,
                 value=float(unit.from_si(each.value)),
                 unit=unit.ascii,
-                expanded_uncertainty=_in_unit(unit, each.expanded_uncertainty),
-                limit=_in_unit(unit, each.limit),
+                expanded_uncertainty=_convert_to_unit(unit, each.expanded_uncertainty),
+                limit=_convert_to_unit(unit, each.limit),
                 conforms=None if each.conforms is None else bool(each.conforms),
             )
     if certificate.diagnosis:
         from zlmreport.model.diagnosis.report import report_model  # noqa: PLC0415 - only where there is a model
 
-        yield from parameters_of_model(report_model(certificate.diagnosis.fit))
+        yield from list_parameters_of_model(report_model(certificate.diagnosis.fit))
 
 
-def parameters_of_model(model: Mapping[str, Any]) -> Iterator[RecordedParameter]:
+def list_parameters_of_model(model: Mapping[str, Any]) -> Iterator[RecordedParameter]:
     """Yield the parameters of an error model, out of the ``model`` of a results file."""
     for each in model.get("parameters", ()):
         value, stated = each["value"], each.get("expanded_uncertainty")
@@ -295,5 +295,5 @@ def parameters_of_model(model: Mapping[str, Any]) -> Iterator[RecordedParameter]
             yield RecordedParameter(MODEL, symbol, float(value), each["unit"], stated)
 
 
-def _in_unit(unit: Unit, value: float | None) -> float | None:
+def _convert_to_unit(unit: Unit, value: float | None) -> float | None:
     return None if value is None else float(unit.from_si(value))

@@ -89,7 +89,7 @@ class ScatterLikelihood:
         return logarithms
 
 
-def learned(samples: Iterable[tuple[float, int]]) -> tuple[ScatterLikelihood, ...]:
+def learn_scatter(samples: Iterable[tuple[float, int]]) -> tuple[ScatterLikelihood, ...]:
     """Return, for each axis of a fleet, what the others let expect.
 
     `samples`: Of each axis a sum of squares about a mean, and its degrees of freedom, which may be none.

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime, timedelta
 
-from zlmreport.fleet.drifts import Trend, trends
-from zlmreport.fleet.records import MODEL, LedgerEntry, NightNotice, PastNight, State, due_date
-from zlmreport.fleet.trend import Series, series_of, standing
+from zlmreport.fleet.drifts import Trend, judge_trends
+from zlmreport.fleet.records import MODEL, LedgerEntry, NightNotice, PastNight, State, compute_due_date
+from zlmreport.fleet.trend import Series, list_series_of, select_standing
 
 #: What is due within this time may be planned now.
 SOON = timedelta(days=90)
@@ -133,8 +133,8 @@ def state_of(
         for job, entry in sorted(latest.items())
         if entry.state is State.VANISHED and job not in jobs and not rules.is_retired(job)
     ]
-    certificates = standing(history)
-    series = series_of(certificates)
+    certificates = select_standing(history)
+    series = list_series_of(certificates)
     began = night.began if night else None
     return FleetState(
         name=name,
@@ -144,30 +144,33 @@ def state_of(
             entry.state is State.MADE and datetime.fromisoformat(entry.night) == began for entry in current
         ),
         failures=tuple(
-            FailingJob(entry, _failing_since(entry, history))
+            FailingJob(entry, _find_failing_since(entry, history))
             for entry in (*current, *missing)
             if entry.state.is_failure
         ),
         drafts=tuple(entry for entry in current if entry.state is State.DRAFT),
         certificates=certificates,
-        trends=trends(each for each in series if each.standard != MODEL),
+        trends=judge_trends(each for each in series if each.standard != MODEL),
         effects=tuple(each for each in series if each.standard == MODEL),
-        terms=_terms(certificates, rules, began),
+        terms=_list_terms(certificates, rules, began),
     )
 
 
-def _terms(certificates: Sequence[LedgerEntry], rules: Rules, now: datetime | None) -> tuple[DueDate, ...]:
+def _list_terms(
+    certificates: Sequence[LedgerEntry], rules: Rules, now: datetime | None
+) -> tuple[DueDate, ...]:
     standing = [entry for entry in certificates if not rules.is_retired(entry.job)]
     latest = {(entry.machine, entry.axis): entry for entry in standing}
     stated = (
-        (entry, due_date(entry.measured, entry.interval or rules.interval)) for entry in latest.values()
+        (entry, compute_due_date(entry.measured, entry.interval or rules.interval))
+        for entry in latest.values()
     )
     days = [(entry, date.fromisoformat(day)) for entry, day in stated if day]
     terms = [DueDate(entry, day, is_over=now is not None and day <= now.date()) for entry, day in days]
     return tuple(sorted(terms, key=lambda term: (term.due, term.entry.machine, term.entry.axis)))
 
 
-def _failing_since(failed: LedgerEntry, history: Sequence[LedgerEntry]) -> str:
+def _find_failing_since(failed: LedgerEntry, history: Sequence[LedgerEntry]) -> str:
     """Return the night from which on a job has not been made."""
     since = failed.night
     for entry in reversed([each for each in history if each.job == failed.job]):

@@ -73,12 +73,12 @@ class ParameterCourse:
         if self.scatter.degrees < 1:
             return None
         wider = math.sqrt(1 + 1 / len(self.since))
-        level = self.share * level_of(len(self.since))
-        threshold = max(wider * self.scatter.quantile(level), _least(wider * self.scatter.deviation))
+        level = self.share * compute_level_of(len(self.since))
+        threshold = max(wider * self.scatter.quantile(level), _compute_least(wider * self.scatter.deviation))
         return max(SMALL, threshold + wider * self.scatter.quantile(_MISSED))
 
 
-def course(values: Sequence[float], fleet: ScatterLikelihood, share: float = 1.0) -> ParameterCourse:
+def judge_course(values: Sequence[float], fleet: ScatterLikelihood, share: float = 1.0) -> ParameterCourse:
     """Return the course of a parameter.
 
     `values`: In the order of measurement, one at the least.
@@ -88,7 +88,7 @@ def course(values: Sequence[float], fleet: ScatterLikelihood, share: float = 1.0
     first, base = 0, [0]
     for index in range(1, len(values)):
         before = [values[each] for each in base]
-        if not stands_out(before, values[index], fleet, share):
+        if not is_standing_out(before, values[index], fleet, share):
             base.append(index)
             continue
         is_latest = index + 1 == len(values)
@@ -98,30 +98,34 @@ def course(values: Sequence[float], fleet: ScatterLikelihood, share: float = 1.0
             base.append(index)
         else:
             change = values[index] - fmean(before)
-            steps.append(ParameterStep(index, change, chances([*before, values[index]], fleet).last_step))
+            steps.append(
+                ParameterStep(index, change, compute_chances([*before, values[index]], fleet).last_step)
+            )
             if not is_latest:
                 first, base = index, [index]
     since = [values[each] for each in base]
-    scatter = fleet.after(squares_about_mean(since), len(since) - 1)
+    scatter = fleet.after(sum_squares_about_mean(since), len(since) - 1)
     return ParameterCourse(tuple(steps), tuple(base), _is_wilder(values[first:], fleet), scatter, share)
 
 
-def stands_out(before: Sequence[float], value: float, fleet: ScatterLikelihood, share: float = 1.0) -> bool:
+def is_standing_out(
+    before: Sequence[float], value: float, fleet: ScatterLikelihood, share: float = 1.0
+) -> bool:
     """Whether a test differs from those before it, and from a drift that these show.
 
-    `fleet`, `share`: As `course` has them.
+    `fleet`, `share`: As `judge_course` has them.
     """
     number, mean = len(before), fmean(before)
     change = value - mean
     if abs(change) < SMALL:
         return False
-    squares = squares_about_mean(before)
+    squares = sum_squares_about_mean(before)
     scatter = fleet.after(squares, number - 1)
-    level = share * level_of(number) * (1 if change * mean >= 0 else _AWAY)
+    level = share * compute_level_of(number) * (1 if change * mean >= 0 else _AWAY)
     wider = math.sqrt(1 + 1 / number)
     if (
         scatter.degrees < 1
-        or abs(change) <= _least(wider * scatter.deviation)
+        or abs(change) <= _compute_least(wider * scatter.deviation)
         or scatter.exceeds(abs(change) / wider) >= level
     ):
         return False
@@ -138,7 +142,7 @@ def stands_out(before: Sequence[float], value: float, fleet: ScatterLikelihood, 
     return rest > SMALL and about.exceeds(rest / math.sqrt(1 + 1 / number + ahead**2 / spread)) < level
 
 
-def level_of(number: int) -> float:
+def compute_level_of(number: int) -> float:
     """Return the chance of a false alarm of one test towards the limit, after so many tests.
 
     It is such that a step of `SEEN` scatters is seen in 95 % of all cases; so it falls as the history grows.
@@ -160,7 +164,7 @@ class Chances:
         return self.steps[-1]
 
 
-def chances(values: Sequence[float], fleet: ScatterLikelihood) -> Chances:
+def compute_chances(values: Sequence[float], fleet: ScatterLikelihood) -> Chances:
     """Return how likely nothing, a step, and a drift are, each taken for as likely beforehand as any other.
 
     The mean may be any, an effect is normal with a standard deviation of five scatters at its largest; so the
@@ -171,36 +175,36 @@ def chances(values: Sequence[float], fleet: ScatterLikelihood) -> Chances:
     number = len(values)
     lines = [[0.0] * index + [1.0] * (number - index) for index in range(1, number)]
     lines.append([each / (number - 1) for each in range(number)])
-    odds = [_odds(values, line, fleet) for line in lines]
+    odds = [_compute_odds(values, line, fleet) for line in lines]
     weights = [*(each / (number - 1) for each in odds[:-1]), odds[-1]]
     total = 1.0 + math.fsum(weights)
     return Chances(1.0 / total, (0.0, *(each / total for each in weights[:-1])), weights[-1] / total)
 
 
-def _odds(values: Sequence[float], shape: Sequence[float], fleet: ScatterLikelihood) -> float:
+def _compute_odds(values: Sequence[float], shape: Sequence[float], fleet: ScatterLikelihood) -> float:
     """Return the evidence of an effect of this shape over that of nothing."""
     number = len(values)
     mean, middle = fmean(values), fmean(shape)
     length = math.fsum((each - middle) ** 2 for each in shape)
     along = math.fsum((x - middle) * (y - mean) for x, y in zip(shape, values, strict=True))
     gain = 1 + _EXPECTED**2 * length
-    squares = squares_about_mean(values)
+    squares = sum_squares_about_mean(values)
     rest = max(0.0, squares - along**2 * _EXPECTED**2 / gain)
     more = fleet.evidence(rest, number - 1) - fleet.evidence(squares, number - 1)
     return math.exp(min(600.0, more - 0.5 * math.log(gain)))
 
 
-def squares_between(values: Sequence[float], steps: Sequence[ParameterStep]) -> tuple[float, int]:
+def sum_squares_between(values: Sequence[float], steps: Sequence[ParameterStep]) -> tuple[float, int]:
     """Return the sum of squares of what lies between steps, and its degrees of freedom.
 
     Odd ones are in it: to leave out what is far off would make the scatter look smaller than it is.
     """
     bounds = [0, *(each.index for each in steps), len(values)]
     parts = [values[begin:end] for begin, end in pairwise(bounds)]
-    return math.fsum(map(squares_about_mean, parts)), sum(max(0, len(each) - 1) for each in parts)
+    return math.fsum(map(sum_squares_about_mean, parts)), sum(max(0, len(each) - 1) for each in parts)
 
 
-def squares_about_mean(values: Sequence[float]) -> float:
+def sum_squares_about_mean(values: Sequence[float]) -> float:
     """Return Σ(y − ȳ)²; 0 of no values."""
     mean = fmean(values) if values else 0.0
     return math.fsum((value - mean) ** 2 for value in values)
@@ -208,7 +212,7 @@ def squares_about_mean(values: Sequence[float]) -> float:
 
 def _is_rather_drift(before: Sequence[float], after: Sequence[float], fleet: ScatterLikelihood) -> bool:
     """Whether a drift explains a test that stands out, and those after it, better than a step there does."""
-    likely = chances([*before, *after], fleet)
+    likely = compute_chances([*before, *after], fleet)
     return likely.drift > likely.steps[len(before)]
 
 
@@ -217,7 +221,7 @@ def _is_borne_out(before: Sequence[float], value: float, following: float) -> bo
     return abs(following - value) < abs(following - fmean(before))
 
 
-def _least(deviation: float) -> float:
+def _compute_least(deviation: float) -> float:
     """Return the least difference that is looked at, so that no step below `WANTED` need be seen."""
     return WANTED - _POWER * deviation
 
@@ -226,6 +230,6 @@ def _is_wilder(values: Sequence[float], fleet: ScatterLikelihood) -> bool:
     latest, before = values[-_WINDOW:], values[:-_WINDOW]
     if len(before) < _WINDOW:
         return False
-    squares, degrees = squares_about_mean(latest), _WINDOW - 1
-    known = fleet.after(squares_about_mean(before), len(before) - 1)
+    squares, degrees = sum_squares_about_mean(latest), _WINDOW - 1
+    known = fleet.after(sum_squares_about_mean(before), len(before) - 1)
     return squares > SMALL**2 * degrees and known.squares_exceed(squares, degrees) < _SCATTER_LEVEL

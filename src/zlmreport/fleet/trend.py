@@ -57,7 +57,7 @@ class Series:
         return self.calibrations[-1].parameter
 
 
-def standing(entries: Iterable[LedgerEntry]) -> tuple[LedgerEntry, ...]:
+def select_standing(entries: Iterable[LedgerEntry]) -> tuple[LedgerEntry, ...]:
     """Return the certificates that stand, in the order of measurement.
 
     A job that was made again, and one that amends, replaces what it said of the same measurement before.
@@ -72,7 +72,7 @@ def standing(entries: Iterable[LedgerEntry]) -> tuple[LedgerEntry, ...]:
     return tuple(sorted(standing.values(), key=lambda entry: (entry.measured, entry.number)))
 
 
-def series_of(certificates: Iterable[LedgerEntry]) -> tuple[Series, ...]:
+def list_series_of(certificates: Iterable[LedgerEntry]) -> tuple[Series, ...]:
     """Return every parameter of every axis over time, machine by machine."""
     found: defaultdict[tuple[str, str, str, str, str], list[Calibration]] = defaultdict(list)
     for entry in certificates:
@@ -106,11 +106,11 @@ def rank_p_value(values: Sequence[float]) -> float:
         return min(1.0, 2 * normal_tail((surplus - 1) / deviation))
     # With `falls` falls among n(n − 1)/2 pairs the surplus of rises is n(n − 1)/2 − 2·falls.
     most_falls = (number * (number - 1) // 2 - surplus + 1) // 2
-    return min(1.0, 2 * _chance_of_falls(number)[most_falls])
+    return min(1.0, 2 * _compute_chance_of_falls(number)[most_falls])
 
 
 @cache
-def _chance_of_falls(number: int) -> tuple[float, ...]:
+def _compute_chance_of_falls(number: int) -> tuple[float, ...]:
     """Return the chance of at most 0, 1, 2 … falls among the pairs of so many values in random order.
 
     The n-th value joins n − 1 others anywhere in their order, and so adds 0 to n − 1 falls, each as likely.
@@ -170,11 +170,11 @@ class LimitCrossing:
     latest: date | None
 
 
-def line_through(series: Series) -> TrendLine:
+def fit_line_through(series: Series) -> TrendLine:
     """Return the line of weighted least squares through a series of three or more calibrations."""
     days = [float(each.measured.toordinal()) for each in series.calibrations]
     values = [each.parameter.value for each in series.calibrations]
-    weights = _weights([each.parameter.expanded_uncertainty for each in series.calibrations])
+    weights = _compute_weights([each.parameter.expanded_uncertainty for each in series.calibrations])
     total = math.fsum(weights)
     origin = math.fsum(w * day for w, day in zip(weights, days, strict=True)) / total
     level = math.fsum(w * value for w, value in zip(weights, values, strict=True)) / total
@@ -220,10 +220,12 @@ def forecast(line: TrendLine, limit: float, last: date) -> LimitCrossing | None:
     if days[0] > latest_day:
         return None
     expected, earliest, latest = days
-    return LimitCrossing(_day(expected), _day(earliest), _day(latest) if latest <= latest_day else None)
+    return LimitCrossing(
+        _make_day(expected), _make_day(earliest), _make_day(latest) if latest <= latest_day else None
+    )
 
 
-def _weights(uncertainties: Sequence[float | None]) -> list[float]:
+def _compute_weights(uncertainties: Sequence[float | None]) -> list[float]:
     """Return 1/U², their mean 1; all alike where an uncertainty is missing."""
     if not all(uncertainties):
         return [1.0] * len(uncertainties)
@@ -232,5 +234,5 @@ def _weights(uncertainties: Sequence[float | None]) -> list[float]:
     return [weight / mean for weight in weights]
 
 
-def _day(ordinal: float) -> date:
+def _make_day(ordinal: float) -> date:
     return date.fromordinal(max(1, round(ordinal)))

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from datetime import date
 
 from zlmreport.document.figures.canvas import Fill, Run, Segment, Stroke, SvgCanvas, TypeFace
-from zlmreport.document.figures.metrics import advance
+from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.document.figures.scale import round_ticks
 from zlmreport.fleet.drifts import Trend
 from zlmreport.fleet.trend import Calibration
-from zlmreport.language.formatting import DecimalSign, fixed_number
-from zlmreport.measurement.units import printed_symbol
+from zlmreport.language.formatting import DecimalSign, write_fixed_number
+from zlmreport.measurement.units import find_printed_symbol
 
 #: Of the time shown, kept free behind the last calibration: there a drift leads on.
 _AHEAD = 0.2
@@ -93,7 +93,7 @@ class _Frame:
         return self.bottom * (1 - part)
 
 
-def trend_graph(
+def draw_trend(
     trend: Trend, period: Period, alternative: str, sign: DecimalSign, size: GraphSize = SMALL
 ) -> str:
     """Return the graph as SVG.
@@ -102,7 +102,7 @@ def trend_graph(
     `sign`: Between whole and decimal digits.
     """
     calibrations = trend.series.calibrations
-    frame = _Frame(size, period, *_span(calibrations))
+    frame = _Frame(size, period, *_find_span(calibrations))
     canvas = SvgCanvas(size.width, size.height, alternative)
     corners = (
         (size.left, 0.0),
@@ -110,13 +110,13 @@ def trend_graph(
         (frame.right, frame.bottom),
         (size.left, frame.bottom),
     )
-    canvas.outline("ground", _line(*corners, closed=True), None, None)
+    canvas.outline("ground", _draw_line(*corners, closed=True), None, None)
     limit = trend.series.latest.limit
     if limit is not None:
         _draw_limit(canvas, frame, limit)
     _draw_scale(canvas, frame, trend, sign)
     if frame.lower <= 0:
-        across = _line((size.left, frame.y(0)), (frame.right, frame.y(0)))
+        across = _draw_line((size.left, frame.y(0)), (frame.right, frame.y(0)))
         canvas.outline("zero", across, Stroke(_GREY, 0.6), None)
     _draw_band(canvas, frame, calibrations)
     _draw_steps(canvas, frame, trend)
@@ -126,7 +126,7 @@ def trend_graph(
     return canvas.image()
 
 
-def _span(calibrations: Sequence[Calibration]) -> tuple[float, float]:
+def _find_span(calibrations: Sequence[Calibration]) -> tuple[float, float]:
     """Return the least and the largest value shown: zero, the limit, every value with its uncertainty."""
     reached = [
         each.parameter.value + sign * (each.parameter.expanded_uncertainty or 0.0)
@@ -145,25 +145,25 @@ def _span(calibrations: Sequence[Calibration]) -> tuple[float, float]:
 
 def _draw_scale(canvas: SvgCanvas, frame: _Frame, trend: Trend, sign: DecimalSign) -> None:
     """Draw the scale: values with their unit at the left, years below."""
-    size, unit = frame.size, printed_symbol(trend.series.unit)
+    size, unit = frame.size, find_printed_symbol(trend.series.unit)
     ticks, decimals = round_ticks(frame.lower, frame.upper, size.ticks)
     for value in ticks:
         y = frame.y(value)
-        across = _line((size.left, y), (frame.right, y))
+        across = _draw_line((size.left, y), (frame.right, y))
         canvas.outline("grid", across, Stroke(_GREY, 0.3), None)
         is_top = value == ticks[-1]
-        label = fixed_number(value, decimals, sign) + (f" {unit}" if is_top and size is LARGE else "")
+        label = write_fixed_number(value, decimals, sign) + (f" {unit}" if is_top and size is LARGE else "")
         baseline = min(max(y + 0.35 * size.text, 0.8 * size.text), frame.bottom)
         _write(canvas, (size.left - _GAP, baseline), label, size.text, share=1.0)
-    for day, label in _dates(frame):
+    for day, label in _list_dates(frame):
         x, baseline = frame.x(day.toordinal()), size.height - 0.2 * size.text
         if size is LARGE:
-            canvas.outline("grid", _line((x, 0), (x, frame.bottom)), Stroke(_GREY, 0.3), None)
+            canvas.outline("grid", _draw_line((x, 0), (x, frame.bottom)), Stroke(_GREY, 0.3), None)
         share = 0.5 if size is LARGE else float(day == frame.period.last)
         _write(canvas, (x, baseline), label, size.text, share=share)
 
 
-def _dates(frame: _Frame) -> Iterator[tuple[date, str]]:
+def _list_dates(frame: _Frame) -> Iterator[tuple[date, str]]:
     """Yield the dates of the scale: of a small graph the ends of its period, of a large one each new year."""
     period = frame.period
     if frame.size is SMALL:
@@ -180,7 +180,7 @@ def _dates(frame: _Frame) -> Iterator[tuple[date, str]]:
 def _write(canvas: SvgCanvas, place: tuple[float, float], text: str, size: float, *, share: float) -> None:
     """Write a text, the share of its width before a place: 0 begins there, 1 ends there."""
     x, y = place
-    start = x - share * advance(text, TypeFace.REGULAR) * size
+    start = x - share * measure_advance(text, TypeFace.REGULAR) * size
     canvas.text("scale", [Run(text, TypeFace.REGULAR, size, start, y)], _GREY, 0.0)
 
 
@@ -189,9 +189,9 @@ def _draw_limit(canvas: SvgCanvas, frame: _Frame, limit: float) -> None:
     for bound, edge in ((limit, 0.0), (-limit, frame.bottom)):
         y = frame.y(bound)
         if 0 <= y < frame.bottom:
-            beyond = _line((left, edge), (right, edge), (right, y), (left, y), closed=True)
+            beyond = _draw_line((left, edge), (right, edge), (right, y), (left, y), closed=True)
             canvas.outline("beyond", beyond, None, Fill(_ALARM, 0.1))
-            canvas.outline("limit", _line((left, y), (right, y)), Stroke(_ALARM, 0.9, (6.0, 2.0)), None)
+            canvas.outline("limit", _draw_line((left, y), (right, y)), Stroke(_ALARM, 0.9, (6.0, 2.0)), None)
 
 
 def _draw_band(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibration]) -> None:
@@ -208,7 +208,7 @@ def _draw_band(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibrat
         upper = [(upper[0][0] + step, upper[0][1]) for step in (-half, half)]
         lower = [(lower[0][0] + step, lower[0][1]) for step in (-half, half)]
     if upper:
-        canvas.outline("band", _line(*upper, *reversed(lower), closed=True), None, Fill(_INK, 0.18))
+        canvas.outline("band", _draw_line(*upper, *reversed(lower), closed=True), None, Fill(_INK, 0.18))
 
 
 def _draw_steps(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
@@ -218,7 +218,7 @@ def _draw_steps(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
     for index in sorted({each.index for each in (*steps, *([trend.step] if trend.step else ()))}):
         days = [calibrations[each].measured.toordinal() for each in (index - 1, index)]
         x = frame.x(sum(days) / 2)
-        canvas.outline("step", _line((x, 0), (x, frame.bottom)), Stroke(_ALARM, 0.9, (1.5, 1.5)), None)
+        canvas.outline("step", _draw_line((x, 0), (x, frame.bottom)), Stroke(_ALARM, 0.9, (1.5, 1.5)), None)
 
 
 def _draw_drift(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
@@ -228,27 +228,27 @@ def _draw_drift(canvas: SvgCanvas, frame: _Frame, trend: Trend) -> None:
     first = calibrations[0].measured
     last = date.fromordinal(frame.period.last.toordinal() + round(frame.period.days * _AHEAD))
     ends = [(frame.x(day.toordinal()), frame.y(line.at(day))) for day in (first, last)]
-    canvas.outline("drift", _line(*ends), Stroke(_ALARM, 1.2, (5.0, 1.6, 1.2, 1.6)), None)
+    canvas.outline("drift", _draw_line(*ends), Stroke(_ALARM, 1.2, (5.0, 1.6, 1.2, 1.6)), None)
 
 
 def _draw_values(canvas: SvgCanvas, frame: _Frame, calibrations: Sequence[Calibration]) -> None:
     places = [(frame.x(each.measured.toordinal()), frame.y(each.parameter.value)) for each in calibrations]
     if len(places) > 1:
-        canvas.outline("course", _line(*places), Stroke(_INK, 0.9), None)
+        canvas.outline("course", _draw_line(*places), Stroke(_INK, 0.9), None)
     for each, (x, y) in zip(calibrations, places, strict=True):
         half = frame.size.point * (_LAST if each is calibrations[-1] else 1.0)
         if each.parameter.conforms is False:
             cross = (
-                *_line((x - half, y - half), (x + half, y + half)),
-                *_line((x - half, y + half), (x + half, y - half)),
+                *_draw_line((x - half, y - half), (x + half, y + half)),
+                *_draw_line((x - half, y + half), (x + half, y - half)),
             )
             canvas.outline("point not-met", cross, Stroke(_ALARM, 1.4), None)
         else:
-            diamond = _line((x - half, y), (x, y - half), (x + half, y), (x, y + half), closed=True)
+            diamond = _draw_line((x - half, y), (x, y - half), (x + half, y), (x, y + half), closed=True)
             canvas.outline("point", diamond, None, Fill(_INK))
 
 
-def _line(*points: tuple[float, float], closed: bool = False) -> tuple[Segment, ...]:
+def _draw_line(*points: tuple[float, float], closed: bool = False) -> tuple[Segment, ...]:
     first, *others = points
     rest = tuple(("L", point) for point in others)
     return (("M", first), *rest, *((("Z", ()),) if closed else ()))

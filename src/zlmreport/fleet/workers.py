@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from zlmreport.errors import AccessError, InputError, Place, Problem
-from zlmreport.fleet.making import BEAT, Failed, MadeCertificate, Task, late, warm, work
+from zlmreport.fleet.making import BEAT, Failed, MadeCertificate, Task, make_certificate, report_late, warm
 from zlmreport.plugin.presence import PRESENCE, SIZE, Presence
 
 #: After its task should have been ended by the night, a worker ends itself, s: the night may be gone.
@@ -155,7 +155,7 @@ class Pool:
         except (EOFError, OSError):
             worker.process.join()
             if worker.deadline <= time.monotonic():
-                return task, late(task)
+                return task, report_late(task)
             code, called = worker.process.exitcode or 0, worker.presence.wrong or worker.presence.called
             return task, _Ended(code, worker.is_ready.is_set(), called)
         worker.done += 1
@@ -199,13 +199,13 @@ def _serve(line: Connection, is_ready: Event, memory: Any, plugins: tuple[Path, 
         while True:
             task: Task = line.recv()
             _limit_memory(task.limits.megabytes * 10**6)
-            with _ended_after(task.limits.seconds + _GRACE):
-                result = work(task)
+            with _end_after(task.limits.seconds + _GRACE):
+                result = make_certificate(task)
             line.send(result)
 
 
 @contextlib.contextmanager
-def _ended_after(seconds: float) -> Iterator[None]:
+def _end_after(seconds: float) -> Iterator[None]:
     """Let the system end this process after a time, whatever it does, where the system can."""
     if not hasattr(signal, "setitimer"):
         yield
@@ -306,7 +306,9 @@ class Cluster:
                 with contextlib.suppress(TimeoutError), self._client.as_current():
                     done = first_of(list(under_way), timeout=BEAT, return_when="FIRST_COMPLETED").done
                 ended = [(future, self._result(future)) for future in done]
-                ended += [(future, self._stopped(future, task)) for future, task in _late(under_way, done)]
+                ended += [
+                    (future, self._stopped(future, task)) for future, task in _find_late(under_way, done)
+                ]
             self.beat()
             for future, result in ended:
                 task, _ = under_way.pop(future)
@@ -328,7 +330,7 @@ class Cluster:
         """Let no worker wait, and none have more than it needs: results are as large as documents."""
         most = _AHEAD * max(1, sum(self._client.nthreads().values()))
         while len(under_way) < most and (task := next(waiting, None)) is not None:
-            future = self._client.submit(work, task, pure=False)
+            future = self._client.submit(make_certificate, task, pure=False)
             under_way[future] = task, time.monotonic()
 
     def _stopped(self, future: Any, task: Task) -> Failed:
@@ -337,7 +339,7 @@ class Cluster:
         future.cancel(force=True)
         with contextlib.suppress(Exception):  # one without a nanny cannot be started again
             self._client.restart_workers(workers, timeout=_PATIENCE)
-        return late(task)
+        return report_late(task)
 
     def _result(self, future: Any) -> MadeCertificate | Failed | _Lost:
         if future.status == "finished":
@@ -350,7 +352,7 @@ class Cluster:
         raise CancelledError
 
 
-def _late(under_way: Mapping[Any, tuple[Task, float]], done: Collection[Any]) -> list[tuple[Any, Task]]:
+def _find_late(under_way: Mapping[Any, tuple[Task, float]], done: Collection[Any]) -> list[tuple[Any, Task]]:
     """Return what has been under way for too long; each may have waited for as many as are sent ahead."""
     now = time.monotonic()
     return [

@@ -15,9 +15,9 @@ from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
 from zlmreport.job.formula_parts import refuse_unsound
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram, WithKeys
-from zlmreport.job.sentences import shown
-from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, found_at, keys_of
-from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, keys_in, model_in
+from zlmreport.job.sentences import show_value
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, make_keys_of
+from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, find_model_in, list_keys_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ class Choice:
     place: Place = field(compare=False)
 
 
-def choice_in(
+def choose_in(
     group: Node | None,
     key: str,
     find: Callable[[str, Place], WithKeys],
@@ -59,17 +59,17 @@ def choice_in(
 
 def group_naming(key: str, item: Node) -> Keys:
     """Return the group of keys that an item of a list is; a bare identifier stands for a key alone."""
-    return item if isinstance(item, Keys) else keys_of(item.place, (KeyEntry(key, item.place, item),))
+    return item if isinstance(item, Keys) else make_keys_of(item.place, (KeyEntry(key, item.place, item),))
 
 
-def instrument_choice(
+def choose_instrument(
     source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
 ) -> Choice | None:
     """Return the live instrument that the keys of a data source name; None if they name none."""
-    fields = keys_in(source).items()
-    key = next((key for key, field in fields if model_in(field.annotation) is LiveInstrumentKeys), "")
-    group = found_at(keys, (key,))
-    return choice_in(group, "plugin", registry.instrument, problems, within=f"{within}.{key}")
+    fields = list_keys_in(source).items()
+    key = next((key for key, field in fields if find_model_in(field.annotation) is LiveInstrumentKeys), "")
+    group = find_at(keys, (key,))
+    return choose_in(group, "plugin", registry.instrument, problems, within=f"{within}.{key}")
 
 
 _SHAPE = (
@@ -125,7 +125,7 @@ class EffectChoice:
 
     def numbered(self, number: int) -> EffectChoice:
         """Return the same effect for another time in a list."""
-        return replace(self, identifier=numbered(self.installed, number), number=number)
+        return replace(self, identifier=number_effect(self.installed, number), number=number)
 
     @property
     def is_formula(self) -> bool:
@@ -133,7 +133,7 @@ class EffectChoice:
         return isinstance(self.settings, FormulaKeys)
 
 
-def numbered(identifier: str, number: int) -> str:
+def number_effect(identifier: str, number: int) -> str:
     """Return what an effect is called that stands in a list for the n-th time.
 
     >>> numbered("scale-joint", 1), numbered("scale-joint", 2)
@@ -142,7 +142,7 @@ def numbered(identifier: str, number: int) -> str:
     return identifier if number == 1 else f"{identifier}-{number}"
 
 
-def parted(identifier: str) -> tuple[str, int]:
+def part_number(identifier: str) -> tuple[str, int]:
     """Return the effect and the number of a name such as ``scale-joint-2``; 1 where it has none.
 
     >>> parted("scale-joint-2"), parted("scale-joint"), parted("scale-joint-1")
@@ -152,12 +152,12 @@ def parted(identifier: str) -> tuple[str, int]:
     return (name, int(number)) if name and number.isdecimal() and int(number) > 1 else (identifier, 1)
 
 
-def next_number(identifier: str, choices: Iterable[EffectChoice]) -> int:
+def find_next_number(identifier: str, choices: Iterable[EffectChoice]) -> int:
     """Return the number of an installed effect that is added to a list of others."""
     return max((each.number for each in choices if each.installed == identifier), default=0) + 1
 
 
-def effect_choices(
+def choose_effects_of(
     listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
 ) -> tuple[EffectChoice, ...]:
     """Return the effects of a list.
@@ -165,22 +165,22 @@ def effect_choices(
     `listed`: The list; anything else has been refused before, and gives none.
     """
     items = listed.items if isinstance(listed, Items) else ()
-    return tuple(_effects(items, registry, problems, within))
+    return tuple(_choose_effects(items, registry, problems, within))
 
 
-def _effects(
+def _choose_effects(
     items: Sequence[Node], registry: Installed, problems: list[Problem], within: str
 ) -> Iterator[EffectChoice]:
     found: list[EffectChoice] = []
     for item in items:
         if isinstance(item, Keys) and "formula" in item.entries:
-            choice = _formula(item, registry, problems, within)
+            choice = _choose_formula(item, registry, problems, within)
             if choice:
                 yield choice
             continue
-        named = _named_effect(item)
+        named = _name_effect(item)
         if named is None:
-            problems.append(_no_effect(item, within))
+            problems.append(_report_no_effect(item, within))
             continue
         identifier, keys = named
         try:
@@ -188,26 +188,28 @@ def _effects(
         except InputError as error:
             problems.extend(error.problems)
             continue
-        choice = _effect(effect, replace(keys, place=item.place), problems, f"{within}.{identifier}")
+        choice = _choose_effect(effect, replace(keys, place=item.place), problems, f"{within}.{identifier}")
         if choice:
             taken = [each.identifier for each in found]
             if effect.several and choice.identifier in taken:
-                choice = choice.numbered(next_number(choice.installed, found))
+                choice = choice.numbered(find_next_number(choice.installed, found))
             found.append(choice)
             yield choice
 
 
-def _no_effect(item: Node, within: str) -> Problem:
+def _report_no_effect(item: Node, within: str) -> Problem:
     """Say what is wrong with an item of a list of effects that names none."""
     if isinstance(item, Keys) and len(item.entries) == 1:
         (entry,) = item.entries.values()
         return Problem(
-            entry.value.place, f"{within}.{entry.key}: {shown(entry.value)} is not a group of keys"
+            entry.value.place, f"{within}.{entry.key}: {show_value(entry.value)} is not a group of keys"
         )
-    return Problem(item.place, f"{within}: {shown(item)} is no effect; {_SHAPE}")
+    return Problem(item.place, f"{within}: {show_value(item)} is no effect; {_SHAPE}")
 
 
-def _formula(item: Keys, registry: Installed, problems: list[Problem], within: str) -> EffectChoice | None:
+def _choose_formula(
+    item: Keys, registry: Installed, problems: list[Problem], within: str
+) -> EffectChoice | None:
     """Return an effect that is written as a formula."""
     keys = validate(FormulaKeys, item, problems, within=within)
     if keys is None:
@@ -228,11 +230,11 @@ def _formula(item: Keys, registry: Installed, problems: list[Problem], within: s
     return EffectChoice(keys.name, keys, values, item.place, limits)
 
 
-def candidate_choices(
+def choose_candidates(
     listed: Node | None, registry: Installed, problems: list[Problem], *, within: str
 ) -> tuple[EffectChoice, ...]:
-    """Return the formulas of a list of candidates; as `effect_choices`, and each must be a formula."""
-    found = effect_choices(listed, registry, problems, within=within)
+    """Return the formulas of a list of candidates; as `choose_effects_of`, and each must be a formula."""
+    found = choose_effects_of(listed, registry, problems, within=within)
     for each in found:
         if not each.is_formula:
             sentence = f"{within}: {each.identifier} is installed, and tried in any case; list formulas here"
@@ -240,38 +242,40 @@ def candidate_choices(
     return found
 
 
-def _named_effect(item: Node) -> tuple[str, Keys] | None:
+def _name_effect(item: Node) -> tuple[str, Keys] | None:
     """Return an effect's name and its keys."""
     if isinstance(item, Scalar) and not item.is_nothing:
-        return item.text, keys_of(item.place)
+        return item.text, make_keys_of(item.place)
     if isinstance(item, Keys) and len(item.entries) == 1:
         (entry,) = item.entries.values()
         if isinstance(entry.value, Keys):
             return entry.key, entry.value
         if isinstance(entry.value, Scalar) and entry.value.is_nothing:
-            return entry.key, keys_of(entry.place)
+            return entry.key, make_keys_of(entry.place)
     return None
 
 
-def _effect(effect: InstalledEffect, keys: Keys, problems: list[Problem], within: str) -> EffectChoice | None:
-    own = keys_in(effect.options)
+def _choose_effect(
+    effect: InstalledEffect, keys: Keys, problems: list[Problem], within: str
+) -> EffectChoice | None:
+    own = list_keys_in(effect.options)
     settings_keys = keys.without(*(key for key in keys.entries if key not in own))
     settings = validate(effect.options, settings_keys, problems, within=within)
     if settings is None:
         return None
     form = effect.with_settings(settings)
-    model = _model_of_parameters([each.name for each in (*form.linear, *form.searched)])
+    model = _make_model_of_parameters([each.name for each in (*form.linear, *form.searched)])
     values = validate(model, keys.without(*own), problems, within=within, also_known=own)
     if values is None:
         return None
     stated = {name: value for name, value in values if value is not None}
     limits = {name: value for name, value in stated.items() if isinstance(value, ParameterLimits)}
     given = {name: value for name, value in stated.items() if name not in limits}
-    number = parted(effect.identifier)[1] if effect.several else 1
+    number = part_number(effect.identifier)[1] if effect.several else 1
     return EffectChoice(effect.identifier, settings, given, keys.place, limits, number)
 
 
-def _model_of_parameters(names: Sequence[str]) -> type[Options]:
+def _make_model_of_parameters(names: Sequence[str]) -> type[Options]:
     """Return the model of a group of keys that may give each parameter a value."""
     fields: dict[str, Any] = {
         name: (Finite | ParameterLimits | None, Field(None, description="The value of the parameter."))
@@ -284,7 +288,7 @@ def _model_of_parameters(names: Sequence[str]) -> type[Options]:
 Find: TypeAlias = Callable[[str, Place | None], InstalledProgram]
 
 
-def program_choices(
+def choose_programs_of(
     listed: Node | None, find: Find, problems: list[Problem], *, within: str
 ) -> tuple[Choice, ...]:
     """Return the programs of a list.
@@ -293,19 +297,21 @@ def program_choices(
     `problems`: Where mistakes are added: two that would write the same file among them.
     """
     items = listed.items if isinstance(listed, Items) else ()
-    choices = tuple(_programs(items, find, problems, within))
-    problems.extend(_clashes(choices, find))
+    choices = tuple(_choose_programs(items, find, problems, within))
+    problems.extend(_find_clashes(choices, find))
     return choices
 
 
-def _programs(items: Sequence[Node], find: Find, problems: list[Problem], within: str) -> Iterator[Choice]:
+def _choose_programs(
+    items: Sequence[Node], find: Find, problems: list[Problem], within: str
+) -> Iterator[Choice]:
     for item in items:
-        choice = choice_in(group_naming("program", item), "program", find, problems, within=within)
+        choice = choose_in(group_naming("program", item), "program", find, problems, within=within)
         if choice:
             yield choice
 
 
-def _clashes(choices: Sequence[Choice], find: Find) -> Iterator[Problem]:
+def _find_clashes(choices: Sequence[Choice], find: Find) -> Iterator[Problem]:
     """Yield programs whose file would be that of one before them."""
     by_suffix: dict[str, str] = {}
     for choice in choices:
@@ -321,7 +327,7 @@ def _clashes(choices: Sequence[Choice], find: Find) -> Iterator[Problem]:
         by_suffix[suffix] = choice.identifier
 
 
-def programs_by_name(
+def choose_programs_by_name(
     names: Sequence[str], named_at: Place, stated: Sequence[Choice], find: Find
 ) -> tuple[Choice, ...]:
     """Return programs that somebody names instead of those of a job, with the keys that it states.
@@ -333,11 +339,11 @@ def programs_by_name(
     of_job = {choice.identifier: choice for choice in stated}
     items = [Scalar(named_at, name) for name in names]
     choices = [
-        of_job[item.text] if item.text in of_job else next(_programs([item], find, problems, ""), None)
+        of_job[item.text] if item.text in of_job else next(_choose_programs([item], find, problems, ""), None)
         for item in items
     ]
     found = tuple(choice for choice in choices if choice)
-    problems.extend(_clashes([replace(choice, place=named_at) for choice in found], find))
+    problems.extend(_find_clashes([replace(choice, place=named_at) for choice in found], find))
     if problems:
         raise InputError(problems)
     return found
@@ -350,11 +356,11 @@ class ControllerChoice(Choice):
     stated: Keys
 
 
-def controller_choice(
+def choose_controller_of(
     stated: Node | None, registry: Installed, problems: list[Problem]
 ) -> ControllerChoice | None:
     """Return the control that a group of keys names; None if it names none, or a wrong one."""
-    choice = choice_in(stated, "controller", registry.controller, problems, within="compensation")
+    choice = choose_in(stated, "controller", registry.controller, problems, within="compensation")
     if choice is None or not isinstance(stated, Keys):
         return None
     own = replace(stated.without("controller"), place=choice.place)
@@ -380,17 +386,17 @@ def group_model(extension: InstalledExtension) -> type[BaseModel]:
     return model
 
 
-def extension_choices(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[ExtensionChoice]:
+def choose_extensions(tree: Keys, registry: Installed, problems: list[Problem]) -> Iterator[ExtensionChoice]:
     """Yield the groups of a job, each with its keys and its part programs; mistakes are added to problems."""
     for name in registry.extension_keys:
         entry = tree.entries.get(name)
         if entry is None:
             continue
         extension = registry.extension(name, entry.place)
-        group = validate(group_model(extension), keys_of(tree.place, (entry,)), problems)
+        group = validate(group_model(extension), make_keys_of(tree.place, (entry,)), problems)
         path = (name, *extension.programs)
-        programs = program_choices(
-            found_at(tree, path) if extension.programs else None,
+        programs = choose_programs_of(
+            find_at(tree, path) if extension.programs else None,
             partial(registry.part_program, takes=extension.takes),
             problems,
             within=".".join(path),

@@ -84,7 +84,7 @@ _OF_TARGETS = {
 }
 
 
-def circle_contradictions(
+def find_circle_contradictions(
     keys: JobKeys, measurand: Measurand, *, has_axis: bool
 ) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield what does not go together of a circle and the other keys of a job.
@@ -118,7 +118,7 @@ def circle_contradictions(
         )
 
 
-def circle_plan_contradictions(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
+def find_circle_plan_contradictions(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield the keys of a plan that do not go with a circle, or with a test of another kind."""
     if keys.circle is None:
         if keys.plan.circle is not None:

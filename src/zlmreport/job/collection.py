@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, quoted
-from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, found_at, keys_of, merged
-from zlmreport.job.types import path_named
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, make_keys_of, merge
+from zlmreport.job.types import resolve_path_named
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.error_symbol import symbol_of_positioning
+from zlmreport.measurement.error_symbol import find_symbol_of_positioning
 
 MEASUREMENTS = "measurements"
 #: Jobs that one document has at most.
@@ -62,7 +62,7 @@ def is_collection(tree: Keys) -> bool:
     return MEASUREMENTS in tree.entries
 
 
-def jobs_named(tree: Keys) -> tuple[tuple[Path, Place], ...]:
+def list_jobs_named(tree: Keys) -> tuple[tuple[Path, Place], ...]:
     """Return the files of the jobs that a document is made of, with the places that name them.
 
     Raises `InputError` with each that is none, stands there twice, or is a key of one measurement.
@@ -83,7 +83,7 @@ def jobs_named(tree: Keys) -> tuple[tuple[Path, Place], ...]:
     found: dict[Path, Place] = {}
     for item in items:
         try:
-            path = _path(item)
+            path = _take_path(item)
         except ValueError as error:
             problems.append(Problem(item.place, f"{MEASUREMENTS}: {error}"))
             continue
@@ -95,13 +95,13 @@ def jobs_named(tree: Keys) -> tuple[tuple[Path, Place], ...]:
     return tuple(found.items())
 
 
-def _path(item: Node) -> Path:
+def _take_path(item: Node) -> Path:
     if not isinstance(item, Scalar) or not item.text:
         raise ValueError("the name of a job file is expected")
-    return path_named(item.text, Path(item.place.file))
+    return resolve_path_named(item.text, Path(item.place.file))
 
 
-def part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
+def make_part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
     """Return the keys of one job of a document: its own, but for what the document says for all.
 
     Raises `InputError` if it is such a document itself, or on another machine.
@@ -111,7 +111,7 @@ def part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
     serials = [
         node.text
         for each in (own, document)
-        if isinstance(node := found_at(each, ("machine", "serial")), Scalar) and not node.is_nothing
+        if isinstance(node := find_at(each, ("machine", "serial")), Scalar) and not node.is_nothing
     ]
     if len(set(serials)) > 1:
         raise InputError.at(
@@ -124,21 +124,21 @@ def part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
     if certificate and isinstance(certificate.value, Keys):
         of_all = certificate.value.entries
         kept = tuple(of_all[key] for key in _OF_CERTIFICATE if key in of_all)
-        group = keys_of(certificate.value.place, kept)
+        group = make_keys_of(certificate.value.place, kept)
         shared.append(KeyEntry("certificate", certificate.place, group))
-    return merged(own.without("certificate"), keys_of(own.place, tuple(shared)))
+    return merge(own.without("certificate"), make_keys_of(own.place, tuple(shared)))
 
 
-def document_of(first: Keys, document: Keys) -> Keys:
+def make_document_of(first: Keys, document: Keys) -> Keys:
     """Return the keys of a document of several jobs, with what a job must have from its first."""
-    return merged(first, document.without("extends"))
+    return merge(first, document.without("extends"))
 
 
-def names_of(axes: Iterable[tuple[Axis, Path]]) -> tuple[str, ...]:
+def name_measurements_of(axes: Iterable[tuple[Axis, Path]]) -> tuple[str, ...]:
     """Return what the measurements of a document are called: by their errors' symbols, or their files."""
     found: list[str] = []
     for axis, path in axes:
-        symbol = axis.error or (symbol_of_positioning(axis.name) if axis.measurand.is_position else "")
+        symbol = axis.error or (find_symbol_of_positioning(axis.name) if axis.measurand.is_position else "")
         name = symbol or _NOT_IN_NAMES.sub("-", path.stem).strip("-") or "measurement"
         count, unique = 1, name
         while unique in found:

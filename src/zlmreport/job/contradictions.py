@@ -11,12 +11,19 @@ from typing import Any, TypeAlias, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from zlmreport.errors import Problem, did_you_mean, quoted
-from zlmreport.job.evaluation_keys import plan_contradictions, uncertainty_contradictions
+from zlmreport.job.evaluation_keys import find_uncertainty_contradictions, plan_contradictions
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import Measurement
-from zlmreport.job.sentences import GROUP_EXPECTED, MISSING, TEXT_EXPECTED, Mistake, mistakes_in, problem
+from zlmreport.job.sentences import (
+    GROUP_EXPECTED,
+    MISSING,
+    TEXT_EXPECTED,
+    Mistake,
+    find_mistakes_in,
+    make_problem,
+)
 from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, place_of
-from zlmreport.job.types import LocatedText, keys_in, model_at
+from zlmreport.job.types import LocatedText, find_model_at, list_keys_in
 from zlmreport.measurement.axis import AxisKind
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -45,33 +52,33 @@ def validate(
     `also_known`: Keys that belong to the group and are not the model's, for messages.
     """
     found, mistakes = _read(model, keys)
-    problems.extend(problem(mistake, model, within, also_known) for mistake in mistakes)
+    problems.extend(make_problem(mistake, model, within, also_known) for mistake in mistakes)
     return found
 
 
-def problems_in_part(model: type[BaseModel], keys: Keys, within: str) -> list[Problem]:
+def find_problems_in_part(model: type[BaseModel], keys: Keys, within: str) -> list[Problem]:
     """Return what is wrong with some keys of a group, the rest of which stands elsewhere."""
     _, mistakes = _read(model, keys)
-    return [problem(mistake, model, within, ()) for mistake in mistakes if mistake.kinds != {MISSING}]
+    return [make_problem(mistake, model, within, ()) for mistake in mistakes if mistake.kinds != {MISSING}]
 
 
 def _read(model: type[Model], keys: Keys) -> tuple[Model | None, tuple[Mistake, ...]]:
     """Return a group of keys as its model, or None and the mistakes in it."""
     readings: dict[Path, Callable[[Scalar], Any]] = {}
     try:
-        return model.model_validate(_values(keys, (), readings)), ()
+        return model.model_validate(_read_plain_values(keys, (), readings)), ()
     except ValidationError as error:
-        mistakes = mistakes_in(error, keys)
-    readings = {mistake.path: reading for mistake in mistakes if (reading := _other_reading(mistake))}
+        mistakes = find_mistakes_in(error, keys)
+    readings = {mistake.path: reading for mistake in mistakes if (reading := _find_other_reading(mistake))}
     if readings:
         try:
-            return model.model_validate(_values(keys, (), readings)), ()
+            return model.model_validate(_read_plain_values(keys, (), readings)), ()
         except ValidationError as error:
-            mistakes = mistakes_in(error, keys)
+            mistakes = find_mistakes_in(error, keys)
     return None, mistakes
 
 
-def _other_reading(mistake: Mistake) -> Callable[[Scalar], Any] | None:
+def _find_other_reading(mistake: Mistake) -> Callable[[Scalar], Any] | None:
     """Return how a value that its key does not take may be read too.
 
     What looks like a number is text where only text is asked for, as it is spelt; and a group of which
@@ -82,23 +89,26 @@ def _other_reading(mistake: Mistake) -> Callable[[Scalar], Any] | None:
         return None
     if node.is_nothing:
         return (lambda _: {}) if mistake.kinds & GROUP_EXPECTED else None
-    return _spelling if mistake.kinds <= TEXT_EXPECTED else None
+    return _find_spelling if mistake.kinds <= TEXT_EXPECTED else None
 
 
-def _values(node: Node, path: Path, readings: Mapping[Path, Callable[[Scalar], Any]]) -> Any:
+def _read_plain_values(node: Node, path: Path, readings: Mapping[Path, Callable[[Scalar], Any]]) -> Any:
     """Return a tree as plain values; `readings` says which of them are read otherwise than they look."""
     if isinstance(node, Keys):
-        return {key: _values(entry.value, (*path, key), readings) for key, entry in node.entries.items()}
+        return {
+            key: _read_plain_values(entry.value, (*path, key), readings)
+            for key, entry in node.entries.items()
+        }
     if isinstance(node, Items):
-        return [_values(item, (*path, index), readings) for index, item in enumerate(node.items)]
-    return readings.get(path, _resolved)(node)
+        return [_read_plain_values(item, (*path, index), readings) for index, item in enumerate(node.items)]
+    return readings.get(path, _resolve)(node)
 
 
-def _spelling(scalar: Scalar) -> LocatedText:
+def _find_spelling(scalar: Scalar) -> LocatedText:
     return LocatedText(scalar.text, scalar.place)
 
 
-def _resolved(scalar: Scalar) -> float | LocatedText | None:
+def _resolve(scalar: Scalar) -> float | LocatedText | None:
     """Read a value as YAML 1.2 does, but for the truth values, which the keys that take them read."""
     if scalar.is_nothing:
         return None
@@ -109,21 +119,23 @@ def _resolved(scalar: Scalar) -> float | LocatedText | None:
             return float(scalar.text)
         if _NO_NUMBER.fullmatch(scalar.text):
             return float(scalar.text.replace(".", ""))
-    return _spelling(scalar)
+    return _find_spelling(scalar)
 
 
-def contradictions(keys: JobKeys, tree: Keys, others: Iterable[Contradiction] = ()) -> Iterator[Problem]:
+def find_all_contradictions(
+    keys: JobKeys, tree: Keys, others: Iterable[Contradiction] = ()
+) -> Iterator[Problem]:
     """Yield every contradiction of a job, and others that are known, at the key that would have to change."""
-    for path, message in (*_contradictions(keys), *others):
+    for path, message in (*_find_contradictions(keys), *others):
         named = ".".join(step for step in path if isinstance(step, str))
         yield Problem(place_of(tree, path), f"{named}: {message}")
-    yield from supplied_problems(keys, tree)
+    yield from find_supplied_problems(keys, tree)
 
 
-def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
-    yield from _days(keys)
-    yield from _amendment(keys)
-    yield from _opinions(keys)
+def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
+    yield from _find_wrong_days(keys)
+    yield from _find_wrong_amendment(keys)
+    yield from _find_wrong_opinions(keys)
     due = keys.next_due
     if due and not due.agreed:
         yield (
@@ -138,7 +150,7 @@ def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
     for key, message in plan_contradictions(keys.plan.targets):
         yield ("plan", "targets", key), message
-    for steps, message in uncertainty_contradictions(
+    for steps, message in find_uncertainty_contradictions(
         keys.uncertainty, keys.axis.kind, is_circle=keys.circle is not None
     ):
         yield ("uncertainty", *steps), message
@@ -150,17 +162,17 @@ def _contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         )
 
 
-def _days(keys: JobKeys) -> Iterator[Contradiction]:
+def _find_wrong_days(keys: JobKeys) -> Iterator[Contradiction]:
     """Yield every day that lies before one which it must follow."""
-    first, last = keys.measurement.date, last_day(keys.measurement)
+    first, last = keys.measurement.date, find_last_day(keys.measurement)
     before = keys.as_found.measurement if keys.as_found else None
     received, sampled, issued = keys.dates.received, keys.dates.sampled, keys.certificate.issued
     due = keys.next_due.date if keys.next_due else None
     began = before.date if before and before.date else first
-    yield from _ends(("measurement",), keys.measurement)
+    yield from _find_wrong_ends(("measurement",), keys.measurement)
     if before:
-        yield from _ends(("as_found", "measurement"), before)
-        found = last_day(before)
+        yield from _find_wrong_ends(("as_found", "measurement"), before)
+        found = find_last_day(before)
         if found and first and first < found:
             yield (
                 ("as_found", "measurement", "date"),
@@ -175,19 +187,19 @@ def _days(keys: JobKeys) -> Iterator[Contradiction]:
         yield ("next_due", "date"), f"{due} does not lie after the measurement of {last}"
 
 
-def last_day(measurement: Measurement) -> dt.date | None:
+def find_last_day(measurement: Measurement) -> dt.date | None:
     """Return the last day of a measurement; None where no day is stated."""
     return measurement.end or measurement.date
 
 
-def _ends(group: tuple[str, ...], measurement: Measurement) -> Iterator[Contradiction]:
+def _find_wrong_ends(group: tuple[str, ...], measurement: Measurement) -> Iterator[Contradiction]:
     if measurement.end and measurement.date is None:
         yield (*group, "end"), f"the first day is missing; add {'.'.join(group)}.date"
     elif measurement.end and measurement.date and measurement.end < measurement.date:
         yield (*group, "end"), f"{measurement.end} lies before the first day, {measurement.date}"
 
 
-def _amendment(keys: JobKeys) -> Iterator[Contradiction]:
+def _find_wrong_amendment(keys: JobKeys) -> Iterator[Contradiction]:
     amends = keys.certificate.amends
     if amends and amends.number.casefold() == keys.certificate.number.casefold():
         yield (
@@ -200,7 +212,7 @@ def _amendment(keys: JobKeys) -> Iterator[Contradiction]:
         )
 
 
-def _opinions(keys: JobKeys) -> Iterator[Contradiction]:
+def _find_wrong_opinions(keys: JobKeys) -> Iterator[Contradiction]:
     for index, opinion in enumerate(keys.opinions):
         if opinion.by is None and keys.certificate.authorised_by is None:
             yield (
@@ -238,28 +250,28 @@ _NAMED_TESTS = ("measurement.tests", "as_found.measurement.tests")
 
 
 @cache
-def markable_keys() -> tuple[str, ...]:
+def list_markable_keys() -> tuple[str, ...]:
     """Return the dotted names of all keys whose values may come from others; lists have no index in them."""
     return tuple(
         key
-        for key in _names(JobKeys, "")
+        for key in _list_names(JobKeys, "")
         if key.partition(".")[0] in _PARTS and not key.startswith(_NAMED_TESTS)
     )
 
 
-def supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
+def find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
     """Yield every key that is said to be somebody else's and is unknown, or not stated by the job."""
-    for key, path in _named(keys):
+    for key, path in _find_named(keys):
         where = ".".join(step for step in path if isinstance(step, str))
         place = place_of(tree, path)
-        if key not in markable_keys():
-            near = did_you_mean(key, _neighbours(key, markable_keys()))
+        if key not in list_markable_keys():
+            near = did_you_mean(key, _list_neighbours(key, list_markable_keys()))
             yield Problem(place, f"{where}: {quoted(key)} is no key whose value others can supply; {near}")
         elif not _is_stated(tree, key.split(".")):
             yield Problem(place, f"{where}: this job does not state {key}; state it, or do not list it")
 
 
-def _named(keys: JobKeys) -> Iterator[tuple[str, tuple[Step, ...]]]:
+def _find_named(keys: JobKeys) -> Iterator[tuple[str, tuple[Step, ...]]]:
     """Yield the keys that a job names as others', each with the path at which it does."""
     for index, key in enumerate(keys.provided_by_customer):
         yield key, ("provided_by_customer", index)
@@ -268,15 +280,15 @@ def _named(keys: JobKeys) -> Iterator[tuple[str, tuple[Step, ...]]]:
             yield key, ("external", number, "keys", index)
 
 
-def _names(model: type[BaseModel], within: str) -> Iterator[str]:
-    for name in keys_in(model):
+def _list_names(model: type[BaseModel], within: str) -> Iterator[str]:
+    for name in list_keys_in(model):
         yield f"{within}{name}"
-        part = model_at(model, (name,)) or model_at(model, (name, 0))
+        part = find_model_at(model, (name,)) or find_model_at(model, (name, 0))
         if part:
-            yield from _names(part, f"{within}{name}.")
+            yield from _list_names(part, f"{within}{name}.")
 
 
-def _neighbours(key: str, known: tuple[str, ...]) -> list[str]:
+def _list_neighbours(key: str, known: tuple[str, ...]) -> list[str]:
     """Return the keys among which a misspelt one belongs: those of its group, if there is such a group."""
     group = key.rpartition(".")[0]
     return [each for each in known if each.rpartition(".")[0] == group] or list(known)

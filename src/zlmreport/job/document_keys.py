@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self, TypeAlias
 from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from zlmreport.errors import quoted
-from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, file_stem
+from zlmreport.job.types import Date, JobPart, JobPath, Lines, NotNegative, Text, take_file_stem
 from zlmreport.language import Language
 from zlmreport.measurement.axis import AxisKind
 
@@ -120,7 +120,7 @@ class Agreement(JobPart):
 #: Unique identification of a document, that also names its files.
 Number = Annotated[
     Text,
-    AfterValidator(file_stem),
+    AfterValidator(take_file_stem),
     Field(json_schema_extra={"pattern": r"^[A-Za-z0-9][A-Za-z0-9._-]{0,99}$"}),
 ]
 
@@ -146,7 +146,7 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 _LEAST_CONTRAST = 4.5
 
 
-def _readable(colour: str) -> str:
+def _require_readable(colour: str) -> str:
     if not _COLOUR.fullmatch(colour):
         raise ValueError(f"{quoted(colour)} is no colour; write red, green and blue as in #0d4a63")
     parts = (int(colour[at : at + 2], 16) / 255 for at in (1, 3, 5))
@@ -171,7 +171,7 @@ class TypefaceKeys(JobPart):
 class Style(JobPart):
     """The look of the document."""
 
-    accent: Annotated[str, AfterValidator(_readable)] = Field(
+    accent: Annotated[str, AfterValidator(_require_readable)] = Field(
         "#0d4a63",
         json_schema_extra={"pattern": "^#[0-9A-Fa-f]{6}$"},
         description="Colour of headings and of the lines that part them.",

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.files import demanded, rewrite
-from zlmreport.job.choices import EffectChoice, effect_choices
+from zlmreport.files import demand, rewrite
+from zlmreport.job.choices import EffectChoice, choose_effects_of
 from zlmreport.job.extents import Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
@@ -23,15 +23,15 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.list_edits import (
     ListKey,
     UneditableError,
-    as_text,
-    own_list,
-    with_changed_item,
-    with_item,
-    with_list,
-    without_item,
+    add_item,
+    add_list,
+    change_item,
+    drop_item,
+    find_own_list,
+    write_as_text,
 )
 from zlmreport.job.loading import load
-from zlmreport.job.parse import LARGEST, decoded, parse
+from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Items, Node, Scalar, walk
 
 #: The list of a model.
@@ -68,7 +68,7 @@ class Edit:
         rewrite(self.path, self.content, lambda found: _refuse_changed(found, self.digest, place))
 
 
-def named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
+def read_named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
     """Return an effect that a person names: ``backlash``, or ``polynomial: {order: 5}`` as in a job.
 
     Raises `InputError` if there is no such effect, or it has no such key, with the nearest that there is.
@@ -76,7 +76,7 @@ def named_effect(text: str, registry: Installed, place: Place) -> NamedEffect:
     node: Node
     node = parse(text.encode(), place.file) if ":" in text or "{" in text else Scalar(place, text.strip())
     problems: list[Problem] = []
-    choices = effect_choices(Items(place, (node,)), registry, problems, within=str(EFFECTS))
+    choices = choose_effects_of(Items(place, (node,)), registry, problems, within=str(EFFECTS))
     if problems:
         raise InputError(Problem(place, each.message) for each in problems)
     return NamedEffect(node, choices[0])
@@ -108,9 +108,9 @@ def edit_effects(
     """
     removed = [index for index, choice in enumerate(job.effects) if choice.identifier in remove]
     kept = [choice for choice in job.effects if choice.identifier not in remove]
-    wanted = meaning([*kept, *(each.choice for each in add)])
+    wanted = state_meaning([*kept, *(each.choice for each in add)])
     change = ListChange(EFFECTS, removed, added=[each.node for each in add])
-    return edit_list(path, job, registry, change, lambda after: meaning(after.effects) == wanted)
+    return edit_list(path, job, registry, change, lambda after: state_meaning(after.effects) == wanted)
 
 
 def edit_list(
@@ -124,8 +124,8 @@ def edit_list(
     Raises `InputError` if the file has changed since it was loaded, or the list is written in a way in which
     nothing can be changed without changing more; `AccessError` if the file cannot be read.
     """
-    content = content_of(path, job)
-    where, listed = change.where, listed_items(job, change.where)
+    content = read_content_of(path, job)
+    where, listed = change.where, list_items_written(job, change.where)
     nodes = [
         *(
             change.changed.get(index, item)
@@ -135,22 +135,22 @@ def edit_list(
         *change.added,
     ]
     mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""
-    text = decoded(content, str(path))
-    is_own = own_list(Written.of(text), where) is not None
+    text = decode(content, str(path))
+    is_own = find_own_list(Written.of(text), where) is not None
     try:
-        edited = mark + (_edited(text, change) if is_own else with_list(text, where, nodes)).encode()
-        after = loaded(path, registry, edited)
+        edited = mark + (_edit_list(text, change) if is_own else add_list(text, where, nodes)).encode()
+        after = load_content(path, registry, edited)
     except UneditableError:
         after = None
     is_alike = (
         after is not None
         and is_meant(after)
         and after.axis == job.axis
-        and (where == EFFECTS or meaning(after.effects) == meaning(job.effects))
-        and alike_elsewhere(job, after, where.group, where.key)
+        and (where == EFFECTS or state_meaning(after.effects) == state_meaning(job.effects))
+        and is_alike_elsewhere(job, after, where.group, where.key)
     )
     if after is None or not is_alike:
-        written = ", ".join(as_text(node) for node in nodes)
+        written = ", ".join(write_as_text(node) for node in nodes)
         raise InputError.at(
             job.place_of(str(where)),
             f"cannot be changed here without changing more; write it by hand: {where.key}: [{written}]",
@@ -159,28 +159,28 @@ def edit_list(
     return Edit(path, job.files[0].sha256, edited, after, inherited)
 
 
-def listed_items(job: Job, where: ListKey) -> tuple[Node, ...]:
+def list_items_written(job: Job, where: ListKey) -> tuple[Node, ...]:
     """Return the items of a list as they are written, in the job itself or in a file that it extends."""
     found = list(walk(job.tree, where.path))
     listed = found[-1][2] if len(found) == len(where.path) else None
     return listed.items if isinstance(listed, Items) else ()
 
 
-def _edited(text: str, change: ListChange) -> str:
+def _edit_list(text: str, change: ListChange) -> str:
     """Return the text with the changes of a list of its own, the last item first: so indices stay true."""
     for item in change.added:
-        text = with_item(text, change.where, item)
+        text = add_item(text, change.where, item)
     for index in sorted({*change.removed, *change.changed}, reverse=True):
         if index in change.removed:
-            text = without_item(text, change.where, index)
+            text = drop_item(text, change.where, index)
         else:
-            text = with_changed_item(text, change.where, index, change.changed[index])
+            text = change_item(text, change.where, index, change.changed[index])
     return text
 
 
-def content_of(path: Path, job: Job) -> bytes:
+def read_content_of(path: Path, job: Job) -> bytes:
     """Return what a job file holds; refuse one that is no longer what was loaded."""
-    content = demanded(path, LARGEST)
+    content = demand(path, LARGEST)
     _refuse_changed(content, job.files[0].sha256, Place(str(path)))
     return content
 
@@ -192,7 +192,7 @@ def _refuse_changed(content: bytes, digest: str, place: Place) -> None:
         )
 
 
-def loaded(path: Path, registry: Installed, content: bytes) -> Job | None:
+def load_content(path: Path, registry: Installed, content: bytes) -> Job | None:
     """Return the job that a file would be with another content; None for one that makes no sense."""
     try:
         return load(path, registry, content=content)
@@ -200,17 +200,17 @@ def loaded(path: Path, registry: Installed, content: bytes) -> Job | None:
         return None
 
 
-def alike_elsewhere(before: Job, after: Job, group: str, key: str) -> bool:
+def is_alike_elsewhere(before: Job, after: Job, group: str, key: str) -> bool:
     """Return whether two jobs mean the same but for a key; effects and axis are for the caller to hold."""
     return (
-        _without(before.keys, group, key) == _without(after.keys, group, key)
+        _drop_key(before.keys, group, key) == _drop_key(after.keys, group, key)
         and after.source.options == before.source.options
         and after.standards == before.standards
         and [each.options for each in after.extensions] == [each.options for each in before.extensions]
     )
 
 
-def _without(keys: JobKeys, group: str, key: str) -> dict[str, Any]:
+def _drop_key(keys: JobKeys, group: str, key: str) -> dict[str, Any]:
     """Return what a job says but for a key; an empty list or nothing beside it says nothing."""
     stated = keys.model_dump()
     kept = {**(stated[group] or {})}
@@ -218,6 +218,6 @@ def _without(keys: JobKeys, group: str, key: str) -> dict[str, Any]:
     return {**stated, group: {name: value for name, value in kept.items() if value not in ([], None)}}
 
 
-def meaning(choices: Sequence[EffectChoice]) -> list[tuple[object, ...]]:
+def state_meaning(choices: Sequence[EffectChoice]) -> list[tuple[object, ...]]:
     """Return what effects are, without the places where they stand."""
     return [(choice.identifier, choice.settings, dict(choice.values)) for choice in choices]

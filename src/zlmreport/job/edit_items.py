@@ -13,15 +13,23 @@ from typing import Any
 import yaml
 
 from zlmreport.errors import InputError, Place
-from zlmreport.job.edit import EFFECTS, Edit, ListChange, content_of, edit_list, listed_items, meaning
+from zlmreport.job.edit import (
+    EFFECTS,
+    Edit,
+    ListChange,
+    edit_list,
+    list_items_written,
+    read_content_of,
+    state_meaning,
+)
 from zlmreport.job.extents import ValueForm, Written
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
-from zlmreport.job.list_edits import ListKey, UneditableError, as_text, inserted, members, with_member
+from zlmreport.job.list_edits import ListKey, UneditableError, add_member, find_members, insert, write_as_text
 from zlmreport.job.loading import load
 from zlmreport.job.measurement_keys import ExclusionKeys
-from zlmreport.job.parse import decoded
-from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, keys_of
+from zlmreport.job.parse import decode
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, make_keys_of
 
 #: What means the same with and without quotes, and is written without.
 _DATE = re.compile(r"\d{4}-\d\d-\d\d", re.ASCII)
@@ -62,31 +70,31 @@ def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterC
     values = {name: each for name, each in choice.values.items() if name != parameter}
     if value is not None:
         values[parameter] = value
-    changed = {index: _effect_node(listed_items(job, EFFECTS)[index], effect, parameter, value)}
+    changed = {index: _make_effect_node(list_items_written(job, EFFECTS)[index], effect, parameter, value)}
 
     def is_meant(after: Job) -> bool:
         effects = [*job.effects]
         effects[index] = replace(choice, values=values)
-        return meaning(after.effects) == meaning(effects)
+        return state_meaning(after.effects) == state_meaning(effects)
 
     return edit_list(path, job, registry, ListChange(EFFECTS, changed=changed), is_meant)
 
 
-def _effect_node(item: Node, effect: str, parameter: str, value: float | None) -> Node:
+def _make_effect_node(item: Node, effect: str, parameter: str, value: float | None) -> Node:
     """Return an effect as it is written, with another value of a parameter, or without one."""
     place = item.place
     entries: dict[str, KeyEntry] = {}
     if isinstance(item, Keys) and effect in item.entries and isinstance(item.entries[effect].value, Keys):
-        entries = dict(_keys(item.entries[effect].value))
+        entries = dict(_list_keys(item.entries[effect].value))
     entries.pop(parameter, None)
     if value is not None:
         entries[parameter] = KeyEntry(parameter, place, Scalar(place, _number(value)))
     if not entries:
         return Scalar(place, effect)
-    return keys_of(place, (KeyEntry(effect, place, keys_of(place, tuple(entries.values()))),))
+    return make_keys_of(place, (KeyEntry(effect, place, make_keys_of(place, tuple(entries.values()))),))
 
 
-def _keys(node: Node) -> Mapping[str, KeyEntry]:
+def _list_keys(node: Node) -> Mapping[str, KeyEntry]:
     return MappingProxyType({}) if isinstance(node, Scalar | Items) else node.entries
 
 
@@ -106,7 +114,7 @@ def exclude(path: Path, job: Job, registry: Installed, exclusions: Sequence[Excl
     can be changed without changing more; `AccessError` if the file cannot be read.
     """
     wanted = [*job.keys.measurement.excluded, *exclusions]
-    change = ListChange(EXCLUDED, added=[_exclusion_node(each) for each in exclusions])
+    change = ListChange(EXCLUDED, added=[_make_exclusion_node(each) for each in exclusions])
     return edit_list(path, job, registry, change, lambda after: after.keys.measurement.excluded == wanted)
 
 
@@ -120,7 +128,7 @@ def include(path: Path, job: Job, registry: Installed, index: int) -> Edit:
     return edit_list(path, job, registry, change, lambda after: after.keys.measurement.excluded == wanted)
 
 
-def _exclusion_node(exclusion: ExclusionKeys) -> Node:
+def _make_exclusion_node(exclusion: ExclusionKeys) -> Node:
     place = Place("")
     values = {
         "target": Scalar(place, f"{exclusion.target:.10g}"),
@@ -128,7 +136,7 @@ def _exclusion_node(exclusion: ExclusionKeys) -> Node:
         "run": Scalar(place, str(exclusion.run)),
         "reason": Scalar(place, exclusion.reason, plain=False),
     }
-    return keys_of(place, tuple(KeyEntry(key, place, value) for key, value in values.items()))
+    return make_keys_of(place, tuple(KeyEntry(key, place, value) for key, value in values.items()))
 
 
 def edit_keys(
@@ -143,47 +151,47 @@ def edit_keys(
     can be added without changing more; or with what is wrong with the job as it would be. Raises
     `AccessError` if the file cannot be read.
     """
-    content = content_of(path, job)
+    content = read_content_of(path, job)
     mark = codecs.BOM_UTF8 if content.startswith(codecs.BOM_UTF8) else b""
-    before = text = decoded(content, str(path))
+    before = text = decode(content, str(path))
     for key, value in stated.items():
         names = key.split(".")
-        wanted = _with(_meaning(text), names, value)
+        wanted = _add_to_meaning(_read_meaning(text), names, value)
         try:
-            text = _with_key(text, names, _spelt(value), units.get(key, ""))
+            text = _add_key(text, names, _spell(value), units.get(key, ""))
         except UneditableError:
             text = ""
-        if not text or _meaning(text) != wanted:
+        if not text or _read_meaning(text) != wanted:
             raise InputError.at(
                 job.place_of(key),
                 f"nothing can be added here without changing more; write by hand: "
-                f"{_in_braces(names, _spelt(value))}",
+                f"{_write_in_braces(names, _spell(value))}",
             )
     edited = content if text == before else mark + text.encode()
     return Edit(path, job.files[0].sha256, edited, load(path, registry, content=edited))
 
 
-def _spelt(value: float | str) -> str:
+def _spell(value: float | str) -> str:
     """Write a value as people would: ``10``, ``2026-11-20``, text with quotes only where it needs them."""
     if isinstance(value, str):
-        return value if _DATE.fullmatch(value) else as_text(Scalar(Place(""), value, plain=False))
+        return value if _DATE.fullmatch(value) else write_as_text(Scalar(Place(""), value, plain=False))
     return f"{value:.10g}"
 
 
-def _meaning(text: str) -> Any:
+def _read_meaning(text: str) -> Any:
     """Return what a text says, value by value."""
     return yaml.load(text, Loader=yaml.BaseLoader)  # noqa: S506 - it makes text, lists and groups of text
 
 
-def _with(stated: Any, names: Sequence[str], value: float | str) -> Any:
+def _add_to_meaning(stated: Any, names: Sequence[str], value: float | str) -> Any:
     """Return what a text is to say: what it says, and one key more."""
     if not names:
         return value if isinstance(value, str) else f"{value:.10g}"
     group = stated if isinstance(stated, dict) else {}
-    return {**group, names[0]: _with(group.get(names[0]), names[1:], value)}
+    return {**group, names[0]: _add_to_meaning(group.get(names[0]), names[1:], value)}
 
 
-def _in_braces(names: Sequence[str], spelt: str) -> str:
+def _write_in_braces(names: Sequence[str], spelt: str) -> str:
     """Return a pair of key and value, the value of a key within others in their braces."""
     *outer, last = names
     pair = f"{last}: {spelt}"
@@ -192,7 +200,7 @@ def _in_braces(names: Sequence[str], spelt: str) -> str:
     return pair
 
 
-def _with_key(text: str, names: Sequence[str], spelt: str, unit: str) -> str:
+def _add_key(text: str, names: Sequence[str], spelt: str, unit: str) -> str:
     """Return the text with a key more in the innermost of its groups that there is."""
     written = Written.of(text)
     group, rest = written.root, list(names)
@@ -201,12 +209,12 @@ def _with_key(text: str, names: Sequence[str], spelt: str, unit: str) -> str:
         rest.pop(0)
     if group.entry(rest[0]) is not None:
         raise UneditableError
-    pair = _in_braces(rest, spelt)
+    pair = _write_in_braces(rest, spelt)
     if group.form is ValueForm.BRACES:
-        return with_member(written, group, members(group.parts, 2), pair)
+        return add_member(written, group, find_members(group.parts, 2), pair)
     if group.form is not ValueForm.INDENTED or group.parts[-1].form is ValueForm.ALIAS:
         raise UneditableError
     end = written.line_end(group.parts[-1].end)
     indent = " " * written.column(group.parts[0].start)
     remark = f" # {unit}" if unit and len(rest) == 1 else ""
-    return inserted(text, end, f"{written.break_at(end)}{indent}{pair}{remark}")
+    return insert(text, end, f"{written.break_at(end)}{indent}{pair}{remark}")

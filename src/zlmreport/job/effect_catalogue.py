@@ -11,13 +11,13 @@ from pydantic import Field
 
 from zlmreport.errors import InputError, Problem, did_you_mean
 from zlmreport.job.contradictions import validate
-from zlmreport.job.extends import yaml_lines
+from zlmreport.job.extends import write_yaml_lines
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter, Phrase
-from zlmreport.job.formula_parts import Formula, kinds_of
+from zlmreport.job.formula_parts import Formula, find_kinds_of
 from zlmreport.job.parse import parse
-from zlmreport.job.sentences import shown
-from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, keys_of, place_of
+from zlmreport.job.sentences import show_value
+from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, make_keys_of, place_of
 from zlmreport.job.types import JobPart, Text
 from zlmreport.language import Words
 from zlmreport.measurement.axis import AxisKind
@@ -57,10 +57,10 @@ def read_catalogue(content: bytes, file: str, beside: Callable[[str], bytes]) ->
     """
     problems: list[Problem] = []
     tree = parse(content, file, strictly=False)
-    measurements = _measurements(tree, beside, problems)
+    measurements = _read_measurements(tree, beside, problems)
     whole: dict[str, FormulaKeys] = {}
-    for item in _items(tree, problems):
-        entry = _entry(item, measurements.entries, problems)
+    for item in _list_items(tree, problems):
+        entry = _make_entry(item, measurements.entries, problems)
         if entry is None:
             continue
         if entry.name in whole:
@@ -84,42 +84,44 @@ def read_measurements(content: bytes, file: str, beside: Callable[[str], bytes])
     return keys.measurements
 
 
-def _measurements(tree: Keys, beside: Callable[[str], bytes], problems: list[Problem]) -> Keys:
+def _read_measurements(tree: Keys, beside: Callable[[str], bytes], problems: list[Problem]) -> Keys:
     """Return the measurements of a catalogue, or of the file that it names."""
     keys = validate(CatalogueKeys, tree.without("effects"), problems)
     if keys is None or "measurements" not in tree.entries:
-        return keys_of(tree.place)
+        return make_keys_of(tree.place)
     if isinstance(keys.measurements, str):
         try:
             tree = parse(beside(keys.measurements), keys.measurements, strictly=False)
         except OSError:
             sentence = f"measurements: there is no file {keys.measurements!r} beside this one"
             problems.append(Problem(place_of(tree, ("measurements",)), sentence))
-            return keys_of(tree.place)
-        return _measurements(tree, beside, problems)
+            return make_keys_of(tree.place)
+        return _read_measurements(tree, beside, problems)
     listed = tree.entries["measurements"].value
-    return listed if isinstance(listed, Keys) else keys_of(tree.place)
+    return listed if isinstance(listed, Keys) else make_keys_of(tree.place)
 
 
-def _items(tree: Keys, problems: list[Problem]) -> Iterator[Keys]:
+def _list_items(tree: Keys, problems: list[Problem]) -> Iterator[Keys]:
     """Yield the entries of the list of effects."""
     listed = tree.entries["effects"].value if "effects" in tree.entries else Items(tree.place, ())
     for item in listed.items if isinstance(listed, Items) else (listed,):
         if isinstance(item, Keys) and isinstance(listed, Items):
             yield item
         else:
-            sentence = f"effects: {shown(item)} is no entry; each begins with '- name: …'"
+            sentence = f"effects: {show_value(item)} is no entry; each begins with '- name: …'"
             problems.append(Problem(item.place, sentence))
 
 
-def _entry(item: Keys, measurements: Mapping[str, KeyEntry], problems: list[Problem]) -> FormulaKeys | None:
+def _make_entry(
+    item: Keys, measurements: Mapping[str, KeyEntry], problems: list[Problem]
+) -> FormulaKeys | None:
     """Return an entry, the measurements that it names written out."""
     name = item.entries.get("name")
     within = f"effects.{name.value.text}" if name and isinstance(name.value, Scalar) else "effects"
     told = item.entries.get("taken_for")
     if told and isinstance(told.value, Keys):
         spelled = replace(
-            told.value, entries=MappingProxyType(dict(_told(told.value, measurements, problems)))
+            told.value, entries=MappingProxyType(dict(_list_words(told.value, measurements, problems)))
         )
         item = replace(
             item, entries=MappingProxyType({**item.entries, "taken_for": replace(told, value=spelled)})
@@ -128,7 +130,7 @@ def _entry(item: Keys, measurements: Mapping[str, KeyEntry], problems: list[Prob
     if keys is None:
         return None
     try:
-        kind = (kinds_of(keys) or [AxisKind.LINEAR])[0]
+        kind = (find_kinds_of(keys) or [AxisKind.LINEAR])[0]
         Formula.of(keys, kind)
         for key in keys.keys:
             for value in list(key.choices)[1:]:
@@ -139,7 +141,7 @@ def _entry(item: Keys, measurements: Mapping[str, KeyEntry], problems: list[Prob
     return keys
 
 
-def _told(
+def _list_words(
     told: Keys, measurements: Mapping[str, KeyEntry], problems: list[Problem]
 ) -> Iterator[tuple[str, KeyEntry]]:
     """Yield what tells an effect from others, each in words."""
@@ -168,7 +170,7 @@ remedy:
 """
 
 
-def as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
+def write_as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
     """Return a formula of a job as a catalogue with one entry, what the entry lacks written for its author.
 
     `item`: The formula as the job writes it.
@@ -181,19 +183,19 @@ def as_catalogue(item: Keys, formula: Formula, kind: AxisKind) -> str:
     entries |= {name: entry for name, entry in lacking.items() if name not in entries}
     parameters = entries["parameters"].value
     if isinstance(parameters, Keys):
-        elsewhere = of_job(formula)
+        elsewhere = find_parameters_of_job(formula)
         kept = tuple(
             replace(each, value=each.value.without("value", "equals"))
             if each.key in elsewhere and isinstance(each.value, Keys)
             else each
             for each in parameters.entries.values()
         )
-        entries["parameters"] = replace(entries["parameters"], value=keys_of(parameters.place, kept))
-    first, *rest = yaml_lines(keys_of(item.place, tuple(entries.values())), "    ")
+        entries["parameters"] = replace(entries["parameters"], value=make_keys_of(parameters.place, kept))
+    first, *rest = write_yaml_lines(make_keys_of(item.place, tuple(entries.values())), "    ")
     return "\n".join(("schema: zlmreport/effects/1", "effects:", f"  - {first.lstrip()}", *rest, ""))
 
 
-def of_job(formula: Formula) -> dict[str, FormulaParameter]:
+def find_parameters_of_job(formula: Formula) -> dict[str, FormulaParameter]:
     """Return the parameters of which a job says what they are, and which are estimated elsewhere."""
     return {
         name: each
@@ -203,10 +205,10 @@ def of_job(formula: Formula) -> dict[str, FormulaParameter]:
     }
 
 
-def in_job(formula: Formula) -> str:
+def write_in_job(formula: Formula) -> str:
     """Return how a job names an effect instead of its formula, with what it states of parameters."""
     stated = [
         f"{name}: {each.value!r}" if each.equals is None else f"{name}: {{equals: {each.equals}}}"
-        for name, each in of_job(formula).items()
+        for name, each in find_parameters_of_job(formula).items()
     ]
     return f"{formula.keys.name}: {{{', '.join(stated)}}}" if stated else formula.keys.name

@@ -168,7 +168,7 @@ _ACTS_OF_LENGTHS = ("along-the-length",)
 _SIZES = ("expanded_uncertainty", "standard_uncertainty", "range")
 
 
-def _not_of(kind: AxisKind, *, is_circle: bool) -> Iterator[tuple[tuple[str, ...], str]]:
+def _find_keys_not_of(kind: AxisKind, *, is_circle: bool) -> Iterator[tuple[tuple[str, ...], str]]:
     """Yield keys that speak of something else than was measured, and what to do with them."""
     if kind is AxisKind.ROTARY:
         yield _OF_LINEAR_AXES, "belongs to a linear axis; take it out, or state contributions of this axis"
@@ -178,7 +178,9 @@ def _not_of(kind: AxisKind, *, is_circle: bool) -> Iterator[tuple[tuple[str, ...
         yield _OF_CIRCLES, "belongs to a circular test (circle: …); take it out"
 
 
-def _foreign_acts(keys: UncertaintyKeys, *, is_circle: bool) -> Iterator[tuple[tuple[str | int, ...], str]]:
+def _find_foreign_acts(
+    keys: UncertaintyKeys, *, is_circle: bool
+) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Yield ways to share an error that what was measured does not have."""
     foreign = _ACTS_OF_LENGTHS if is_circle else _ACTS_OF_CIRCLES
     what = "a circle has no length along an axis" if is_circle else "this job is on no circle"
@@ -189,15 +191,15 @@ def _foreign_acts(keys: UncertaintyKeys, *, is_circle: bool) -> Iterator[tuple[t
             yield ("contributions", index, "acts"), f"{each.acts} does not fit: {what}"
 
 
-def uncertainty_contradictions(
+def find_uncertainty_contradictions(
     keys: UncertaintyKeys, kind: AxisKind, *, is_circle: bool = False
 ) -> Iterator[tuple[tuple[str | int, ...], str]]:
     """Yield what no single key shows to be wrong: the path of a key, and a sentence."""
-    for names, why in _not_of(kind, is_circle=is_circle):
+    for names, why in _find_keys_not_of(kind, is_circle=is_circle):
         for name in names:
             if getattr(keys, name) is not None:
                 yield (name,), why
-    yield from _foreign_acts(keys, is_circle=is_circle)
+    yield from _find_foreign_acts(keys, is_circle=is_circle)
     for name in keys.negligible:
         if getattr(keys, name, None) is not None:
             yield ("negligible", name), f"is stated as uncertainty.{name} too; take one of them out"

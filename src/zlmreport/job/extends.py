@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem, quoted
-from zlmreport.files import demanded
+from zlmreport.files import demand
 from zlmreport.job.parse import LARGEST, parse
-from zlmreport.job.tree import Items, Keys, Node, Scalar, keys_of, merged
-from zlmreport.job.types import path_named
+from zlmreport.job.tree import Items, Keys, Node, Scalar, make_keys_of, merge
+from zlmreport.job.types import resolve_path_named
 from zlmreport.measurement.provenance import SourceFile
 
 
@@ -80,30 +80,30 @@ class Defaults:
 
     def as_yaml(self) -> str:
         """Return the keys as a file of their own."""
-        return "".join(f"{line}\n" for line in yaml_lines(self.keys, ""))
+        return "".join(f"{line}\n" for line in write_yaml_lines(self.keys, ""))
 
 
-def yaml_lines(node: Keys | Items, indent: str) -> Iterator[str]:
+def write_yaml_lines(node: Keys | Items, indent: str) -> Iterator[str]:
     """Yield the lines of a group or a list as YAML, a value a line."""
     if isinstance(node, Items):
         labelled: list[tuple[str, Node]] = [("-", item) for item in node.items]
     else:
-        labelled = [(f"{_key(entry.key)}:", entry.value) for entry in node.entries.values()]
+        labelled = [(f"{_write_key(entry.key)}:", entry.value) for entry in node.entries.values()]
     for label, value in labelled:
         if isinstance(value, Scalar):
-            yield f"{indent}{label} {_scalar(value)}".rstrip()
-        elif list(yaml_lines(value, "")):
+            yield f"{indent}{label} {_write_scalar(value)}".rstrip()
+        elif list(write_yaml_lines(value, "")):
             yield f"{indent}{label}"
-            yield from yaml_lines(value, f"{indent}  ")
+            yield from write_yaml_lines(value, f"{indent}  ")
         else:
             yield f"{indent}{label} {'[]' if isinstance(value, Items) else '{}'}"
 
 
-def _key(key: str) -> str:
+def _write_key(key: str) -> str:
     return key if _PLAIN_KEY.fullmatch(key) else json.dumps(key, ensure_ascii=False)
 
 
-def _scalar(value: Scalar) -> str:
+def _write_scalar(value: Scalar) -> str:
     """Write a value as it was written: whether it stands in quotes tells a number from a text."""
     is_plain = value.plain and "\n" not in value.text
     return value.text if is_plain else json.dumps(value.text, ensure_ascii=False)
@@ -135,7 +135,7 @@ def compose(path: Path, content: bytes | None = None, defaults: Defaults | None 
     keys = reader.keys(path, (), None)
     if defaults is None:
         return Composition(keys, tuple(reader.files.values()))
-    together = merged(reader.defaults(defaults), keys)
+    together = merge(reader.defaults(defaults), keys)
     job, shared = defaults.as_files(path)
     return Composition(together, (job, *reader.files.values(), shared))
 
@@ -163,7 +163,7 @@ class _Reader:
         if named_at and len(chain) == LONGEST_CHAIN:
             raise InputError.at(named_at, f"more than {LONGEST_CHAIN} files extend one another in a row")
         if identity not in self._known:
-            content = self.given[identity] if identity in self.given else demanded(path, LARGEST, named_at)
+            content = self.given[identity] if identity in self.given else demand(path, LARGEST, named_at)
             self.files[identity] = SourceFile.of(path, content)
             self._known[identity] = self._with_bases(parse(content, str(path)), (*chain, path))
         return self._known[identity]
@@ -173,14 +173,14 @@ class _Reader:
         return self._with_bases(defaults.keys, (defaults.path,)).without("extends")
 
     def _with_bases(self, own: Keys, chain: tuple[Path, ...]) -> Keys:
-        bases = keys_of(own.place)
-        for name in _extended(own):
-            base = self.keys(_base(name, chain[-1]), chain, name.place)
-            bases = merged(bases, base.without("extends"))
-        return merged(bases, own)
+        bases = make_keys_of(own.place)
+        for name in _list_extended(own):
+            base = self.keys(_find_base(name, chain[-1]), chain, name.place)
+            bases = merge(bases, base.without("extends"))
+        return merge(bases, own)
 
 
-def _extended(keys: Keys) -> tuple[Scalar, ...]:
+def _list_extended(keys: Keys) -> tuple[Scalar, ...]:
     """Return the names of the files that a file extends."""
     entry = keys.entries.get("extends")
     if entry is None or (isinstance(entry.value, Scalar) and entry.value.is_nothing):
@@ -196,7 +196,7 @@ def _extended(keys: Keys) -> tuple[Scalar, ...]:
     return found
 
 
-def _base(name: Scalar, naming_file: Path) -> Path:
+def _find_base(name: Scalar, naming_file: Path) -> Path:
     """Return the path of a file that another extends: no other than YAML is read, and shown in messages."""
     if not name.text.lower().endswith(_ENDINGS):
         raise InputError.at(
@@ -204,6 +204,6 @@ def _base(name: Scalar, naming_file: Path) -> Path:
             f"extends: {quoted(name.text)} is no YAML file; its name ends in {', '.join(_ENDINGS)}",
         )
     try:
-        return path_named(name.text, naming_file)
+        return resolve_path_named(name.text, naming_file)
     except ValueError as error:
         raise InputError.at(name.place, f"extends: {error}") from error

@@ -63,13 +63,13 @@ class Written:
         dashes, colons = [], []
         for token in yaml.scan(text, Loader=yaml.SafeLoader):
             if isinstance(token, yaml.BlockEntryToken):
-                dashes.append(_index(token.start_mark))
+                dashes.append(_find_index(token.start_mark))
             elif isinstance(token, yaml.ValueToken):
-                colons.append(_index(token.start_mark))
+                colons.append(_find_index(token.start_mark))
         events = yaml.parse(text, Loader=yaml.SafeLoader)
         starts = (yaml.StreamStartEvent, yaml.DocumentStartEvent)
         first = next(event for event in events if not isinstance(event, starts))
-        return cls(text, _extent(first, events, text), tuple(dashes), tuple(colons))
+        return cls(text, _find_extent(first, events, text), tuple(dashes), tuple(colons))
 
     def dash_of(self, item: WrittenValue) -> int:
         """Return where the dash of an item stands."""
@@ -109,30 +109,31 @@ class Written:
         return index - self.line_start(index)
 
 
-def _index(mark: Any) -> int:
+def _find_index(mark: Any) -> int:
     """Return the index of a parser's mark, which its types allow to be missing."""
     return int(mark.index)
 
 
-def _extent(event: Any, events: Iterator[Any], text: str) -> WrittenValue:
-    start = _index(event.start_mark)
+def _find_extent(event: Any, events: Iterator[Any], text: str) -> WrittenValue:
+    start = _find_index(event.start_mark)
     if isinstance(event, yaml.AliasEvent):
-        return WrittenValue(ValueForm.ALIAS, start, _index(event.end_mark))
+        return WrittenValue(ValueForm.ALIAS, start, _find_index(event.end_mark))
     if isinstance(event, yaml.ScalarEvent):
-        end = _index(event.end_mark)
+        end = _find_index(event.end_mark)
         if event.style in {"|", ">"}:  # the mark stands where the next value begins
             end = start + len(text[start:end].rstrip())
         return WrittenValue(ValueForm.SCALAR, start, end, text=event.value)
     is_list = isinstance(event, yaml.SequenceStartEvent)
     parts = []
     while not isinstance(after := next(events), yaml.SequenceEndEvent | yaml.MappingEndEvent):
-        parts.append(_extent(after, events, text))
+        parts.append(_find_extent(after, events, text))
     if event.flow_style:
         # A single pair stands in the brackets of a list without braces of its own.
         has_braces = (
-            text.startswith(("[", "{"), _index(event.end_mark) - 1) and _index(event.end_mark) > start
+            text.startswith(("[", "{"), _find_index(event.end_mark) - 1)
+            and _find_index(event.end_mark) > start
         )
-        end = _index(after.end_mark) if has_braces else _end(parts, start)
+        end = _find_index(after.end_mark) if has_braces else _end(parts, start)
         return WrittenValue(ValueForm.BRACKETS if is_list else ValueForm.BRACES, start, end, tuple(parts))
     return WrittenValue(
         ValueForm.LINES if is_list else ValueForm.INDENTED, start, _end(parts, start), tuple(parts)

@@ -13,14 +13,14 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
-from zlmreport.files import confined, demanded, outside
-from zlmreport.job.contradictions import problems_in_part, validate
+from zlmreport.files import confine as confined, demand, say_outside
+from zlmreport.job.contradictions import find_problems_in_part, validate
 from zlmreport.job.extends import FLEET, Defaults, compose, refuse_other_format
 from zlmreport.job.installed import InstalledExtension
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.parse import LARGEST, parse
-from zlmreport.job.tree import Items, Keys, Scalar, key_place, place_of, walk
-from zlmreport.job.types import JobPart, JobPath, LocatedText, Text, keys_in, path_named
+from zlmreport.job.tree import Items, Keys, Scalar, find_key_place, place_of, walk
+from zlmreport.job.types import JobPart, JobPath, LocatedText, Text, list_keys_in, resolve_path_named
 from zlmreport.language import Language
 
 #: What a layout can be made of.
@@ -31,7 +31,7 @@ _DATABASES = ("postgresql", "sqlite")
 _URL = re.compile(r"[a-z][a-z0-9+]*://")
 
 
-def _layout(text: str) -> str:
+def _check_layout(text: str) -> str:
     """Refuse a layout with a placeholder that there is not, or that leads out of the folder."""
     unknown = next((name for name in _PLACEHOLDER.findall(text) if name not in PLACEHOLDERS), None)
     if unknown is not None:
@@ -43,12 +43,12 @@ def _layout(text: str) -> str:
     return text
 
 
-def _address(value: Any) -> Any:
+def _take_address(value: Any) -> Any:
     """Take the URL of a database as it is, and anything else for a file beside the naming one."""
     if not isinstance(value, LocatedText):
         return value
     if not _URL.match(value):
-        return str(path_named(str(value), Path(value.place.file)))
+        return str(resolve_path_named(str(value), Path(value.place.file)))
     if not value.startswith(_DATABASES):
         raise ValueError(
             f"{quoted(value)} is no ledger; write a file, or {_DATABASES[0]}+psycopg://server/fleet"
@@ -64,7 +64,7 @@ class FleetOutput(JobPart):
         description="Folder of all files; `certificates` beside the fleet file without it.",
         examples=["certificates"],
     )
-    layout: Annotated[Text, AfterValidator(_layout)] = Field(
+    layout: Annotated[Text, AfterValidator(_check_layout)] = Field(
         "{machine}/{axis}",
         description="Folders in it, by what the job says: "
         + ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
@@ -178,7 +178,7 @@ class FleetKeys(JobPart):
         "purpose, with wildcards; any other that is gone is reported.",
         examples=[["machines/old-mill/*.yaml"]],
     )
-    ledger: Annotated[str, BeforeValidator(_address)] | None = Field(
+    ledger: Annotated[str, BeforeValidator(_take_address)] | None = Field(
         None,
         description="The ledger: an SQLite file, or the URL of a PostgreSQL database; the file's stem with "
         "`.ledger.db` without it.",
@@ -247,7 +247,7 @@ def load_fleet(
     Raises `InputError` with every mistake, in the order of their places; `AccessError` if it cannot be read.
     """
     if content is None:
-        content = demanded(path, LARGEST)
+        content = demand(path, LARGEST)
     tree = parse(content, str(path))
     refuse_other_format(tree, FLEET, lambda: [each for offered in extensions() for each in offered.formats])
     problems: list[Problem] = []
@@ -255,7 +255,7 @@ def load_fleet(
     entry = tree.entries.get("defaults")
     shared = entry.value if entry and isinstance(entry.value, Keys) else None
     if shared:
-        problems.extend(_wrong_defaults(shared, extensions))
+        problems.extend(_find_wrong_defaults(shared, extensions))
     if problems or keys is None:
         raise InputError(sorted(set(problems)))
     fleet = FleetFile(
@@ -269,45 +269,47 @@ def load_fleet(
         tree=tree,
     )
     with confined(keys.confine):
-        problems = list(_escaping(fleet))
+        problems = list(_find_escaping(fleet))
     if problems:
         raise InputError(problems)
     return fleet
 
 
-def _escaping(fleet: FleetFile) -> Iterator[Problem]:
+def _find_escaping(fleet: FleetFile) -> Iterator[Problem]:
     """Yield what of the fleet itself lies outside of the folder to which its jobs are confined."""
     paths = [("output", fleet.output)]
     paths += [] if _URL.match(fleet.ledger) else [("ledger", Path(fleet.ledger))]
     paths += [("log", fleet.keys.log.file)] if fleet.keys.log else []
     paths += [("priors", fleet.keys.priors)] if fleet.keys.priors else []
     for key, path in paths:
-        if outside(path):
-            yield Problem(fleet.place_of(key), f"{key}: {path}: {outside(path)}")
+        if say_outside(path):
+            yield Problem(fleet.place_of(key), f"{key}: {path}: {say_outside(path)}")
 
 
-def job_files(fleet: FleetFile) -> tuple[Path, ...]:
+def list_job_files(fleet: FleetFile) -> tuple[Path, ...]:
     """Return the job files of a fleet, in the order of their names.
 
     Raises `InputError` for each pattern that matches no file.
     """
-    found, problems = found_jobs(fleet)
+    found, problems = find_jobs(fleet)
     if problems:
         raise InputError(problems)
     return found
 
 
-def found_jobs(fleet: FleetFile) -> tuple[tuple[Path, ...], Sequence[Problem]]:
+def find_jobs(fleet: FleetFile) -> tuple[tuple[Path, ...], Sequence[Problem]]:
     """Return the job files of a fleet as far as there are any, and what is wrong with its patterns."""
     found: set[Path] = set()
     problems: list[Problem] = []
-    for pattern, place in _patterns(fleet):
+    for pattern, place in _list_patterns(fleet):
         matches = glob.glob(pattern, root_dir=fleet.path.parent, recursive=True)  # noqa: PTH207 - of a root
         files = {fleet.path.parent / match for match in matches}
         files = {file for file in files if file.is_file() and not _is(file, fleet.path)}
-        problems += [Problem(place, f"jobs: {file}: {outside(file)}") for file in files if outside(file)]
+        problems += [
+            Problem(place, f"jobs: {file}: {say_outside(file)}") for file in files if say_outside(file)
+        ]
         if not files:
-            message = f"jobs: no file is called {quoted(pattern)}; {_nearest(pattern, fleet)}"
+            message = f"jobs: no file is called {quoted(pattern)}; {_say_nearest(pattern, fleet)}"
             problems.append(Problem(place, message))
         found |= files
     return tuple(sorted(found)), problems
@@ -329,27 +331,27 @@ def number_of(job: Path, defaults: Defaults | None) -> tuple[str, Place]:
     return (value.text, place) if isinstance(value, Scalar) else ("", place)
 
 
-def _wrong_defaults(
+def _find_wrong_defaults(
     shared: Keys, extensions: Callable[[], Sequence[InstalledExtension]]
 ) -> Iterator[Problem]:
     """Yield what is wrong with the defaults wherever the jobs put them."""
-    others = extensions() if shared.entries.keys() - keys_in(JobKeys).keys() else ()
+    others = extensions() if shared.entries.keys() - list_keys_in(JobKeys).keys() else ()
     own = shared.without(*(each.identifier for each in others))
-    yield from problems_in_part(JobKeys, own, "defaults")
+    yield from find_problems_in_part(JobKeys, own, "defaults")
     number = ("certificate", "number")
     if len(list(walk(shared, number))) == len(number):
-        place = key_place(shared, number)
+        place = find_key_place(shared, number)
         yield Problem(place, "defaults.certificate.number: each certificate has a number of its own")
 
 
-def _patterns(fleet: FleetFile) -> Iterator[tuple[str, Place]]:
+def _list_patterns(fleet: FleetFile) -> Iterator[tuple[str, Place]]:
     stated = fleet.tree.entries["jobs"].value
     for item in stated.items if isinstance(stated, Items) else (stated,):
         if isinstance(item, Scalar):
             yield item.text, item.place
 
 
-def _nearest(pattern: str, fleet: FleetFile) -> str:
+def _say_nearest(pattern: str, fleet: FleetFile) -> str:
     """Say how far the folders of a pattern are there."""
     here = fleet.path.parent
     for part in Path(pattern).parent.parts:

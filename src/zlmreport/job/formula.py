@@ -45,9 +45,9 @@ _LIKE_ITS_OWN: Mapping[str, Callable[..., FloatArray]] = {
     "max": np.maximum,
 }
 _ARGUMENTS = {"min": 2, "max": 2}
-#: Stands for the sine and the cosine of whole turns, each of a size of its own: see `with_waves`.
+#: Stands for the sine and the cosine of whole turns, each of a size of its own: see `write_out_waves`.
 WAVE = "wave"
-#: Stands for what a logged column changes by in a second: see `with_rates`.
+#: Stands for what a logged column changes by in a second: see `name_rates`.
 RATE = "rate"
 FUNCTIONS = (*_PURE, *_OF_ANY, *_LIKE_ITS_OWN, "sqrt", WAVE, RATE)
 _OPERATIONS: Mapping[str, Callable[..., FloatArray]] = {
@@ -134,14 +134,14 @@ def parse_formula(text: str) -> Tree:
     """
     if len(text) > _LONGEST:
         raise FormulaError(f"a formula has at most {_LONGEST} characters; this one has {len(text)}")
-    tokens = list(_tokens(text))
+    tokens = list(_split_tokens(text))
     tree, rest = _sum(tokens, 0, 0)
     if rest < len(tokens):
         raise FormulaError(f"{tokens[rest]!r} cannot stand there; an operation is missing before it")
     return tree
 
 
-def _tokens(text: str) -> Iterator[str]:
+def _split_tokens(text: str) -> Iterator[str]:
     place, text = 0, text.rstrip()
     while place < len(text):
         found = _TOKEN.match(text, place)
@@ -152,35 +152,35 @@ def _tokens(text: str) -> Iterator[str]:
 
 
 def _sum(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
-    left, place = _product(tokens, place, depth)
+    left, place = _parse_product(tokens, place, depth)
     while place < len(tokens) and tokens[place] in "+-":
-        right, after = _product(tokens, place + 1, depth)
+        right, after = _parse_product(tokens, place + 1, depth)
         left, place = Call(tokens[place], (left, right)), after
     return left, place
 
 
-def _product(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
-    left, place = _signed(tokens, place, depth)
+def _parse_product(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+    left, place = _parse_signed(tokens, place, depth)
     while place < len(tokens) and tokens[place] in "*/":
-        right, after = _signed(tokens, place + 1, depth)
+        right, after = _parse_signed(tokens, place + 1, depth)
         left, place = Call(tokens[place], (left, right)), after
     return left, place
 
 
-def _signed(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+def _parse_signed(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     if depth > _DEEPEST:
         raise FormulaError(f"it is nested deeper than {_DEEPEST} levels")
     if place < len(tokens) and tokens[place] in "+-":
-        value, after = _signed(tokens, place + 1, depth + 1)
+        value, after = _parse_signed(tokens, place + 1, depth + 1)
         return (Call("*", (Number(-1.0), value)) if tokens[place] == "-" else value), after
-    base, place = _atom(tokens, place, depth + 1)
+    base, place = _parse_atom(tokens, place, depth + 1)
     if place < len(tokens) and tokens[place] == "^":
-        power, place = _signed(tokens, place + 1, depth + 1)
+        power, place = _parse_signed(tokens, place + 1, depth + 1)
         return Call("^", (base, power)), place
     return base, place
 
 
-def _atom(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+def _parse_atom(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     if place == len(tokens):
         raise FormulaError("it ends where a number, a name or a bracket is expected")
     found = tokens[place]
@@ -188,15 +188,15 @@ def _atom(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
         return Number(float(found)), place + 1
     if found == "(":
         inner, place = _sum(tokens, place + 1, depth + 1)
-        return inner, _closed(tokens, place)
+        return inner, _require_closed(tokens, place)
     if not (found[0].isalpha() or found[0] == "_"):
         raise FormulaError(f"{found!r} cannot stand there; a number, a name or a bracket is expected")
     if place + 1 < len(tokens) and tokens[place + 1] == "(":
-        return _function(tokens, place, depth)
+        return _parse_function(tokens, place, depth)
     return (Number(CONSTANTS[found]) if found in CONSTANTS else FormulaName(found)), place + 1
 
 
-def _function(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
+def _parse_function(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     name, place = tokens[place], place + 1
     if name not in FUNCTIONS:
         raise FormulaError(f"there is no function {name!r}; {did_you_mean(name, FUNCTIONS)}")
@@ -207,34 +207,34 @@ def _function(tokens: list[str], place: int, depth: int) -> tuple[Tree, int]:
     wanted = _ARGUMENTS.get(name, 1)
     if len(arguments) != wanted:
         raise FormulaError(f"{name} takes {wanted} argument{'s' * (wanted > 1)}, not {len(arguments)}")
-    return Call(name, tuple(arguments)), _closed(tokens, place)
+    return Call(name, tuple(arguments)), _require_closed(tokens, place)
 
 
-def _closed(tokens: list[str], place: int) -> int:
+def _require_closed(tokens: list[str], place: int) -> int:
     if place == len(tokens) or tokens[place] != ")":
         raise FormulaError("a bracket is not closed")
     return place + 1
 
 
-def names_in(tree: Tree) -> tuple[str, ...]:
+def find_names_in(tree: Tree) -> tuple[str, ...]:
     """Return the names in a formula, each once, in their order."""
     if isinstance(tree, FormulaName):
         return (tree.text,)
     if isinstance(tree, Number):
         return ()
-    return tuple(dict.fromkeys(name for each in tree.arguments for name in names_in(each)))
+    return tuple(dict.fromkeys(name for each in tree.arguments for name in find_names_in(each)))
 
 
-def calls_in(tree: Tree, operations: Collection[str]) -> Iterator[Call]:
+def find_calls_in(tree: Tree, operations: Collection[str]) -> Iterator[Call]:
     """Yield the calls of some operations in a formula, those of their arguments included."""
     if isinstance(tree, Call):
         if tree.operation in operations:
             yield tree
         for each in tree.arguments:
-            yield from calls_in(each, operations)
+            yield from find_calls_in(each, operations)
 
 
-def in_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
+def convert_formula_to_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
     """Return a formula for values in SI, and what its value is made of.
 
     A bare number beside a name, as in ``axis_temperature - 20`` or ``P - 300``, is in the unit of the name.
@@ -245,45 +245,45 @@ def in_si(tree: Tree, units: Mapping[str, UnitOf]) -> tuple[Tree, Extent]:
         return tree, NUMBER
     if isinstance(tree, FormulaName):
         return tree, units[tree.text].extent
-    inner = [in_si(each, units) for each in tree.arguments]
+    inner = [convert_formula_to_si(each, units) for each in tree.arguments]
     trees, extents = tuple(each for each, _ in inner), [each for _, each in inner]
     operation = tree.operation
     if operation in {"+", "-", "min", "max"}:
-        return _alike(operation, trees, extents, units)
-    return Call(operation, trees), _extent(operation, trees, extents)
+        return _derive_alike(operation, trees, extents, units)
+    return Call(operation, trees), _derive_extent(operation, trees, extents)
 
 
-def _extent(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
+def _derive_extent(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
     """Return what the value of any other operation is made of."""
     if operation in {"*", "/"}:
         return extents[0].combined(extents[1], 1 if operation == "*" else -1)
     if operation in {"^", "sqrt"}:
-        return _raised(operation, trees, extents)
+        return _derive_raised(operation, trees, extents)
     if operation in _PURE and extents[0] != NUMBER:
         raise FormulaError(f"{operation} takes a number, not {extents[0]}; divide by a parameter of it")
     return extents[0] if operation in _LIKE_ITS_OWN else NUMBER
 
 
-def _raised(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
+def _derive_raised(operation: str, trees: tuple[Tree, ...], extents: list[Extent]) -> Extent:
     if operation == "sqrt":
         return extents[0].raised(Fraction(1, 2))
     if extents[1] != NUMBER:
         raise FormulaError(f"a power is a number, not {extents[1]}")
     if extents[0] == NUMBER:
         return NUMBER
-    power = _constant(trees[1])
+    power = _find_constant(trees[1])
     if power is None:
         raise FormulaError(f"a power of {extents[0]} must be written as a number")
     return extents[0].raised(Fraction(power).limit_denominator(64))
 
 
-def _alike(
+def _derive_alike(
     operation: str, trees: tuple[Tree, ...], extents: list[Extent], units: Mapping[str, UnitOf]
 ) -> tuple[Tree, Extent]:
     if extents[0] == extents[1]:
         return Call(operation, trees), extents[0]
     for bare, other in ((0, 1), (1, 0)):
-        value = _constant(trees[bare])
+        value = _find_constant(trees[bare])
         if value is None:
             continue
         named = trees[other]
@@ -297,42 +297,42 @@ def _alike(
     )
 
 
-def _constant(tree: Tree) -> float | None:
-    return None if names_in(tree) else float(computed(tree, {}))
+def _find_constant(tree: Tree) -> float | None:
+    return None if find_names_in(tree) else float(compute(tree, {}))
 
 
-def computed(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray:
+def compute(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray:
     """Return the value of a formula, an infinity or NaN where it has none."""
     if isinstance(tree, Number):
         return np.asarray(tree.value)
     if isinstance(tree, FormulaName):
         return np.asarray(values[tree.text], dtype=np.float64)
     with np.errstate(all="ignore"):
-        return np.asarray(_value(tree, values), dtype=np.float64)
+        return np.asarray(_compute_value(tree, values), dtype=np.float64)
 
 
-def _value(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray | float:
+def _compute_value(tree: Tree, values: Mapping[str, FloatArray | float]) -> FloatArray | float:
     if isinstance(tree, Number):
         return tree.value
     if isinstance(tree, FormulaName):
         return values[tree.text]
-    return _OPERATIONS[tree.operation](*[_value(each, values) for each in tree.arguments])
+    return _OPERATIONS[tree.operation](*[_compute_value(each, values) for each in tree.arguments])
 
 
-def substituted(tree: Tree, meanings: Mapping[str, Tree]) -> Tree:
+def substitute(tree: Tree, meanings: Mapping[str, Tree]) -> Tree:
     """Return a formula with what some of its names stand for in their places."""
     if isinstance(tree, FormulaName):
         return meanings.get(tree.text, tree)
     if isinstance(tree, Number):
         return tree
-    return Call(tree.operation, tuple(substituted(each, meanings) for each in tree.arguments))
+    return Call(tree.operation, tuple(substitute(each, meanings) for each in tree.arguments))
 
 
-def simplified(tree: Tree) -> Tree:
+def simplify(tree: Tree) -> Tree:
     """Return a formula without sums with nothing, products with one, and what is multiplied with nothing."""
     if not isinstance(tree, Call):
         return tree
-    arguments = tuple(map(simplified, tree.arguments))
+    arguments = tuple(map(simplify, tree.arguments))
     operation, nothing, one = tree.operation, Number(0.0), Number(1.0)
     if operation in {"*", "/"} and (arguments[0] == nothing or (operation == "*" and nothing in arguments)):
         return nothing
@@ -344,7 +344,7 @@ def simplified(tree: Tree) -> Tree:
     return Call(operation, arguments)
 
 
-def with_rates(tree: Tree) -> Tree:
+def name_rates(tree: Tree) -> Tree:
     """Return a formula with the rate of each logged column as a name: ``rate(oil)``.
 
     Raises `FormulaError` if something else than a name has a rate.
@@ -352,14 +352,14 @@ def with_rates(tree: Tree) -> Tree:
     if not isinstance(tree, Call):
         return tree
     if tree.operation != RATE:
-        return Call(tree.operation, tuple(map(with_rates, tree.arguments)))
+        return Call(tree.operation, tuple(map(name_rates, tree.arguments)))
     (column,) = tree.arguments
     if not isinstance(column, FormulaName):
         raise FormulaError("a rate is that of a logged column, as in rate(axis_temperature)")
     return FormulaName(f"{RATE}({column.text})")
 
 
-def column_of(name: str) -> str | None:
+def find_column_of(name: str) -> str | None:
     """Return the column whose rate a name stands for; None of any other name.
 
     >>> column_of("rate(oil)"), column_of("oil")
@@ -368,7 +368,7 @@ def column_of(name: str) -> str | None:
     return name[len(RATE) + 1 : -1] if name.startswith(f"{RATE}(") else None
 
 
-def with_waves(
+def write_out_waves(
     tree: Tree, orders: Sequence[int], parameters: Collection[str]
 ) -> tuple[Tree, dict[str, tuple[str, ...]]]:
     """Return a formula with each wave written out, and the parameters that took the place of its size.
@@ -378,14 +378,14 @@ def with_waves(
 
     Raises `FormulaError` if a wave is no factor of a term, or has not one parameter as its size.
     """
-    if not any(calls_in(tree, {WAVE})):
+    if not any(find_calls_in(tree, {WAVE})):
         return tree, {}
     terms: list[tuple[Tree, ...]] = []
     parts: dict[str, tuple[str, ...]] = {}
-    for term in terms_of(tree):
+    for term in split_terms_of(tree):
         waves = [each for each in term if isinstance(each, Call) and each.operation == WAVE]
         others = [each for each in term if each not in waves]
-        if not waves and not any(call for each in others for call in calls_in(each, {WAVE})):
+        if not waves and not any(call for each in others for call in find_calls_in(each, {WAVE})):
             terms.append(term)
             continue
         sizes = [each for each in others if isinstance(each, FormulaName) and each.text in parameters]
@@ -400,21 +400,21 @@ def with_waves(
             kind, _, order = name.partition("_")
             angle = Call("*", (Number(2 * np.pi * int(order or 1)), turns))
             terms.append((FormulaName(name), Call("sin" if kind == "sine" else "cos", (angle,)), *others))
-    return _joined("+", [_joined("*", term) for term in terms]), parts
+    return _join_trees("+", [_join_trees("*", term) for term in terms]), parts
 
 
-def _joined(operation: str, parts: Sequence[Tree]) -> Tree:
+def _join_trees(operation: str, parts: Sequence[Tree]) -> Tree:
     return reduce(lambda one, other: Call(operation, (one, other)), parts)
 
 
-def terms_of(tree: Tree) -> tuple[tuple[Tree, ...], ...]:
+def split_terms_of(tree: Tree) -> tuple[tuple[Tree, ...], ...]:
     """Return the products of which a formula is the sum, each by its factors."""
     if not isinstance(tree, Call) or tree.operation not in {"+", "-", "*", "/"}:
         return ((tree,),)
     one, other = tree.arguments
     if tree.operation == "/":
-        return tuple((*term, Call("/", (Number(1.0), other))) for term in terms_of(one))
+        return tuple((*term, Call("/", (Number(1.0), other))) for term in split_terms_of(one))
     if tree.operation == "*":
-        return tuple((*mine, *its) for mine in terms_of(one) for its in terms_of(other))
+        return tuple((*mine, *its) for mine in split_terms_of(one) for its in split_terms_of(other))
     sign = (Number(-1.0),) if tree.operation == "-" else ()
-    return (*terms_of(one), *((*sign, *term) for term in terms_of(other)))
+    return (*split_terms_of(one), *((*sign, *term) for term in split_terms_of(other)))

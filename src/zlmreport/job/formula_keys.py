@@ -19,7 +19,7 @@ _ENGLISH = Language.ENGLISH.value
 _NAME = r"^[a-z][a-z0-9]*(-[a-z0-9]+)*$"
 
 
-def _phrase(value: Any) -> Words:
+def _take_phrase(value: Any) -> Words:
     """Return a text in every language; one that is written once is English, or alike in all of them."""
     if isinstance(value, Words):
         return value
@@ -36,7 +36,7 @@ def _phrase(value: Any) -> Words:
     return Words(" ".join(value.split()))
 
 
-def _stated(words: Words) -> str | dict[str, str]:
+def _write_stated(words: Words) -> str | dict[str, str]:
     texts = {name: text for name in _LANGUAGES if (text := getattr(words, name)) is not None}
     return words.en if set(texts) == {_ENGLISH} else texts
 
@@ -44,8 +44,8 @@ def _stated(words: Words) -> str | dict[str, str]:
 #: A text in several languages, ``{en: …, de: …}``, the English one first of all; or one text alone.
 Phrase: TypeAlias = Annotated[
     Words,
-    PlainValidator(_phrase),
-    PlainSerializer(_stated),
+    PlainValidator(_take_phrase),
+    PlainSerializer(_write_stated),
     WithJsonSchema(
         {
             "anyOf": [
@@ -190,12 +190,12 @@ class FormulaParameter(JobPart):
     @property
     def spelled(self) -> str:
         """The unit as `UNITS_OF_PARAMETERS` has it."""
-        return _spelled(self.unit)
+        return _spell_unit(self.unit)
 
     @field_validator("unit")
     @classmethod
     def _is_a_unit(cls, unit: str) -> str:
-        if _spelled(unit) not in {*UNITS_OF_PARAMETERS, *UNITS_OF_PARAMETERS.values()}:
+        if _spell_unit(unit) not in {*UNITS_OF_PARAMETERS, *UNITS_OF_PARAMETERS.values()}:
             there_are = ", ".join(UNITS_OF_PARAMETERS)
             raise ValueError(f"{unit!r} is no unit of a parameter; there are {there_are}")
         return unit
@@ -210,7 +210,7 @@ class FormulaParameter(JobPart):
         return ends
 
 
-def _spelled(unit: str) -> str:
+def _spell_unit(unit: str) -> str:
     for found, written in _SPELLINGS:
         unit = unit.replace(found, written)
     return " ".join(unit.split())

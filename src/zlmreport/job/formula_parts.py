@@ -22,16 +22,16 @@ from zlmreport.job.formula import (
     Number,
     Tree,
     UnitOf,
-    column_of,
-    computed,
-    in_si,
-    names_in,
+    compute,
+    convert_formula_to_si,
+    find_column_of,
+    find_names_in,
+    name_rates,
     parse_formula,
-    simplified,
-    substituted,
-    terms_of,
-    with_rates,
-    with_waves,
+    simplify,
+    split_terms_of,
+    substitute,
+    write_out_waves,
 )
 from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter, Possible
 from zlmreport.measurement.arrays import FloatArray
@@ -114,16 +114,16 @@ class Formula:
         self.keys = keys  #: As a file says it.
         self.tree = tree  #: The formula, waves written out.
         self.units = units  #: Of all names.
-        self.names = names_in(tree)
+        self.names = find_names_in(tree)
         #: Of each size of a wave, the parameters that took its place.
         self.parts = parts
         names = [each for name in keys.parameters for each in parts.get(name, (name,)) if each in self.names]
         columns = [name for name in self.names if name not in {*names, *VARIABLES, *DERIVED}]
         #: Logged columns that stand in it, or whose rates do.
-        self.columns = tuple(dict.fromkeys(column_of(name) or name for name in columns))
-        terms = terms_of(tree)
+        self.columns = tuple(dict.fromkeys(find_column_of(name) or name for name in columns))
+        terms = split_terms_of(tree)
         #: The parameters that are factors of whole terms, in the order of the file.
-        self.linear = _linear(terms, names)
+        self.linear = _find_linear(terms, names)
         self.searched = tuple(name for name in names if name not in self.linear)  #: The others.
         #: Values of parameters that the file gives.
         self.given = {
@@ -132,7 +132,7 @@ class Formula:
             if each.value is not None and name in self.names
         }
         #: What each linear parameter is multiplied with.
-        self.multiplied = {name: _multiplied_with(name, tree, self.linear) for name in self.linear}
+        self.multiplied = {name: _find_factor_of(name, tree, self.linear) for name in self.linear}
 
     @classmethod
     def of(
@@ -162,19 +162,21 @@ class Formula:
         """
         if orders is None:
             orders = keys.harmonics.usual if keys.harmonics else (1,)
-        tree = with_rates(parse_formula(keys.formula))
-        used = [*names_in(tree)]
+        tree = name_rates(parse_formula(keys.formula))
+        used = [*find_names_in(tree)]
         for key in keys.keys:
             meanings = {
-                value: {name: with_rates(parse_formula(text)) for name, text in chosen.items()}
+                value: {name: name_rates(parse_formula(text)) for name, text in chosen.items()}
                 for value, chosen in key.choices.items()
             }
-            used += [name for each in meanings.values() for form in each.values() for name in names_in(form)]
-            tree = substituted(tree, meanings[choices.get(key.name, next(iter(meanings)))])
+            used += [
+                name for each in meanings.values() for form in each.values() for name in find_names_in(form)
+            ]
+            tree = substitute(tree, meanings[choices.get(key.name, next(iter(meanings)))])
         _refuse_names(keys, used)
-        tree, parts = with_waves(tree, orders, keys.parameters)
-        units = _units(keys, names_in(tree), kind, parts)
-        tree, extent = in_si(tree, units)
+        tree, parts = write_out_waves(tree, orders, keys.parameters)
+        units = _derive_units(keys, find_names_in(tree), kind, parts)
+        tree, extent = convert_formula_to_si(tree, units)
         if extent != TRAVEL:
             raise FormulaError(f"its value must be a deviation, as a parameter in um is; it is {extent}")
         found = cls(keys, tree, units, parts)
@@ -197,7 +199,7 @@ class Formula:
         count = max((np.size(each) for each in readings.values()), default=1)
         found = np.empty((count, len(self.linear)))
         for place, tree in enumerate(self.multiplied.values()):
-            found[:, place] = computed(tree, known)
+            found[:, place] = compute(tree, known)
         return found
 
     def sensible(self, name: str) -> FloatArray | None:
@@ -218,10 +220,10 @@ class Formula:
         if text is None:
             return None
         tree = parse_formula(text)
-        values = {each: of_axis[each] for each in names_in(tree)}
+        values = {each: of_axis[each] for each in find_names_in(tree)}
         if None in values.values():
             return None
-        return float(computed(tree, values))  # type: ignore[arg-type]  # none of them is None
+        return float(compute(tree, values))  # type: ignore[arg-type]  # none of them is None
 
     def possible(self, name: str, rise: float | None) -> tuple[float, float]:
         """Return between which values, SI, physics allows a parameter; infinite where it does not care.
@@ -315,7 +317,7 @@ def refuse_unsound(keys: FormulaKeys) -> None:
     Raises `FormulaError` with what is wrong with it on the kind that its units fit.
     """
     failed: FormulaError | None = None
-    for kind in kinds_of(keys) or [AxisKind.LINEAR]:
+    for kind in find_kinds_of(keys) or [AxisKind.LINEAR]:
         try:
             Formula.of(keys, kind).refuse_undetermined()
         except FormulaError as error:
@@ -326,7 +328,7 @@ def refuse_unsound(keys: FormulaKeys) -> None:
     raise failed
 
 
-def kinds_of(keys: FormulaKeys) -> list[AxisKind]:
+def find_kinds_of(keys: FormulaKeys) -> list[AxisKind]:
     """Return the kinds of axes whose units the parameters of a formula have."""
     units = [each.spelled for each in keys.parameters.values()]
     return [kind for kind in AxisKind if all(each in UNITS[kind] for each in units)]
@@ -350,7 +352,7 @@ def _refuse_names(keys: FormulaKeys, used: Sequence[str]) -> None:
             raise FormulaError(f"the parameter {name} does not stand in it")
 
 
-def _units(
+def _derive_units(
     keys: FormulaKeys, names: tuple[str, ...], kind: AxisKind, parts: Mapping[str, Sequence[str]]
 ) -> dict[str, UnitOf]:
     per_si = MILLIMETRE.per_si if kind is AxisKind.LINEAR else DEGREE.per_si
@@ -372,7 +374,7 @@ def _units(
         if each.possible is not None:
             _refuse_possible(name, each.possible)
     for name in names:
-        column = column_of(name)
+        column = find_column_of(name)
         own = TEMPERATURE if (column or name).endswith("temperature") else NUMBER
         found.setdefault(name, UnitOf(own.combined(TIME, -1) if column else own))
     return found
@@ -382,34 +384,34 @@ def _bound(stated: float | str | None, rise: float | None) -> float | None:
     """Return a bound in the unit of its parameter; None where there is none."""
     if not isinstance(stated, str):
         return stated
-    return None if rise is None else float(computed(parse_formula(stated), {RISE: rise}))
+    return None if rise is None else float(compute(parse_formula(stated), {RISE: rise}))
 
 
 def _refuse_possible(name: str, possible: Possible) -> None:
     """Refuse a bound that depends on anything but the logged rise of the temperature."""
     texts = (each for each in (possible.least, possible.most) if isinstance(each, str))
-    for unknown in (each for text in texts for each in names_in(parse_formula(text)) if each != RISE):
+    for unknown in (each for text in texts for each in find_names_in(parse_formula(text)) if each != RISE):
         raise FormulaError(f"{name}: a bound depends on {RISE} alone, not on {unknown}")
 
 
 def _refuse_stated(name: str, text: str, units: Mapping[str, UnitOf]) -> None:
     """Refuse what is to state a parameter if it is made of other things than keys, or is another quantity."""
     tree = parse_formula(text)
-    unknown = [each for each in names_in(tree) if each not in {*AXIS_KEYS, "turn"}]
+    unknown = [each for each in find_names_in(tree) if each not in {*AXIS_KEYS, "turn"}]
     if unknown:
         raise FormulaError(f"{name}: {unknown[0]} is no key of the axis; there are {', '.join(AXIS_KEYS)}")
-    _, extent = in_si(tree, units)
+    _, extent = convert_formula_to_si(tree, units)
     if extent != units[name].extent:
         raise FormulaError(f"{name}: it is {units[name].extent}, and {text} is {extent}")
 
 
-def _linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple[str, ...]:
+def _find_linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple[str, ...]:
     """Return the parameters that are factors of whole terms, one for each term."""
     found: list[str] = []
     for name in parameters:
-        holding = [term for term in terms if any(name in names_in(factor) for factor in term)]
+        holding = [term for term in terms if any(name in find_names_in(factor) for factor in term)]
         alone = all(
-            sum(name in names_in(factor) for factor in term) == 1 and FormulaName(name) in term
+            sum(name in find_names_in(factor) for factor in term) == 1 and FormulaName(name) in term
             for term in holding
         )
         if alone and not any(_is_one_of(factor, found) for term in holding for factor in term):
@@ -420,9 +422,9 @@ def _linear(terms: tuple[tuple[Tree, ...], ...], parameters: list[str]) -> tuple
     return tuple(name for name in parameters if name in found)
 
 
-def _multiplied_with(name: str, tree: Tree, linear: Sequence[str]) -> Tree:
+def _find_factor_of(name: str, tree: Tree, linear: Sequence[str]) -> Tree:
     """Return what a parameter is multiplied with: the formula with it as one, and the other sizes zero."""
-    return simplified(substituted(tree, {each: Number(float(each == name)) for each in linear}))
+    return simplify(substitute(tree, {each: Number(float(each == name)) for each in linear}))
 
 
 def _is_one_of(factor: Tree, names: tuple[str, ...] | list[str]) -> TypeGuard[FormulaName]:

@@ -58,7 +58,7 @@ class InstalledStandard(WithKeys, Protocol):
         """Its parameters."""
 
 
-def adoptions_of(standard: InstalledStandard) -> tuple[str, ...]:
+def list_adoptions_of(standard: InstalledStandard) -> tuple[str, ...]:
     """Return the names under which other bodies publish a standard's text; none for most."""
     return getattr(standard, "adoptions", ())
 

@@ -11,8 +11,8 @@ from zlmreport.errors import InputError, Place, quoted
 from zlmreport.job.choices import Choice, ControllerChoice, EffectChoice, ExtensionChoice
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.quantity import places_in_si
-from zlmreport.job.tree import Keys, Step, keys_of, place_of
+from zlmreport.job.quantity import convert_places_to_si
+from zlmreport.job.tree import Keys, Step, make_keys_of, place_of
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
 
@@ -90,7 +90,7 @@ class Job:
     programs: tuple[Choice, ...] = ()
     extensions: tuple[ExtensionChoice, ...] = ()
     controller: ControllerChoice | None = None
-    tree: Keys = field(default_factory=lambda: keys_of(Place("job")))
+    tree: Keys = field(default_factory=lambda: make_keys_of(Place("job")))
     sessions: tuple[Job, ...] = ()
     priors: PriorsKeys | None = None
     tests: Mapping[str, Job] = field(default_factory=dict)
@@ -107,7 +107,7 @@ class Job:
             return None
         environment = keys.environment or self.keys.environment
         own = self.keys.model_copy(update={"measurement": keys.measurement, "environment": environment})
-        axis = replace(self.axis, at=places_in_si(keys.measurement.at))
+        axis = replace(self.axis, at=convert_places_to_si(keys.measurement.at))
         return replace(self, keys=own, axis=axis, source=source, source_as_found=None)
 
     @property

@@ -35,7 +35,7 @@ class ListMember(NamedTuple):
     end: int
 
 
-def members(parts: Sequence[WrittenValue], step: int = 1) -> tuple[ListMember, ...]:
+def find_members(parts: Sequence[WrittenValue], step: int = 1) -> tuple[ListMember, ...]:
     """Return where members begin and end: items, or (in steps of 2) pairs of key and value."""
     return tuple(
         ListMember(first.start, last.end)
@@ -43,35 +43,35 @@ def members(parts: Sequence[WrittenValue], step: int = 1) -> tuple[ListMember, .
     )
 
 
-def with_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], piece: str) -> str:
+def add_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], piece: str) -> str:
     """Return the text with a member more in the brackets or braces of `outer`."""
     text, closing = written.text, outer.end - 1
     if not listed:
         opening = text.index("[" if outer.form is ValueForm.BRACKETS else "{", outer.start)
         inner = text[opening + 1 : closing]
-        return inserted(text, closing, piece + (inner if _SPACES.fullmatch(inner) else ""))
+        return insert(text, closing, piece + (inner if _SPACES.fullmatch(inner) else ""))
     start, end = listed[-1]
     before = listed[-2].end if len(listed) > 1 else outer.start
     if not _LINE_BREAK.search(text, before, start):
-        return inserted(text, end, f", {piece}")
-    comma = _comma_after(text, end, closing)
+        return insert(text, end, f", {piece}")
+    comma = _find_comma_after(text, end, closing)
     line_end = written.line_end(end if comma is None else comma)
     own_line = written.break_at(line_end) + " " * written.column(start) + piece
     if line_end > closing:  # the bracket closes in the line of the last member
-        return inserted(text, end, f",{own_line}")
+        return insert(text, end, f",{own_line}")
     if comma is None:
-        return inserted(inserted(text, line_end, own_line), end, ",")
-    return inserted(text, line_end, f"{own_line},")
+        return insert(insert(text, line_end, own_line), end, ",")
+    return insert(text, line_end, f"{own_line},")
 
 
-def without_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
+def drop_member(written: Written, outer: WrittenValue, listed: Sequence[ListMember], index: int) -> str:
     """Return the text without one of the members in the brackets or braces of `outer`.
 
     A comment in the line of a member goes with it, if that line holds nothing else.
     """
     text, closing = written.text, outer.end - 1
     start, stop = listed[index]
-    comma = _comma_after(text, stop, closing)
+    comma = _find_comma_after(text, stop, closing)
     end = stop if comma is None else comma + 1
     is_last = index + 1 == len(listed)
     rest = text[end:closing]
@@ -79,32 +79,32 @@ def without_member(written: Written, outer: WrittenValue, listed: Sequence[ListM
     if _LINE_BREAK.match(text, behind, closing):
         line = written.line_start(start)
         if not text[line:start].strip():
-            shortened = _without(text, line, behind + len(written.break_at(behind)))
-            before = _comma_after(text, listed[index - 1].end, start) if is_last and index else None
+            shortened = _cut_out(text, line, behind + len(written.break_at(behind)))
+            before = _find_comma_after(text, listed[index - 1].end, start) if is_last and index else None
             return (
-                shortened if comma is not None or before is None else _without(shortened, before, before + 1)
+                shortened if comma is not None or before is None else _cut_out(shortened, before, before + 1)
             )
         end = behind
     if not is_last:
         rest = text[end : listed[index + 1].start]
-        return _without(text, start, end + len(rest) - len(rest.lstrip(" \t")))
+        return _cut_out(text, start, end + len(rest) - len(rest.lstrip(" \t")))
     if index == 0:
-        return _without(text, start, closing if _SPACES.fullmatch(text, end, closing) else end)
+        return _cut_out(text, start, closing if _SPACES.fullmatch(text, end, closing) else end)
     before_it = listed[index - 1].end
-    return _without(text, start, end) if "#" in text[before_it:start] else _without(text, before_it, stop)
+    return _cut_out(text, start, end) if "#" in text[before_it:start] else _cut_out(text, before_it, stop)
 
 
-def _without(text: str, start: int, end: int) -> str:
+def _cut_out(text: str, start: int, end: int) -> str:
     return text[:start] + text[end:]
 
 
-def _comma_after(text: str, start: int, end: int) -> int | None:
+def _find_comma_after(text: str, start: int, end: int) -> int | None:
     """Return where a comma stands among blanks and comments; None if none does."""
     found = _COMMA.match(text, start, end)
     return found.start(1) if found else None
 
 
-def inserted(text: str, index: int, piece: str) -> str:
+def insert(text: str, index: int, piece: str) -> str:
     """Return a text with a piece more."""
     return text[:index] + piece + text[index:]
 
@@ -137,7 +137,7 @@ class ListKey:
         return f"{self.group}.{self.key}"
 
 
-def own_list(written: Written, where: ListKey) -> WrittenValue | None:
+def find_own_list(written: Written, where: ListKey) -> WrittenValue | None:
     """Return the list that a file holds itself; None if it holds none."""
     group = written.root.entry(where.group)
     listed = group[1].entry(where.key) if group else None
@@ -145,36 +145,36 @@ def own_list(written: Written, where: ListKey) -> WrittenValue | None:
     return listed[1] if listed and is_list else None
 
 
-def with_item(text: str, where: ListKey, item: Node) -> str:
+def add_item(text: str, where: ListKey, item: Node) -> str:
     """Return a text that has a list, with one item more at its end."""
     written = Written.of(text)
-    listed = _listed(written, where)
+    listed = _write_list(written, where)
     quote = _quote_of(text, listed.parts[-1]) if listed.parts else _quote_of(text, written.root.parts[0])
     if listed.form is ValueForm.BRACKETS:
-        return with_member(written, listed, members(listed.parts), as_text(item, quote))
+        return add_member(written, listed, find_members(listed.parts), write_as_text(item, quote))
     last = listed.parts[-1]
     end = written.line_end(last.end)
     indent = " " * written.column(written.dash_of(last))
-    return inserted(text, end, f"{written.break_at(end)}{indent}- {as_text(item, quote, in_lines=True)}")
+    return insert(text, end, f"{written.break_at(end)}{indent}- {write_as_text(item, quote, in_lines=True)}")
 
 
-def with_changed_item(text: str, where: ListKey, index: int, item: Node) -> str:
+def change_item(text: str, where: ListKey, index: int, item: Node) -> str:
     """Return a text that has a list, with one of its items written anew; comments within it forbid that."""
     written = Written.of(text)
-    listed = _listed(written, where)
+    listed = _write_list(written, where)
     old = listed.parts[index]
     if "#" in text[old.start : old.end] or text.startswith(("&", "*"), old.start):
         raise UneditableError
     in_lines = listed.form is ValueForm.LINES
-    return text[: old.start] + as_text(item, _quote_of(text, old), in_lines=in_lines) + text[old.end :]
+    return text[: old.start] + write_as_text(item, _quote_of(text, old), in_lines=in_lines) + text[old.end :]
 
 
-def without_item(text: str, where: ListKey, index: int) -> str:
+def drop_item(text: str, where: ListKey, index: int) -> str:
     """Return a text that has a list, without one of its items."""
     written = Written.of(text)
-    listed = _listed(written, where)
+    listed = _write_list(written, where)
     if listed.form is ValueForm.BRACKETS:
-        return without_member(written, listed, members(listed.parts), index)
+        return drop_member(written, listed, find_members(listed.parts), index)
     item = listed.parts[index]
     dash = written.dash_of(item)
     start = written.line_start(dash)
@@ -192,35 +192,35 @@ def without_item(text: str, where: ListKey, index: int) -> str:
     own = group[1].entry(where.key) if group else None
     if own is None or text.startswith("&", listed.start):
         raise UneditableError
-    return inserted(shortened, written.after_colon_of(own[0]), " []")
+    return insert(shortened, written.after_colon_of(own[0]), " []")
 
 
-def with_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
+def add_list(text: str, where: ListKey, items: Sequence[Node]) -> str:
     """Return a text that has no such list, with one."""
     written = Written.of(text)
     root = written.root
     quote = _quote_of(text, root.parts[0])
-    bracketed = f"[{', '.join(as_text(item, quote) for item in items)}]"
-    pair = f"{_quoted(where.key, quote)}: {bracketed}"
+    bracketed = f"[{', '.join(write_as_text(item, quote) for item in items)}]"
+    pair = f"{_quote(where.key, quote)}: {bracketed}"
     group = root.entry(where.group)
     if group is None:
         if root.form is ValueForm.BRACES:
-            pair = f"{_quoted(where.group, quote)}: {{{pair}}}"
-            return with_member(written, root, members(root.parts, 2), pair)
-        return _with_last_key(written, where, items, quote)
+            pair = f"{_quote(where.group, quote)}: {{{pair}}}"
+            return add_member(written, root, find_members(root.parts, 2), pair)
+        return _add_last_key(written, where, items, quote)
     listed = group[1].entry(where.key)
     if listed is None and group[1].form is ValueForm.BRACES:
-        return with_member(written, group[1], members(group[1].parts, 2), pair)
+        return add_member(written, group[1], find_members(group[1].parts, 2), pair)
     if listed is None and group[1].form is ValueForm.INDENTED:
-        return _with_last_key_of(written, group[1], where, items)
+        return _add_last_key_of(written, group[1], where, items)
     in_braces = ValueForm.BRACES in {root.form, group[1].form}
     key, value = listed or group
     indent = written.column(key.start) + _INDENT
-    lines = [] if in_braces else _lines(items, indent, quote, key="" if listed else where.key)
-    return _with_value(written, key, value, bracketed if listed else f"{{{pair}}}", lines)
+    lines = [] if in_braces else _write_lines(items, indent, quote, key="" if listed else where.key)
+    return _add_value(written, key, value, bracketed if listed else f"{{{pair}}}", lines)
 
 
-def _with_value(
+def _add_value(
     written: Written, key: WrittenValue, value: WrittenValue, in_line: str, lines: Sequence[str]
 ) -> str:
     """Return the text with a value for a key that has none: in lines of its own, if there are any."""
@@ -231,16 +231,16 @@ def _with_value(
     if spelt in {"~", "null"}:
         return text[: value.start] + in_line + text[value.end :]
     if spelt:  # an anchor, to which the value belongs
-        return inserted(text, value.end, f" {in_line}")
+        return insert(text, value.end, f" {in_line}")
     colon = written.after_colon_of(key)
     if not lines:
-        return inserted(text, colon, f" {in_line}")
+        return insert(text, colon, f" {in_line}")
     end = written.line_end(colon)
     line_break = written.break_at(end)
-    return inserted(text, end, "".join(line_break + line for line in lines))
+    return insert(text, end, "".join(line_break + line for line in lines))
 
 
-def as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str:
+def write_as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str:
     """Return a value as it is written within a line.
 
     `quote`: The quotation mark of text; empty for none where none is needed.
@@ -249,16 +249,16 @@ def as_text(node: Node, quote: str = "", *, in_lines: bool = False) -> str:
     if isinstance(node, Scalar):
         if node.is_nothing:
             return "null"
-        return node.text if node.plain and _NUMBER.fullmatch(node.text) else _quoted(node.text, quote)
+        return node.text if node.plain and _NUMBER.fullmatch(node.text) else _quote(node.text, quote)
     if isinstance(node, Items):
-        return f"[{', '.join(as_text(item, quote) for item in node.items)}]"
+        return f"[{', '.join(write_as_text(item, quote) for item in node.items)}]"
     pairs = ", ".join(
-        f"{_quoted(key, quote)}: {as_text(entry.value, quote)}" for key, entry in node.entries.items()
+        f"{_quote(key, quote)}: {write_as_text(entry.value, quote)}" for key, entry in node.entries.items()
     )
     return pairs if in_lines and len(node.entries) == 1 else f"{{{pairs}}}"
 
 
-def _quoted(text: str, quote: str) -> str:
+def _quote(text: str, quote: str) -> str:
     if quote == "'" and "'" not in text and "\n" not in text:
         return f"'{text}'"
     if not quote and _PLAIN.fullmatch(text) and text != "null":
@@ -274,47 +274,47 @@ def _quote_of(text: str, neighbour: WrittenValue) -> str:
     return mark if neighbour.form is ValueForm.SCALAR and mark in {"'", '"'} else ""
 
 
-def _listed(written: Written, where: ListKey) -> WrittenValue:
-    listed = own_list(written, where)
+def _write_list(written: Written, where: ListKey) -> WrittenValue:
+    listed = find_own_list(written, where)
     if listed is None:
         raise UneditableError
     return listed
 
 
-def _with_last_key_of(written: Written, group: WrittenValue, where: ListKey, items: Sequence[Node]) -> str:
+def _add_last_key_of(written: Written, group: WrittenValue, where: ListKey, items: Sequence[Node]) -> str:
     """Return the text with the list after all other keys of its group, which stand one a line."""
     text, last = written.text, group.parts[-1]
     if last.form is ValueForm.ALIAS:
         raise UneditableError
     end = written.line_end(last.end)
-    lines = _lines(
+    lines = _write_lines(
         items, written.column(group.parts[0].start), _quote_of(text, group.parts[0]), key=where.key
     )
-    return inserted(text, end, "".join(f"{written.break_at(end)}{line}" for line in lines))
+    return insert(text, end, "".join(f"{written.break_at(end)}{line}" for line in lines))
 
 
-def _with_last_key(written: Written, where: ListKey, items: Sequence[Node], quote: str) -> str:
+def _add_last_key(written: Written, where: ListKey, items: Sequence[Node], quote: str) -> str:
     """Return the text with the group of the list after all others."""
     text = written.text
     column = written.column(written.root.parts[0].start)
     line_break = written.break_at(len(text))
     block = line_break.join(
         [
-            f"{' ' * column}{_quoted(where.group, quote)}:",
-            *_lines(items, column + _INDENT, quote, key=where.key),
+            f"{' ' * column}{_quote(where.group, quote)}:",
+            *_write_lines(items, column + _INDENT, quote, key=where.key),
         ]
     )
     marker = _END_OF_DOCUMENT.search(text, written.root.end)
     end = marker.start() if marker else len(text)
     if text[:end].endswith(("\n", "\r")):
-        return inserted(text, end, block + line_break)
-    return inserted(text, end, line_break + block)
+        return insert(text, end, block + line_break)
+    return insert(text, end, line_break + block)
 
 
-def _lines(items: Sequence[Node], column: int, quote: str, *, key: str) -> list[str]:
+def _write_lines(items: Sequence[Node], column: int, quote: str, *, key: str) -> list[str]:
     """Return the list an item a line, below its key if that is not there yet."""
     heading = []
     if key:
-        heading = [f"{' ' * column}{_quoted(key, quote)}:{'' if items else ' []'}"]
+        heading = [f"{' ' * column}{_quote(key, quote)}:{'' if items else ' []'}"]
         column += _INDENT
-    return heading + [f"{' ' * column}- {as_text(item, quote, in_lines=True)}" for item in items]
+    return heading + [f"{' ' * column}- {write_as_text(item, quote, in_lines=True)}" for item in items]

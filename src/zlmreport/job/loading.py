@@ -12,20 +12,26 @@ from typing import Any, Generic, TypeVar
 from pydantic import BaseModel
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
-from zlmreport.files import demanded
+from zlmreport.files import demand
 from zlmreport.job.choices import (
-    candidate_choices,
-    choice_in,
-    controller_choice,
-    effect_choices,
-    extension_choices,
+    choose_candidates,
+    choose_controller_of,
+    choose_effects_of,
+    choose_extensions,
+    choose_in,
+    choose_instrument,
+    choose_programs_of,
     group_naming,
-    instrument_choice,
-    program_choices,
 )
-from zlmreport.job.circle_keys import CircleKeys, circle_contradictions, circle_plan_contradictions
-from zlmreport.job.collection import document_of, is_collection, jobs_named, names_of, part_of
-from zlmreport.job.contradictions import contradictions, validate
+from zlmreport.job.circle_keys import CircleKeys, find_circle_contradictions, find_circle_plan_contradictions
+from zlmreport.job.collection import (
+    is_collection,
+    list_jobs_named,
+    make_document_of,
+    make_part_of,
+    name_measurements_of,
+)
+from zlmreport.job.contradictions import find_all_contradictions, validate
 from zlmreport.job.evaluation_keys import PriorsKeys, StandardKeys
 from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, FileFormat, compose, refuse_other_format
 from zlmreport.job.installed import Installed, InstalledStandard
@@ -34,17 +40,22 @@ from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import AxisKeys, Measurement
 from zlmreport.job.parse import LARGEST
 from zlmreport.job.quantity import (
-    effect_contradictions,
-    measurand_of,
-    places_in_si,
-    quantity_contradictions,
-    stated_error,
-    tests_contradictions,
+    convert_places_to_si,
+    find_effect_contradictions,
+    find_measurand_of,
+    find_quantity_contradictions,
+    find_stated_error,
+    find_tests_contradictions,
 )
-from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, found_at, keys_of, merged, place_of
-from zlmreport.language.formatting import plain
+from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, find_at, make_keys_of, merge, place_of
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.error_symbol import ErrorSymbol, error_named, for_error, letter_of
+from zlmreport.measurement.error_symbol import (
+    ErrorSymbol,
+    evaluate_for_error,
+    find_error_named,
+    find_letter_of,
+)
 from zlmreport.measurement.measurand import POSITIONING, Measurand, is_for
 from zlmreport.measurement.position_table import TableColumn, read_position_table
 from zlmreport.measurement.provenance import SourceFile
@@ -75,31 +86,31 @@ def load(
     """
     composition = compose(path, content, defaults)
     if is_collection(composition.keys):
-        return _collected(composition, path, registry, formats)
-    return _with_sessions(_checked(composition, path.parent, registry, formats), path, registry)
+        return _collect_jobs(composition, path, registry, formats)
+    return _add_sessions(_check_job(composition, path.parent, registry, formats), path, registry)
 
 
-def _collected(composition: Composition, path: Path, registry: Installed, formats: tuple[str, ...]) -> Job:
+def _collect_jobs(composition: Composition, path: Path, registry: Installed, formats: tuple[str, ...]) -> Job:
     """Return a job that makes one document of several jobs."""
     document = composition.keys
-    named = jobs_named(document)
+    named = list_jobs_named(document)
     problems: list[Problem] = []
     parts: list[tuple[Job, Path]] = []
     first: Keys | None = None
     for file, place in named:
         try:
             own = compose(file)
-            keys = part_of(own.keys, document, place)
+            keys = make_part_of(own.keys, document, place)
             first = first or keys
-            part = _checked(replace(own, keys=keys), file.parent, registry, formats)
-            parts.append((_with_sessions(part, file, registry), file))
+            part = _check_job(replace(own, keys=keys), file.parent, registry, formats)
+            parts.append((_add_sessions(part, file, registry), file))
         except InputError as error:
             problems.extend(error.problems)
     if problems or first is None:
         raise InputError(sorted(set(problems)))
-    whole = replace(composition, keys=document_of(first, document))
-    job = _checked(whole, path.parent, registry, formats)
-    names = names_of((part.axis, file) for part, file in parts)
+    whole = replace(composition, keys=make_document_of(first, document))
+    job = _check_job(whole, path.parent, registry, formats)
+    names = name_measurements_of((part.axis, file) for part, file in parts)
     files = dict.fromkeys((*composition.files, *(each for part, _ in parts for each in part.files)))
     of_each = {
         name: replace(part, formats=job.formats, directory=job.directory)
@@ -120,42 +131,42 @@ def _collected(composition: Composition, path: Path, registry: Installed, format
     )
 
 
-def _with_sessions(job: Job, path: Path, registry: Installed) -> Job:
+def _add_sessions(job: Job, path: Path, registry: Installed) -> Job:
     """Return a job with the further tests that its model names, and what earlier ones taught."""
-    sessions, priors = _sessions(job, path, registry), _priors(job)
+    sessions, priors = _read_sessions(job, path, registry), _read_priors(job)
     files = [file for each in sessions for file in each.files]
     if priors:
         files.append(priors.file)
     return replace(job, sessions=sessions, priors=priors.keys if priors else None, files=(*job.files, *files))
 
 
-def _checked(
+def _check_job(
     composition: Composition, folder: Path, registry: Installed, formats: tuple[str, ...] = ()
 ) -> Job:
     """Return the job in a folder that files make together, without the further tests that its model names."""
-    tree = _with_axis(_with_shared_keys(composition.keys, registry), registry)
+    tree = _add_axis(_share_keys(composition.keys, registry), registry)
     refuse_other_format(
         tree, JOB, lambda: [each for offered in registry.extensions for each in offered.formats]
     )
     problems: list[Problem] = []
     own = tree.without(*registry.extension_keys)
     keys = validate(JobKeys, own, problems, also_known=registry.extension_keys)
-    source = _source(tree, _SOURCE, registry, problems)
-    source_as_found = _source(tree, _SOURCE_AS_FOUND, registry, problems)
-    error = _stated_in(tree)
-    standards = list(standard_choices(tree, registry, problems, error))
-    effects = effect_choices(found_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
-    candidates = candidate_choices(
-        found_at(tree, _CANDIDATES), registry, problems, within=".".join(_CANDIDATES)
+    source = _choose_source(tree, _SOURCE, registry, problems)
+    source_as_found = _choose_source(tree, _SOURCE_AS_FOUND, registry, problems)
+    error = _find_stated_in(tree)
+    standards = list(choose_standards(tree, registry, problems, error))
+    effects = choose_effects_of(find_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
+    candidates = choose_candidates(
+        find_at(tree, _CANDIDATES), registry, problems, within=".".join(_CANDIDATES)
     )
-    programs = program_choices(
-        found_at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
+    programs = choose_programs_of(
+        find_at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
     )
-    extensions = tuple(extension_choices(tree, registry, problems))
-    controller = controller_choice(found_at(tree, _COMPENSATION), registry, problems)
+    extensions = tuple(choose_extensions(tree, registry, problems))
+    controller = choose_controller_of(find_at(tree, _COMPENSATION), registry, problems)
     tests = _test_sources(keys, tree, registry, problems) if keys else {}
-    measurand = measurand_of(keys, tree, registry, problems) if keys else POSITIONING
-    formats = formats or _formats(tree, keys, registry, problems)
+    measurand = find_measurand_of(keys, tree, registry, problems) if keys else POSITIONING
+    formats = formats or _choose_formats(tree, keys, registry, problems)
     if keys:
         found = [
             each
@@ -163,20 +174,20 @@ def _checked(
             for each in registry.extension(choice.identifier).contradictions(keys, choice.options)
         ]
         found += [
-            *quantity_contradictions(keys, measurand),
-            *tests_contradictions(keys, measurand),
-            *circle_contradictions(keys, measurand, has_axis="axis" in composition.keys.entries),
-            *circle_plan_contradictions(keys),
-            *effect_contradictions(effects, measurand, registry),
+            *find_quantity_contradictions(keys, measurand),
+            *find_tests_contradictions(keys, measurand),
+            *find_circle_contradictions(keys, measurand, has_axis="axis" in composition.keys.entries),
+            *find_circle_plan_contradictions(keys),
+            *find_effect_contradictions(effects, measurand, registry),
         ]
-        problems.extend(contradictions(keys, tree, found))
+        problems.extend(find_all_contradictions(keys, tree, found))
     if source is None and tests:
         source = next(iter(tests.values()))
     if problems or keys is None or source is None:
-        raise InputError(sorted(_said_once(problems)))
+        raise InputError(sorted(_drop_said_twice(problems)))
     for choice in extensions:
         keys = registry.extension(choice.identifier).completed(keys, choice.options)
-    axis = axis_in_si(keys.axis, measurand, stated_error(keys), keys.measurement.at, keys.circle)
+    axis = convert_axis_to_si(keys.axis, measurand, find_stated_error(keys), keys.measurement.at, keys.circle)
     job = Job(
         keys=keys,
         axis=axis,
@@ -185,8 +196,8 @@ def _checked(
         standards=tuple(
             replace(
                 choice,
-                tolerances=tolerances_in_si(
-                    each.tolerances, for_error(registry.standard(each.standard), error), axis
+                tolerances=convert_tolerances_to_si(
+                    each.tolerances, evaluate_for_error(registry.standard(each.standard), error), axis
                 ),
                 specification=each.specification or "",
             )
@@ -199,30 +210,30 @@ def _checked(
         controller=controller,
         formats=formats,
         directory=keys.output.directory or folder,
-        files=(*composition.files, *axis.files, *_files_named(standards)),
+        files=(*composition.files, *axis.files, *_list_files_named(standards)),
         tree=tree,
     )
     if not tests:
         return job
-    parts = {name: _of_test(job, name, chosen, registry) for name, chosen in tests.items()}
+    parts = {name: _make_job_of_test(job, name, chosen, registry) for name, chosen in tests.items()}
     files = [file for each in parts.values() for file in each.axis.files]
     return replace(job, tests=parts, files=(*job.files, *files))
 
 
-def _stated_in(tree: Keys) -> str:
+def _find_stated_in(tree: Keys) -> str:
     """Return what a job says was measured, by its symbol or its name; empty where it does not."""
-    stated = found_at(tree, ("measurement", "error"))
+    stated = find_at(tree, ("measurement", "error"))
     return stated.text.strip() if isinstance(stated, Scalar) else ""
 
 
-def _error_in(tree: Keys) -> ErrorSymbol | None:
+def _find_error_in(tree: Keys) -> ErrorSymbol | None:
     """Return the error that a job names; None where it names none, or one that there is not."""
     with suppress(ValueError):
-        return error_named(_stated_in(tree))
+        return find_error_named(_find_stated_in(tree))
     return None
 
 
-def _said_once(problems: Iterable[Problem]) -> set[Problem]:
+def _drop_said_twice(problems: Iterable[Problem]) -> set[Problem]:
     """Return problems without those of a standard with a key of the job that the job was told already."""
     found = set(problems)
     return {
@@ -233,34 +244,34 @@ def _said_once(problems: Iterable[Problem]) -> set[Problem]:
     }
 
 
-def _with_axis(tree: Keys, registry: Installed) -> Keys:
+def _add_axis(tree: Keys, registry: Installed) -> Keys:
     """Return the keys of a job with its axis, where a circle, an extension or an error's symbol has it."""
     if "axis" in tree.entries:
         return tree
-    error = _error_in(tree)
+    error = _find_error_in(tree)
     name = next((key for key in registry.axis_keys if key in tree.entries), "")
     place = tree.entries[name].place if name else place_of(tree, ("measurement",))
     if "circle" in tree.entries:
-        plane = found_at(tree, ("circle", "plane"))
+        plane = find_at(tree, ("circle", "plane"))
         place = tree.entries["circle"].place
         name = plane.text if isinstance(plane, Scalar) else str(CircleKeys.model_fields["plane"].default)
     if not name and error:
         name = error.axis
-    if not name and isinstance(listed := found_at(tree, ("measurement", "tests")), Keys):
-        name = _together(listed.entries)
+    if not name and isinstance(listed := find_at(tree, ("measurement", "tests")), Keys):
+        name = _name_together(listed.entries)
     if not name:
         return tree
-    axis = keys_of(place, (KeyEntry("name", place, Scalar(place, name, plain=False)),))
-    return merged(tree, keys_of(tree.place, (KeyEntry("axis", place, axis),)))
+    axis = make_keys_of(place, (KeyEntry("name", place, Scalar(place, name, plain=False)),))
+    return merge(tree, make_keys_of(tree.place, (KeyEntry("axis", place, axis),)))
 
 
-def _with_shared_keys(tree: Keys, registry: Installed) -> Keys:
+def _share_keys(tree: Keys, registry: Installed) -> Keys:
     """Return the keys of a job with what standards ask of the measurement among their own keys.
 
     Such a key stands in `measurement`, or at the top of the job; each standard that asks for it gets it. One
     that is the job's own, as `circle`, stays there too.
     """
-    evaluate, measurement = found_at(tree, ("evaluate",)), found_at(tree, ("measurement",))
+    evaluate, measurement = find_at(tree, ("evaluate",)), find_at(tree, ("measurement",))
     if not isinstance(evaluate, Items):
         return tree
     taken: set[str] = set()
@@ -280,7 +291,7 @@ def _with_shared_keys(tree: Keys, registry: Installed) -> Keys:
                     entries.setdefault(key, place.entries[key])
                     taken.add(key)
         items.append(
-            keys_of(group.place, tuple(entries.values())) if len(entries) > len(group.entries) else item
+            make_keys_of(group.place, tuple(entries.values())) if len(entries) > len(group.entries) else item
         )
     if not taken:
         return tree
@@ -289,7 +300,7 @@ def _with_shared_keys(tree: Keys, registry: Installed) -> Keys:
     entries["evaluate"] = replace(tree.entries["evaluate"], value=Items(evaluate.place, tuple(items)))
     if isinstance(measurement, Keys):
         entries["measurement"] = replace(entries["measurement"], value=measurement.without(*taken))
-    return keys_of(tree.place, tuple(entries.values()))
+    return make_keys_of(tree.place, tuple(entries.values()))
 
 
 def _test_sources(
@@ -298,13 +309,13 @@ def _test_sources(
     """Return the data source of each named test."""
     found = {}
     for name in keys.measurement.tests:
-        source = _source(tree, ("measurement", "tests", name, "source"), registry, problems)
+        source = _choose_source(tree, ("measurement", "tests", name, "source"), registry, problems)
         if source:
             found[name] = source
     return found
 
 
-def _of_test(job: Job, name: str, source: SourceChoice, registry: Installed) -> Job:
+def _make_job_of_test(job: Job, name: str, source: SourceChoice, registry: Installed) -> Job:
     """Return one of several measured lines as a job of its own: what is not said of it is as in the job."""
     whole, own = job.keys.measurement, job.keys.measurement.tests[name]
     inherited = {
@@ -321,15 +332,15 @@ def _of_test(job: Job, name: str, source: SourceChoice, registry: Installed) -> 
     axis_keys = own.axis
     of_lines = job.axis.measurand.of_lines
     is_usual = of_lines is not None and own.error in {None, of_lines.identifier}
-    error = error_named(own.error) if own.error and not is_usual else None
+    error = find_error_named(own.error) if own.error and not is_usual else None
     if axis_keys is None:
-        axis_keys = _axis_of_test(job, name, error)
+        axis_keys = _find_axis_of_test(job, name, error)
     update["axis"] = axis_keys
     quantity = error.measurand if error else of_lines
     return replace(
         job,
         keys=job.keys.model_copy(update=update),
-        axis=axis_in_si(axis_keys, quantity, error, measurement.at),
+        axis=convert_axis_to_si(axis_keys, quantity, error, measurement.at),
         source=source,
         source_as_found=None,
         standards=tuple(
@@ -344,42 +355,42 @@ def _of_test(job: Job, name: str, source: SourceChoice, registry: Installed) -> 
     )
 
 
-def _axis_of_test(job: Job, name: str, error: ErrorSymbol | None) -> AxisKeys:
+def _find_axis_of_test(job: Job, name: str, error: ErrorSymbol | None) -> AxisKeys:
     """Return the axis of a measured line that states none: that of its error, or one of the test's name."""
     stated = job.keys.axis
     if error is None:
-        return AxisKeys(name=name) if stated.name == _together(job.keys.measurement.tests) else stated
-    return stated if letter_of(stated.name) == error.axis else AxisKeys(name=error.axis)
+        return AxisKeys(name=name) if stated.name == _name_together(job.keys.measurement.tests) else stated
+    return stated if find_letter_of(stated.name) == error.axis else AxisKeys(name=error.axis)
 
 
-def _together(tests: Iterable[str]) -> str:
+def _name_together(tests: Iterable[str]) -> str:
     """Return the name of what several measured lines are of, where no axis is stated."""
     return " ".join(tests)
 
 
-def _files_named(standards: Iterable[StandardChoice]) -> Iterator[SourceFile]:
+def _list_files_named(standards: Iterable[StandardChoice]) -> Iterator[SourceFile]:
     """Yield the files that keys of standards name; a certificate carries them as it does its readings."""
     for choice in standards:
-        for path in _paths_in(choice.options):
-            yield SourceFile.of(path, demanded(path, LARGEST, choice.place))
+        for path in _list_paths_in(choice.options):
+            yield SourceFile.of(path, demand(path, LARGEST, choice.place))
 
 
-def _paths_in(value: Any) -> Iterator[Path]:
+def _list_paths_in(value: Any) -> Iterator[Path]:
     """Yield every path among the values of keys."""
     if isinstance(value, Path):
         yield value
     elif isinstance(value, BaseModel):
         for name in type(value).model_fields:
-            yield from _paths_in(getattr(value, name))
+            yield from _list_paths_in(getattr(value, name))
     elif isinstance(value, Mapping):
         for each in value.values():
-            yield from _paths_in(each)
+            yield from _list_paths_in(each)
     elif isinstance(value, list | tuple):
         for each in value:
-            yield from _paths_in(each)
+            yield from _list_paths_in(each)
 
 
-def _priors(job: Job) -> KeysFile[PriorsKeys] | None:
+def _read_priors(job: Job) -> KeysFile[PriorsKeys] | None:
     """Return what earlier tests say, if the job names a file of it."""
     stated = job.keys.model.priors if job.keys.model else None
     if stated is None:
@@ -393,7 +404,7 @@ def _priors(job: Job) -> KeysFile[PriorsKeys] | None:
     return found
 
 
-def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
+def _read_sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
     """Return the jobs of further tests of an axis; the sessions that these name are not theirs to add.
 
     Raises `InputError` if one is the job itself, stands there twice, or is of another axis.
@@ -405,7 +416,7 @@ def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
         if stated.resolve() in named:
             raise InputError.at(place, "this test is in the model already; name each further test once")
         named.append(stated.resolve())
-        other = _checked(compose(stated), stated.parent, registry)
+        other = _check_job(compose(stated), stated.parent, registry)
         axis, machine = other.keys.axis, other.keys.machine
         same = (axis.name, axis.kind) == (keys.axis.name, keys.axis.kind)
         serials = {each for each in (machine.serial, keys.machine.serial) if each}
@@ -418,18 +429,18 @@ def _sessions(job: Job, path: Path, registry: Installed) -> tuple[Job, ...]:
     return tuple(found)
 
 
-def _source(
+def _choose_source(
     tree: Keys, path: tuple[str, ...], registry: Installed, problems: list[Problem]
 ) -> SourceChoice | None:
     """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
-    keys, within = found_at(tree, path), ".".join(path)
-    plugin = found_at(tree, (*path, "plugin"))
-    choice = choice_in(keys, "plugin", registry.source, problems, within=within)
+    keys, within = find_at(tree, path), ".".join(path)
+    plugin = find_at(tree, (*path, "plugin"))
+    choice = choose_in(keys, "plugin", registry.source, problems, within=within)
     instrument = None
     with suppress(InputError):  # a source that there is not was refused above
         if isinstance(keys, Keys) and isinstance(plugin, Scalar):
             known = registry.source(plugin.text).options
-            instrument = instrument_choice(known, keys, registry, problems, within=within)
+            instrument = choose_instrument(known, keys, registry, problems, within=within)
     return SourceChoice(choice.identifier, choice.options, choice.place, instrument) if choice else None
 
 
@@ -437,7 +448,7 @@ def _source(
 _OF_EVERY_STANDARD = tuple(StandardKeys.model_fields)
 
 
-def standard_choices(
+def choose_standards(
     tree: Keys, registry: Installed, problems: list[Problem], error: str = ""
 ) -> Iterator[StandardChoice]:
     """Yield the standards that a job's `evaluate` lists, with their own keys and no tolerances yet.
@@ -446,7 +457,7 @@ def standard_choices(
 
     Mistakes are added to the problems: tolerances for what is no parameter among them.
     """
-    evaluate = found_at(tree, ("evaluate",))
+    evaluate = find_at(tree, ("evaluate",))
     first_named: dict[str, Place] = {}
     for item in evaluate.items if isinstance(evaluate, Items) else ():
         keys = group_naming("standard", item)
@@ -455,7 +466,7 @@ def standard_choices(
             continue
         identifier, place = named.value.text, named.value.place
         try:
-            standard = for_error(registry.standard(identifier, place), error)
+            standard = evaluate_for_error(registry.standard(identifier, place), error)
         except InputError as unknown:
             problems.extend(unknown.problems)
             continue
@@ -465,7 +476,7 @@ def standard_choices(
                 Problem(place, f"{standard.identifier} stands in line {first} already; remove one of them")
             )
         first_named.setdefault(standard.identifier, place)
-        problems.extend(_unknown_tolerances(keys, standard))
+        problems.extend(_find_unknown_tolerances(keys, standard))
         own = replace(keys.without(*_OF_EVERY_STANDARD), place=place)
         options = validate(standard.options, own, problems, within="evaluate", also_known=_OF_EVERY_STANDARD)
         if options:
@@ -473,12 +484,14 @@ def standard_choices(
             yield StandardChoice(standard.identifier, options, place, {}, adoption=adoption)
 
 
-def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:
+def _find_unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Problem]:
     """Yield tolerances for what is no parameter of the standard, or cannot have one."""
-    tolerances = found_at(keys, ("tolerances",))
+    tolerances = find_at(keys, ("tolerances",))
     limitable = [quantity.symbol for quantity in standard.quantities if quantity.can_be_limited]
     symbols = {quantity.symbol for quantity in standard.quantities}
-    printed = {plain(each.notation): each.symbol for each in standard.quantities if each.symbol in limitable}
+    printed = {
+        write_plain(each.notation): each.symbol for each in standard.quantities if each.symbol in limitable
+    }
     before = ""
     for symbol, entry in tolerances.entries.items() if isinstance(tolerances, Keys) else ():
         spelt = symbol.replace("↑", "_fwd").replace("↓", "_bwd")
@@ -499,24 +512,24 @@ def _unknown_tolerances(keys: Keys, standard: InstalledStandard) -> Iterator[Pro
         yield Problem(entry.place, message + did_you_mean(symbol, limitable))
 
 
-def _formats(
+def _choose_formats(
     tree: Keys, keys: JobKeys | None, registry: Installed, problems: list[Problem]
 ) -> tuple[str, ...]:
     """Return the output formats; without a list of them, the usual ones."""
-    stated = found_at(tree, ("output", "formats"))
+    stated = find_at(tree, ("output", "formats"))
     if isinstance(stated, Items):
         named = [(item.text, item.place) for item in stated.items if isinstance(item, Scalar)]
     else:
         place = place_of(tree, ("output", "formats"))
         named = [(identifier, place) for identifier in (keys.output.formats if keys else ())]
     try:
-        return chosen_formats(named, registry)
+        return choose_formats_once(named, registry)
     except InputError as error:
         problems.extend(error.problems)
         return ()
 
 
-def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> tuple[str, ...]:
+def choose_formats_once(named: Iterable[tuple[str, Place]], registry: Installed) -> tuple[str, ...]:
     """Return the identifiers of output formats, each once.
 
     Raises `InputError` for each that no plugin provides.
@@ -533,7 +546,7 @@ def chosen_formats(named: Iterable[tuple[str, Place]], registry: Installed) -> t
     return tuple(found)
 
 
-def axis_in_si(
+def convert_axis_to_si(
     keys: AxisKeys,
     measurand: Measurand | None = None,
     error: ErrorSymbol | None = None,
@@ -573,12 +586,12 @@ def axis_in_si(
         abbe_offset=None if keys.abbe_offset is None else MILLIMETRE.to_si(keys.abbe_offset),
         quantity=measurand,
         error=error.symbol if error else "",
-        at=places_in_si(at),
+        at=convert_places_to_si(at),
         circle=circle.in_si() if circle else None,
     )
 
 
-def tolerances_in_si(
+def convert_tolerances_to_si(
     tolerances: Mapping[str, float], standard: InstalledStandard, axis: Axis
 ) -> dict[str, float]:
     """Return tolerances, given in the unit of what was measured or in a parameter's own, in SI."""

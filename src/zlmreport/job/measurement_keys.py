@@ -17,10 +17,10 @@ from zlmreport.job.types import (
     NotNegative,
     Positive,
     Text,
-    along_the_length,
+    parse_along_the_length,
 )
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.error_symbol import LINEAR_AXES, ROTARY_AXES, letter_of
+from zlmreport.measurement.error_symbol import LINEAR_AXES, ROTARY_AXES, find_letter_of
 
 
 class AirKeys(JobPart):
@@ -168,10 +168,10 @@ TestName: TypeAlias = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,19
 _TOOL = "tool"
 
 
-def _places(at: dict[str, Any]) -> dict[str, Any]:
+def _read_places(at: dict[str, Any]) -> dict[str, Any]:
     for name, value in at.items():
         is_tool = name == _TOOL
-        if not is_tool and not letter_of(name):
+        if not is_tool and not find_letter_of(name):
             near = did_you_mean(name, [*LINEAR_AXES, *ROTARY_AXES, _TOOL])
             raise ValueError(f"{quoted(name)} is no axis; {near}")
         if is_tool != isinstance(value, tuple):
@@ -197,7 +197,7 @@ class LineKeys(JobPart):
         "name of a quantity that a standard brings.",
         examples=["EYX"],
     )
-    at: Annotated[dict[str, Finite | tuple[Finite, Finite, Finite]], AfterValidator(_places)] = Field(
+    at: Annotated[dict[str, Finite | tuple[Finite, Finite, Finite]], AfterValidator(_read_places)] = Field(
         {},
         description="Where the other axes stood, mm or degrees, and the tool's offset from the spindle's "
         "nose, mm.",
@@ -243,7 +243,7 @@ class LineKeys(JobPart):
     remarks: Lines | None = Field(None, description="Anything else that a reader should know.")
 
 
-def _nothing(value: Any) -> Any:
+def _take_nothing(value: Any) -> Any:
     """Take the word for nothing as nothing: `material: none`."""
     return 0.0 if str(value).strip().lower() in {"none", "no", "false"} else value
 
@@ -251,7 +251,7 @@ def _nothing(value: Any) -> Any:
 class CompensatesKeys(JobPart):
     """What the instrument has corrected already, before it displayed a reading."""
 
-    material: Annotated[NotNegative, BeforeValidator(_nothing)] | None = Field(
+    material: Annotated[NotNegative, BeforeValidator(_take_nothing)] | None = Field(
         None,
         description="Coefficient by which it took the expansion of the material to 20 °C, micrometres/(m K); "
         "none or 0 if it did not.",
@@ -317,7 +317,7 @@ class Instrument(JobPart):
         """U as a constant (µm or ″) and a part per metre (µm/m); None where no number is stated."""
         constant, per_metre = self.expanded_uncertainty, self.expanded_uncertainty_per_metre or 0.0
         if isinstance(constant, str):
-            formula = along_the_length(constant)
+            formula = parse_along_the_length(constant)
             return (formula[0], formula[1] + per_metre) if formula else None
         return (constant or 0.0, per_metre) if constant or per_metre else None
 

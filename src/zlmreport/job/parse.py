@@ -53,7 +53,7 @@ _LET_PASS = frozenset("\t?")
 _ADVICE = "'zlmreport init DIR' writes one to begin with"
 
 
-def decoded(content: bytes, file: str) -> str:
+def decode(content: bytes, file: str) -> str:
     """Return the text of a job file.
 
     Raises `InputError` if it is not UTF-8, or holds characters that cannot be seen.
@@ -75,32 +75,32 @@ def decoded(content: bytes, file: str) -> str:
             f"byte 0x{content[error.start]:02X} is not UTF-8; save the file as UTF-8",
         ) from error
     problems: list[Problem] = []
-    for found in _hidden(text):
+    for found in _find_hidden(text):
         place = _place(text[: found.start()], file)
         if len(problems) == _MOST_NAMED:
             problems.append(Problem(place, "and more of the kind; is this a text file?"))
             break
-        problems.append(Problem(place, f"{described(found[0])}; remove it"))
+        problems.append(Problem(place, f"{describe_character(found[0])}; remove it"))
     if problems:
         raise InputError(problems)
     return text
 
 
-def hidden(text: str) -> str | None:
+def find_hidden_character(text: str) -> str | None:
     """Return the first character of a text that cannot be printed or seen, if there is one."""
-    return next((found[0] for found in _hidden(text)), None)
+    return next((found[0] for found in _find_hidden(text)), None)
 
 
-def invisible(text: str) -> list[str]:
+def list_invisible(text: str) -> list[str]:
     """Return the characters of a text that nobody sees, whatever they do."""
     return _INVISIBLE.findall(text)
 
 
-def _hidden(text: str) -> Iterator[re.Match[str]]:
-    return (found for found in _HIDDEN.finditer(text) if not _joins(text, found.start()))
+def _find_hidden(text: str) -> Iterator[re.Match[str]]:
+    return (found for found in _HIDDEN.finditer(text) if not _is_joining(text, found.start()))
 
 
-def _joins(text: str, place: int) -> bool:
+def _is_joining(text: str, place: int) -> bool:
     """Whether a joiner is where a script needs one: it changes letters that everybody sees (RFC 5892, A)."""
     if text[place] not in _JOINERS or not 0 < place < len(text) - 1:
         return False
@@ -109,7 +109,7 @@ def _joins(text: str, place: int) -> bool:
     return unicodedata.combining(before) == _VIRAMA or is_between_letters
 
 
-def described(character: str) -> str:
+def describe_character(character: str) -> str:
     r"""Say which character that nobody sees stands in a text.
 
     >>> described("\x07"), described("\u202e")
@@ -120,7 +120,7 @@ def described(character: str) -> str:
     return f"invisible character {code} ({name})" if name else f"control character {code}"
 
 
-def counted(number: int, thing: str) -> str:
+def count_in_words(number: int, thing: str) -> str:
     """Return a number of things.
 
     >>> counted(1, "value"), counted(100000, "character")
@@ -143,7 +143,7 @@ def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
 
     Raises `InputError` with every mistake that does not hide the rest of the file.
     """
-    text = decoded(content, file)
+    text = decode(content, file)
     if not strictly or _LET_PASS.isdisjoint(text):
         reader = _Reader(_QUICK(text), file)
         with contextlib.suppress(
@@ -156,17 +156,17 @@ def parse(content: bytes, file: str, *, strictly: bool = True) -> Keys:
     try:
         root = reader.document()
     except yaml.MarkedYAMLError as error:
-        raise InputError([*reader.problems, complaint(error, file)]) from error
+        raise InputError([*reader.problems, make_complaint(error, file)]) from error
     except (ValueError, OverflowError) as error:  # of an escape or a version beyond all bounds
         raise InputError([*reader.problems, reader.stuck()]) from error
     if not isinstance(root, Keys):
-        reader.problems.append(Problem(Place(file, 1, 1), _no_keys(root)))
+        reader.problems.append(Problem(Place(file, 1, 1), _say_no_keys(root)))
     if reader.problems or not isinstance(root, Keys):
         raise InputError(reader.problems)
     return Keys(Place(file, 1, 1), root.entries)
 
 
-def _no_keys(root: Node | None) -> str:
+def _say_no_keys(root: Node | None) -> str:
     if root is None or (isinstance(root, Scalar) and root.is_nothing):
         return f"is empty; a job file holds keys such as 'schema: zlmreport/job/1' ({_ADVICE})"
     found = "a list" if isinstance(root, Items) else "a text"
@@ -228,9 +228,9 @@ class _Reader:
         return node
 
     def _scalar(self, event: yaml.ScalarEvent) -> Scalar:
-        unseen = hidden(event.value)
+        unseen = find_hidden_character(event.value)
         if unseen:
-            self._refuse(event, f"{described(unseen)} in a text; remove it")
+            self._refuse(event, f"{describe_character(unseen)} in a text; remove it")
         return Scalar(self._place(event), event.value, plain=not event.style)
 
     def _items(self, start: yaml.Event, depth: int) -> Items:
@@ -332,7 +332,7 @@ _COMPLAINTS = (
 )
 
 
-def complaint(error: MarkedYAMLError, file: str) -> Problem:
+def make_complaint(error: MarkedYAMLError, file: str) -> Problem:
     """Return the problem that a parser's error stands for."""
     problem = str(error.problem)
     line = error.context_mark.line + 1 if error.context_mark else 0

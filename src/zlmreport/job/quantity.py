@@ -11,7 +11,7 @@ from zlmreport.job.installed import Installed, InstalledStandard
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Keys, Step, place_of
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.error_symbol import ROTARY_AXES, ErrorSymbol, error_named, letter_of
+from zlmreport.measurement.error_symbol import ROTARY_AXES, ErrorSymbol, find_error_named, find_letter_of
 from zlmreport.measurement.measurand import (
     CIRCLE,
     OF_SYMBOLS,
@@ -19,33 +19,35 @@ from zlmreport.measurement.measurand import (
     Coordinate,
     Measurand,
     is_for,
-    listed,
-    measurands_of,
+    list_identifiers,
+    list_measurands_of,
 )
 from zlmreport.measurement.units import DEGREE, MILLIMETRE
 
 _ERROR = ("measurement", "error")
 
 
-def stated_error(keys: JobKeys) -> ErrorSymbol | None:
+def find_stated_error(keys: JobKeys) -> ErrorSymbol | None:
     """Return the error that a job names by its symbol; None where it names none, or a measurand."""
     stated = keys.measurement.error
     if stated is None:
         return None
     try:
-        return error_named(stated)
+        return find_error_named(stated)
     except ValueError:
         return None
 
 
-def measurand_of(keys: JobKeys, tree: Keys, registry: Installed, problems: list[Problem]) -> Measurand:
+def find_measurand_of(keys: JobKeys, tree: Keys, registry: Installed, problems: list[Problem]) -> Measurand:
     """Return what was measured: as the job says, or else as its standards do.
 
     Mistakes are added to the problems: an error that is none, standards that are not for it, an axis that the
     symbol does not name.
     """
-    standards = list(_standards(keys, tree, registry))
-    found = _stated(keys, tree, standards, problems) or _of_standards(keys, tree, standards, problems)
+    standards = list(_list_standards(keys, tree, registry))
+    found = _find_stated(keys, tree, standards, problems) or _find_of_standards(
+        keys, tree, standards, problems
+    )
     if found is None:
         return POSITIONING
     for index, standard in standards:
@@ -53,26 +55,29 @@ def measurand_of(keys: JobKeys, tree: Keys, registry: Installed, problems: list[
             problems.append(
                 Problem(
                     place_of(tree, ("evaluate", index)),
-                    f"{standard.identifier} evaluates {listed(measurands_of(standard))}, and this job is on "
-                    f"{_in_words(found, keys)}; {_would_fit(found, registry)}",
+                    f"{standard.identifier} evaluates {list_identifiers(list_measurands_of(standard))}, "
+                    f"and this job is on {_say_in_words(found, keys)}; "
+                    f"{_say_what_would_fit(found, registry)}",
                 )
             )
     return found
 
 
-def _in_words(measurand: Measurand, keys: JobKeys) -> str:
+def _say_in_words(measurand: Measurand, keys: JobKeys) -> str:
     stated = keys.measurement.error
     if stated is None and keys.circle is not None:
         return f"a {measurand.identifier} (circle: …)"
     return f"{measurand.identifier} (measurement.error: {stated})" if stated else measurand.identifier
 
 
-def _would_fit(measurand: Measurand, registry: Installed) -> str:
+def _say_what_would_fit(measurand: Measurand, registry: Installed) -> str:
     fitting = [each.identifier for each in registry.standards if is_for(each, measurand)]
     return f"would fit: {', '.join(fitting)}" if fitting else "no installed standard evaluates that"
 
 
-def _standards(keys: JobKeys, tree: Keys, registry: Installed) -> Iterator[tuple[int, InstalledStandard]]:
+def _list_standards(
+    keys: JobKeys, tree: Keys, registry: Installed
+) -> Iterator[tuple[int, InstalledStandard]]:
     """Yield the standards of a job that are installed; the others are refused elsewhere."""
     for index, each in enumerate(keys.evaluate):
         try:
@@ -81,7 +86,7 @@ def _standards(keys: JobKeys, tree: Keys, registry: Installed) -> Iterator[tuple
             continue
 
 
-def _stated(
+def _find_stated(
     keys: JobKeys,
     tree: Keys,
     standards: Sequence[tuple[int, InstalledStandard]],
@@ -91,7 +96,7 @@ def _stated(
     stated = keys.measurement.error
     if stated is None:
         return None
-    named = {each.identifier: each for _, standard in standards for each in measurands_of(standard)}
+    named = {each.identifier: each for _, standard in standards for each in list_measurands_of(standard)}
     place = place_of(tree, _ERROR)
     if stated in named and stated not in OF_SYMBOLS:
         return named[stated]
@@ -101,11 +106,11 @@ def _stated(
         problems.append(Problem(place, said))
         return None
     try:
-        error = error_named(stated)
+        error = find_error_named(stated)
     except ValueError as error_of_symbol:
         problems.append(Problem(place, f"measurement.error: {error_of_symbol}"))
         return None
-    name, letter = keys.axis.name, letter_of(keys.axis.name)
+    name, letter = keys.axis.name, find_letter_of(keys.axis.name)
     if letter != error.axis:
         problems.append(
             Problem(
@@ -123,7 +128,7 @@ def _stated(
     return error.measurand
 
 
-def _of_standards(
+def _find_of_standards(
     keys: JobKeys,
     tree: Keys,
     standards: Sequence[tuple[int, InstalledStandard]],
@@ -136,7 +141,7 @@ def _of_standards(
         return None
     shared = [
         each
-        for each in measurands_of(standards[0][1])
+        for each in list_measurands_of(standards[0][1])
         if all(is_for(standard, each) for _, standard in standards)
     ]
     if any(each.identifier == POSITIONING.identifier for each in shared):
@@ -148,22 +153,23 @@ def _of_standards(
         problems.append(
             Problem(
                 place_of(tree, ("measurement",)),
-                f"{standards[0][1].identifier} evaluates {listed(shared)}; say what was measured: "
+                f"{standards[0][1].identifier} evaluates {list_identifiers(shared)}; say what was measured: "
                 f"measurement.error: {example}",
             )
         )
         return None
     first = standards[0][1]
     for index, standard in standards:
-        if not {each.identifier for each in measurands_of(standard)} & {
-            each.identifier for each in measurands_of(first)
+        if not {each.identifier for each in list_measurands_of(standard)} & {
+            each.identifier for each in list_measurands_of(first)
         }:
             problems.append(
                 Problem(
                     place_of(tree, ("evaluate", index)),
-                    f"{standard.identifier} evaluates {listed(measurands_of(standard))}, and "
-                    f"{first.identifier} {listed(measurands_of(first))}; the standards of a job are for one "
-                    "quantity: write a job for each, or name it by measurement.error",
+                    f"{standard.identifier} evaluates {list_identifiers(list_measurands_of(standard))}, and "
+                    f"{first.identifier} {list_identifiers(list_measurands_of(first))}; "
+                    "the standards of a job are for one quantity: "
+                    "write a job for each, or name it by measurement.error",
                 )
             )
     return None
@@ -176,12 +182,14 @@ _FOR_LENGTHS = {
 }
 
 
-def quantity_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
+def find_quantity_contradictions(
+    keys: JobKeys, measurand: Measurand
+) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield the keys of a job that do not go with what was measured."""
     if measurand.is_position:
         return
     if (measurand.of_lines or measurand).coordinate is Coordinate.TIME:
-        yield from _of_lengths(keys)
+        yield from _find_keys_of_lengths(keys)
     for key, reason in _FOR_LENGTHS.items():
         if getattr(keys, key) is not None:
             yield (key,), f"belongs to positioning: {reason}, and this job is on {measurand.identifier}"
@@ -199,7 +207,7 @@ _UNCERTAIN_LENGTHS = (
 )
 
 
-def _of_lengths(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
+def _find_keys_of_lengths(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield the keys of an uncertainty that do not go with readings over time."""
     stated = keys.uncertainty
     if stated.environmental_variation is not None:
@@ -226,7 +234,7 @@ def _of_lengths(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
         yield ("uncertainty", "instrument_acts"), "along-the-length does not fit: time is no length"
 
 
-def tests_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
+def find_tests_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield what does not go together of a job's source and its named tests."""
     measurement = keys.measurement
     if not measurement.tests and measurement.source is None:
@@ -239,13 +247,15 @@ def tests_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[
             ("measurement", "tests"),
             f"{stated} follows from several measured lines; name them: {{x: {{error: …, source: …}}, …}}",
         )
-    yield from _of_lines(keys, measurand)
+    yield from _find_missing_lines(keys, measurand)
     if measurement.tests and keys.as_found is not None:
         yield ("as_found",), "a job with several tests has no state as found; write a job for each state"
-    yield from _of_each_test(keys, measurand)
+    yield from _find_mismatches_of_each_test(keys, measurand)
 
 
-def _of_each_test(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
+def _find_mismatches_of_each_test(
+    keys: JobKeys, measurand: Measurand
+) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield what does not go together within each of several measured lines."""
     for name, test in keys.measurement.tests.items():
         path: tuple[Step, ...] = ("measurement", "tests", name)
@@ -259,20 +269,20 @@ def _of_each_test(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[S
         if measurand.of_lines and test.error == measurand.of_lines.identifier:
             continue
         try:
-            error = error_named(test.error)
+            error = find_error_named(test.error)
         except ValueError as mistake:
             yield (*path, "error"), str(mistake)
             continue
-        if test.axis and letter_of(test.axis.name) != error.axis:
+        if test.axis and find_letter_of(test.axis.name) != error.axis:
             yield (
                 (*path, "error"),
                 f"{error.symbol} is an error of axis {error.axis}, not of {quoted(test.axis.name)}",
             )
 
 
-def _of_lines(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
+def _find_missing_lines(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield which of the two lines of a squareness error is lacking, where its tests are straight lines."""
-    error, tests = stated_error(keys), keys.measurement.tests
+    error, tests = find_stated_error(keys), keys.measurement.tests
     if error is None or not error.lines or not tests or not measurand.joins_tests:
         return
     named = [(each.error or "").strip().upper() for each in tests.values()]
@@ -286,7 +296,7 @@ def _of_lines(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step,
         )
 
 
-def places_in_si(at: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
+def convert_places_to_si(at: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
     """Return where other axes stood, by their names, m or rad; the tool's offset is no place of an axis."""
     return tuple(
         (name, (DEGREE if name[:1].upper() in ROTARY_AXES else MILLIMETRE).to_si(value))
@@ -295,7 +305,7 @@ def places_in_si(at: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
     )
 
 
-def effect_contradictions(
+def find_effect_contradictions(
     effects: Sequence[EffectChoice], measurand: Measurand, registry: Installed
 ) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield the effects of a model that do not describe what was measured."""
@@ -306,5 +316,8 @@ def effect_contradictions(
         if not is_for(effect, measurand):
             yield (
                 ("model", "effects", index),
-                f"{choice.identifier} acts on {listed(measurands_of(effect))}, not on {measurand.identifier}",
+                (
+                    f"{choice.identifier} acts on {list_identifiers(list_measurands_of(effect))}, "
+                    f"not on {measurand.identifier}"
+                ),
             )

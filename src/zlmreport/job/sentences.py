@@ -12,9 +12,15 @@ from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
 
 from zlmreport.errors import Place, Problem, did_you_mean, quoted
-from zlmreport.job.parse import counted
-from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, key_place, place_of, walk
-from zlmreport.job.types import choices_in, field_at, keys_in, model_at, with_decimal_point
+from zlmreport.job.parse import count_in_words
+from zlmreport.job.tree import Items, Keys, Node, Scalar, Step, find_key_place, place_of, walk
+from zlmreport.job.types import (
+    find_field_at,
+    find_model_at,
+    list_choices_in,
+    list_keys_in,
+    replace_decimal_comma,
+)
 
 #: Kinds of mistakes that a value makes which is no text, no group, and so on.
 TEXT_EXPECTED = frozenset({"string_type", "literal_error", "enum", "path_type", "value_error"})
@@ -48,26 +54,26 @@ class Mistake:
         return frozenset(refusal.kind for refusal in self.refusals)
 
 
-def mistakes_in(error: ValidationError, keys: Keys) -> tuple[Mistake, ...]:
+def find_mistakes_in(error: ValidationError, keys: Keys) -> tuple[Mistake, ...]:
     """Return the mistakes that a model found in a group of keys."""
     gathered: dict[tuple[Step, ...], list[Refusal]] = {}
     for details in error.errors(include_url=False, include_input=False):
         refusal = Refusal(details["type"], details.get("ctx", {}))
-        gathered.setdefault(_path(details, keys), []).append(refusal)
+        gathered.setdefault(_find_path(details, keys), []).append(refusal)
     return tuple(
-        Mistake(path, _place(keys, path, refusals), _node(keys, path), tuple(refusals))
+        Mistake(path, _place(keys, path, refusals), _find_node(keys, path), tuple(refusals))
         for path, refusals in gathered.items()
-        if not _explained_below(path, gathered)
+        if not _is_explained_below(path, gathered)
     )
 
 
-def _path(details: ErrorDetails, keys: Keys) -> tuple[Step, ...]:
+def _find_path(details: ErrorDetails, keys: Keys) -> tuple[Step, ...]:
     """Return a mistake's path in the job, without the names that pydantic gives to alternatives of a type."""
-    path = tuple(_steps_that_exist(details["loc"], keys))
+    path = tuple(_list_steps_that_exist(details["loc"], keys))
     return (*path, details["loc"][-1]) if details["type"] == MISSING else path
 
 
-def _steps_that_exist(location: tuple[Step, ...], keys: Keys) -> Iterator[Step]:
+def _list_steps_that_exist(location: tuple[Step, ...], keys: Keys) -> Iterator[Step]:
     node: Node = keys
     for step in location:
         for existing, _, value in walk(node, (step,)):
@@ -78,18 +84,18 @@ def _steps_that_exist(location: tuple[Step, ...], keys: Keys) -> Iterator[Step]:
 def _place(keys: Keys, path: tuple[Step, ...], refusals: list[Refusal]) -> Place:
     """Return the place of a value, or of an unknown key."""
     if any(refusal.kind == UNKNOWN for refusal in refusals):
-        return key_place(keys, path)
+        return find_key_place(keys, path)
     return place_of(keys, path)
 
 
-def _node(keys: Keys, path: tuple[Step, ...]) -> Node | None:
+def _find_node(keys: Keys, path: tuple[Step, ...]) -> Node | None:
     found = list(walk(keys, path))
     if len(found) < len(path):
         return None
     return found[-1][2] if found else keys
 
 
-def _explained_below(path: tuple[Step, ...], gathered: dict[tuple[Step, ...], list[Refusal]]) -> bool:
+def _is_explained_below(path: tuple[Step, ...], gathered: dict[tuple[Step, ...], list[Refusal]]) -> bool:
     """Whether a part of the value has a mistake: then the value is right in kind, and only its part wrong."""
     return any(len(other) > len(path) and other[: len(path)] == path for other in gathered)
 
@@ -109,14 +115,14 @@ _EXPECTED: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
     "int_type": lambda _: "a whole number",
     "int_parsing": lambda _: "a whole number",
     "int_from_float": lambda _: "a whole number",
-    "greater_than": lambda given: _bounded("greater than", given["gt"]),
-    "greater_than_equal": lambda given: _bounded("of at least", given["ge"]),
-    "less_than": lambda given: _bounded("less than", given["lt"]),
-    "less_than_equal": lambda given: _bounded("of at most", given["le"]),
+    "greater_than": lambda given: _say_bounds("greater than", given["gt"]),
+    "greater_than_equal": lambda given: _say_bounds("of at least", given["ge"]),
+    "less_than": lambda given: _say_bounds("less than", given["lt"]),
+    "less_than_equal": lambda given: _say_bounds("of at most", given["le"]),
     "multiple_of": lambda given: f"a multiple of {given['multiple_of']}",
     "string_type": lambda _: "text",
-    "string_too_short": lambda given: f"text of at least {counted(given['min_length'], 'character')}",
-    "string_too_long": lambda given: f"text of at most {counted(given['max_length'], 'character')}",
+    "string_too_short": lambda given: f"text of at least {count_in_words(given['min_length'], 'character')}",
+    "string_too_long": lambda given: f"text of at most {count_in_words(given['max_length'], 'character')}",
     "string_pattern_mismatch": lambda given: f"text of the form {given['pattern']}",
     "path_type": lambda _: "the name of a file",
     "date_type": lambda _: "a date such as 2026-11-20",
@@ -128,8 +134,8 @@ _EXPECTED: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
     "list_type": lambda _: "a list",
     "tuple_type": lambda _: "a list",
     "set_type": lambda _: "a list",
-    "too_short": lambda given: f"a list of at least {counted(given['min_length'], 'value')}",
-    "too_long": lambda given: f"a list of at most {counted(given['max_length'], 'value')}",
+    "too_short": lambda given: f"a list of at least {count_in_words(given['min_length'], 'value')}",
+    "too_long": lambda given: f"a list of at most {count_in_words(given['max_length'], 'value')}",
     "dict_type": lambda _: "a group of keys",
     "mapping_type": lambda _: "a group of keys",
     "model_type": lambda _: "a group of keys",
@@ -137,27 +143,29 @@ _EXPECTED: Mapping[str, Callable[[Mapping[str, Any]], str]] = {
 }
 
 
-def _bounded(words: str, bound: Any) -> str:
+def _say_bounds(words: str, bound: Any) -> str:
     """Say what is expected of a number, or of a date."""
     return f"a number {words} {bound:g}" if isinstance(bound, int | float) else f"{words} {bound}"
 
 
-def problem(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> Problem:
+def make_problem(
+    mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]
+) -> Problem:
     """Return the problem that the user reads.
 
     `model`: What describes the keys: a message quotes its descriptions and examples.
     `within`: The dotted path of the model's keys in the job.
     """
-    field = field_at(model, mistake.path)
-    name = _dotted(within, mistake.path)
+    field = find_field_at(model, mistake.path)
+    name = _write_dotted(within, mistake.path)
     if mistake.kinds == {MISSING}:
-        return Problem(mistake.place, _missing(mistake, name, field))
+        return Problem(mistake.place, _say_missing(mistake, name, field))
     if mistake.kinds == {UNKNOWN}:
-        return Problem(mistake.place, _unknown(mistake, model, within, also_known))
-    return Problem(mistake.place, _unfit(mistake, model, name, field))
+        return Problem(mistake.place, _say_unknown(mistake, model, within, also_known))
+    return Problem(mistake.place, _say_unfit(mistake, model, name, field))
 
 
-def _dotted(within: str, path: tuple[Step, ...]) -> str:
+def _write_dotted(within: str, path: tuple[Step, ...]) -> str:
     """Return the dotted name of a key; items of a list are known by their place.
 
     A user's own key, such as a tolerance's symbol, may hold what no terminal prints: it is shown escaped.
@@ -166,73 +174,73 @@ def _dotted(within: str, path: tuple[Step, ...]) -> str:
     return ".".join(step if step.isprintable() else repr(step)[1:-1] for step in steps)
 
 
-def _missing(mistake: Mistake, name: str, field: FieldInfo | None) -> str:
+def _say_missing(mistake: Mistake, name: str, field: FieldInfo | None) -> str:
     if isinstance(mistake.path[-1], int):
-        return f"{name}: a value is missing in the list{_example(field)}"
-    return f"{name} is missing{_description(field)}{_example(field)}"
+        return f"{name}: a value is missing in the list{_find_example(field)}"
+    return f"{name} is missing{_say_description(field)}{_find_example(field)}"
 
 
-def _unknown(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> str:
+def _say_unknown(mistake: Mistake, model: type[BaseModel], within: str, also_known: Collection[str]) -> str:
     *group, key = map(str, mistake.path)
-    part = model_at(model, mistake.path[:-1])
-    known = list(keys_in(part)) if part else []
+    part = find_model_at(model, mistake.path[:-1])
+    known = list(list_keys_in(part)) if part else []
     if not group:
         known.extend(also_known)
-    where = _dotted(within, tuple(group))
+    where = _write_dotted(within, tuple(group))
     if key.isdecimal():
         return f"{where or 'here'}: a comma parts keys, and {key} is none; write a decimal point"
     return f"unknown key {quoted(key)}{f' in {where}' if where else ''}; {did_you_mean(key, known)}"
 
 
-def _unfit(mistake: Mistake, model: type[BaseModel], name: str, field: FieldInfo | None) -> str:
+def _say_unfit(mistake: Mistake, model: type[BaseModel], name: str, field: FieldInfo | None) -> str:
     spoken = [str(refusal.context["error"]) for refusal in mistake.refusals if refusal.kind in _SPOKEN_KINDS]
     prefix = f"{name}: " if name else ""
     node = mistake.node
     if spoken:
         return f"{prefix}{spoken[0]}"
     if mistake.kinds & _CHOICE_KINDS and isinstance(node, Scalar) and not node.is_nothing:
-        choices = [choice for refusal in mistake.refusals for choice in _choices(refusal, field)]
+        choices = [choice for refusal in mistake.refusals for choice in _list_choices(refusal, field)]
         return f"{prefix}{quoted(node.text)} is unknown; {did_you_mean(node.text, choices)}"
-    expected = " or ".join(dict.fromkeys(_expectation(refusal, field) for refusal in mistake.refusals))
-    hint = _hint(node) or _keys_hint(model, mistake) or _example(field)
+    expected = " or ".join(dict.fromkeys(_say_expectation(refusal, field) for refusal in mistake.refusals))
+    hint = _say_hint(node) or _say_keys_hint(model, mistake) or _find_example(field)
     if isinstance(node, Scalar) and node.is_nothing:
         return f"{name} has no value; {expected} is expected{hint.replace('; for', ', for')}"
-    return f"{prefix}{shown(node)} is not {expected}{hint}"
+    return f"{prefix}{show_value(node)} is not {expected}{hint}"
 
 
-def _expectation(refusal: Refusal, field: FieldInfo | None) -> str:
+def _say_expectation(refusal: Refusal, field: FieldInfo | None) -> str:
     if refusal.kind in _CHOICE_KINDS:
-        return f"one of {', '.join(_choices(refusal, field))}"
+        return f"one of {', '.join(_list_choices(refusal, field))}"
     if refusal.kind in _EXPECTED:
         return _EXPECTED[refusal.kind](refusal.context)
-    return f"what is expected{_description(field)}"
+    return f"what is expected{_say_description(field)}"
 
 
-def _choices(refusal: Refusal, field: FieldInfo | None) -> list[str]:
-    listed = choices_in(field.annotation) if field else []
+def _list_choices(refusal: Refusal, field: FieldInfo | None) -> list[str]:
+    listed = list_choices_in(field.annotation) if field else []
     return listed or re.split(r", | or ", str(refusal.context.get("expected", "")).replace("'", ""))
 
 
-def _hint(node: Node | None) -> str:
+def _say_hint(node: Node | None) -> str:
     """Say how a number is written that is almost one."""
     if not isinstance(node, Scalar):
         return ""
-    point = with_decimal_point(node.text)
+    point = replace_decimal_comma(node.text)
     if point:
         return f"; write a decimal point: {point}"
     unit = _NUMBER_AND_UNIT.fullmatch(node.text)
     return f"; write the number without its unit: {unit[1]}" if unit else ""
 
 
-def _keys_hint(model: type[BaseModel], mistake: Mistake) -> str:
+def _say_keys_hint(model: type[BaseModel], mistake: Mistake) -> str:
     """Name the keys of the group that a value should have been."""
-    part = model_at(model, mistake.path)
+    part = find_model_at(model, mistake.path)
     if part is None or isinstance(mistake.node, Keys):
         return ""
-    return f"; its keys are {', '.join(keys_in(part))}"
+    return f"; its keys are {', '.join(list_keys_in(part))}"
 
 
-def _description(field: FieldInfo | None) -> str:
+def _say_description(field: FieldInfo | None) -> str:
     """Return a key's description as the end of a sentence."""
     if not field or not field.description:
         return ""
@@ -240,23 +248,23 @@ def _description(field: FieldInfo | None) -> str:
     return f": {first if rest[:1].isupper() else first.lower()}{rest}"
 
 
-def _example(field: FieldInfo | None) -> str:
-    return f"; for example {_as_written(field.examples[0])}" if field and field.examples else ""
+def _find_example(field: FieldInfo | None) -> str:
+    return f"; for example {_write_as_in_a_job(field.examples[0])}" if field and field.examples else ""
 
 
-def _as_written(example: Any) -> str:
+def _write_as_in_a_job(example: Any) -> str:
     """Write an example as it would stand in a job."""
     if isinstance(example, dict):
-        return f"{{{', '.join(f'{key}: {_as_written(value)}' for key, value in example.items())}}}"
+        return f"{{{', '.join(f'{key}: {_write_as_in_a_job(value)}' for key, value in example.items())}}}"
     if isinstance(example, list):
-        return f"[{', '.join(map(_as_written, example))}]"
+        return f"[{', '.join(map(_write_as_in_a_job, example))}]"
     return str(example).lower() if isinstance(example, bool) else str(example)
 
 
-def shown(node: Node | None) -> str:
+def show_value(node: Node | None) -> str:
     """Return a value as a message shows it."""
     if isinstance(node, Keys):
         return "a group of keys"
     if isinstance(node, Items):
-        return f"a list of {counted(len(node.items), 'value')}"
+        return f"a list of {count_in_words(len(node.items), 'value')}"
     return quoted(node.text) if node else "this"

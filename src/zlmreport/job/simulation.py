@@ -10,15 +10,15 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field
 
 from zlmreport.errors import InputError, Place, Problem, quoted
-from zlmreport.job.choices import EffectChoice, effect_choices
+from zlmreport.job.choices import EffectChoice, choose_effects_of
 from zlmreport.job.contradictions import validate
 from zlmreport.job.document_keys import Number
 from zlmreport.job.evaluation_keys import AxisModelKeys
 from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
-from zlmreport.job.loading import axis_in_si
+from zlmreport.job.loading import convert_axis_to_si
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.tree import Keys, found_at, key_place, place_of
+from zlmreport.job.tree import Keys, find_at, find_key_place, place_of
 from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.provenance import SourceFile
@@ -26,13 +26,13 @@ from zlmreport.measurement.provenance import SourceFile
 Share = Annotated[float, Field(ge=0, lt=1)]
 
 
-def _file_name(text: str) -> str:
+def _take_file_name(text: str) -> str:
     if "/" in text or "\\" in text or text in {".", ".."}:
         raise ValueError(f"{quoted(text)} is no file's name; the folder comes with --output")
     return text
 
 
-FileName = Annotated[Text, AfterValidator(_file_name)]
+FileName = Annotated[Text, AfterValidator(_take_file_name)]
 
 
 class TargetKeys(JobPart):
@@ -166,37 +166,37 @@ def load_simulation(path: Path, registry: Installed, content: bytes | None = Non
     refuse_other_format(tree, SIMULATION)
     problems: list[Problem] = []
     keys = validate(SimulationKeys, tree, problems)
-    effects = effect_choices(found_at(tree, ("effects",)), registry, problems, within="effects")
-    effect_choices(found_at(tree, ("model", "effects")), registry, problems, within="model.effects")
+    effects = choose_effects_of(find_at(tree, ("effects",)), registry, problems, within="effects")
+    choose_effects_of(find_at(tree, ("model", "effects")), registry, problems, within="model.effects")
     if keys:
-        problems.extend(_contradictions(keys, tree))
+        problems.extend(_find_contradictions(keys, tree))
     if problems or keys is None:
         raise InputError(sorted(set(problems)))
-    return SimulationFile(path, keys, axis_in_si(keys.axis), effects, composition.files[0], tree)
+    return SimulationFile(path, keys, convert_axis_to_si(keys.axis), effects, composition.files[0], tree)
 
 
-def _contradictions(keys: SimulationKeys, tree: Keys) -> Iterator[Problem]:
+def _find_contradictions(keys: SimulationKeys, tree: Keys) -> Iterator[Problem]:
     """Yield what no single key shows to be wrong."""
     travel, targets = keys.axis.travel, keys.targets
     if travel and travel[0] >= travel[1]:
-        place = key_place(tree, ("axis", "travel"))
+        place = find_key_place(tree, ("axis", "travel"))
         yield Problem(place, "axis.travel: the first position of the travel must be less than the last")
     if (targets.count is None) == (targets.positions is None):
-        place = key_place(tree, ("targets",))
+        place = find_key_place(tree, ("targets",))
         yield Problem(
             place, "targets: either a count of targets, or their positions; for example {count: 21}"
         )
     elif targets.positions is None and travel is None:
-        place = key_place(tree, ("axis",))
+        place = find_key_place(tree, ("axis",))
         yield Problem(place, "axis.travel is missing: targets are spread over it; for example [0, 1000]")
     number = len(targets.positions or ()) or targets.count or 0
     if 2 * number * keys.runs > MOST_READINGS:
-        place = key_place(tree, ("runs",))
+        place = find_key_place(tree, ("runs",))
         yield Problem(
             place,
             f"runs: {keys.runs} runs over {number} targets are more than {MOST_READINGS} readings, "
             "and no file of readings is so long",
         )
     if targets.positions and sorted(set(targets.positions)) != targets.positions:
-        place = key_place(tree, ("targets", "positions"))
+        place = find_key_place(tree, ("targets", "positions"))
         yield Problem(place, "targets.positions: target positions rise, and none is there twice")

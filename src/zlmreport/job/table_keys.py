@@ -10,10 +10,10 @@ from pydantic import AfterValidator, Field, field_validator, model_validator
 from zlmreport.errors import did_you_mean
 from zlmreport.job.types import JobPath, Options
 from zlmreport.language.formatting import DecimalSign
-from zlmreport.measurement.columns import folded
+from zlmreport.measurement.columns import fold
 from zlmreport.measurement.table import BLANKS, THOUSANDS
-from zlmreport.measurement.text_file import known_encoding
-from zlmreport.measurement.units import Scale, Unit, unit_named
+from zlmreport.measurement.text_file import require_known_encoding
+from zlmreport.measurement.units import Scale, Unit, find_unit_named
 
 _DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "blanks": BLANKS}
 
@@ -87,14 +87,14 @@ class TableOptions(TablePlace):
     thousands: Literal["point", "comma", "blank", "apostrophe"] | None = Field(
         None, description="What parts groups of three digits, as in 1.250,5."
     )
-    encoding: Annotated[str, AfterValidator(known_encoding)] | None = Field(
+    encoding: Annotated[str, AfterValidator(require_known_encoding)] | None = Field(
         None, description="Encoding of the file, if it is not UTF-8: cp1252, gbk, utf-16."
     )
 
     @classmethod
     def knows_column(cls, name: str) -> bool:
         """Whether a job may name a column so."""
-        return folded(name) in cls.column_names
+        return fold(name) in cls.column_names
 
     @field_validator("columns")
     @classmethod
@@ -113,7 +113,7 @@ class TableOptions(TablePlace):
             if name not in cls.column_units:
                 near = did_you_mean(name, list(cls.column_units))
                 raise ValueError(f"{name!r} is no column with a unit; {near}")
-            unit_named(spelling, cls.column_units[name])
+            find_unit_named(spelling, cls.column_units[name])
         return units
 
     @model_validator(mode="after")

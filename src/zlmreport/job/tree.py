@@ -60,7 +60,7 @@ class Keys:
 Node: TypeAlias = Scalar | Items | Keys
 
 
-def keys_of(place: Place, entries: Iterator[KeyEntry] | tuple[KeyEntry, ...] = ()) -> Keys:
+def make_keys_of(place: Place, entries: Iterator[KeyEntry] | tuple[KeyEntry, ...] = ()) -> Keys:
     """Return a group of entries."""
     return Keys(place, MappingProxyType({entry.key: entry for entry in entries}))
 
@@ -93,7 +93,7 @@ def place_of(tree: Node, path: tuple[Step, ...]) -> Place:
     return place
 
 
-def key_place(tree: Node, path: tuple[Step, ...]) -> Place:
+def find_key_place(tree: Node, path: tuple[Step, ...]) -> Place:
     """Return the place of a key, or of its nearest parent that exists."""
     node = tree
     for _, _, node in walk(tree, path[:-1]):  # noqa: B007 - the last group found is the answer
@@ -103,29 +103,29 @@ def key_place(tree: Node, path: tuple[Step, ...]) -> Place:
     return place_of(tree, path)
 
 
-def found_at(tree: Node, path: tuple[Step, ...]) -> Node | None:
+def find_at(tree: Node, path: tuple[Step, ...]) -> Node | None:
     """Return the value at a path; None if there is none."""
     found = list(walk(tree, path))
     return found[-1][2] if len(found) == len(path) else None
 
 
-def merged(base: Keys, own: Keys) -> Keys:
+def merge(base: Keys, own: Keys) -> Keys:
     """Return the keys of two files together: groups are merged, anything else of `own` replaces."""
     entries = dict(base.entries)
     for key, entry in own.entries.items():
         value = entry.value
         inherited = entries.get(key)
         if inherited and isinstance(inherited.value, Keys) and isinstance(value, Keys):
-            value = merged(inherited.value, value)
+            value = merge(inherited.value, value)
         entries[key] = KeyEntry(key, entry.place, value)
     return Keys(own.place, MappingProxyType(entries))
 
 
-def scalars(tree: Node) -> Iterator[Scalar]:
+def walk_scalars(tree: Node) -> Iterator[Scalar]:
     """Yield every single value."""
     if isinstance(tree, Scalar):
         yield tree
     else:
         parts = tree.items if isinstance(tree, Items) else (entry.value for entry in tree.entries.values())
         for part in parts:
-            yield from scalars(part)
+            yield from walk_scalars(part)

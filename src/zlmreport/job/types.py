@@ -22,7 +22,7 @@ from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Fie
 from pydantic.fields import FieldInfo
 
 from zlmreport.errors import Place, quoted
-from zlmreport.files import outside
+from zlmreport.files import say_outside
 from zlmreport.job.tree import Step
 
 _ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
@@ -74,20 +74,20 @@ class Enclosure:
         return alike[0] if len(alike) == 1 else self.nowhere / name
 
 
-def path_named(reference: str, naming_file: Path) -> Path:
+def resolve_path_named(reference: str, naming_file: Path) -> Path:
     """Return the path that a file names: relative to its own folder, or from the root.
 
     Raises `ValueError` if it lies outside of the folder to which the program is confined.
     """
     enclosure = _ENCLOSURE.get()
     path = enclosure.path_named(reference, naming_file) if enclosure else naming_file.parent / reference
-    reason = "\0" not in reference and outside(path)
+    reason = "\0" not in reference and say_outside(path)
     if reason:
         raise ValueError(f"{quoted(reference)} must not be used: {reason}")
     return path
 
 
-def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | None:
+def find_path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | None:
     """Return the path by which a job comes to a file: from its folder, or None if the file lies elsewhere.
 
     `from_root`: How the job names the file, if it does so from the root of the file system.
@@ -103,7 +103,7 @@ def path_from_job(file: Path, job: Path, from_root: str | None = None) -> str | 
 
 
 @contextlib.contextmanager
-def enclosed(enclosure: Enclosure) -> Iterator[None]:
+def enclose(enclosure: Enclosure) -> Iterator[None]:
     """Let jobs name the files of an enclosure and no others: for a job from a document that anyone sent."""
     token = _ENCLOSURE.set(enclosure)
     try:
@@ -125,7 +125,7 @@ class LocatedText(str):
         return located
 
 
-def with_decimal_point(text: str) -> str | None:
+def replace_decimal_comma(text: str) -> str | None:
     """Return a number that is written with a decimal comma as it should be written.
 
     >>> with_decimal_point("0,5"), with_decimal_point("0.5"), with_decimal_point("a, b")
@@ -134,20 +134,20 @@ def with_decimal_point(text: str) -> str | None:
     return text.replace(",", ".") if "," in text and _NUMBER.fullmatch(text) else None
 
 
-def _one_line(text: str) -> str:
+def _take_one_line(text: str) -> str:
     for character, name in (("\n", "a line break"), ("\t", "a tab")):
         if character in text:
             raise ValueError(f"there is {name} in a text of one line; write a space instead")
     return text
 
 
-def _without_tabs(text: str) -> str:
+def _take_without_tabs(text: str) -> str:
     if "\t" in text:
         raise ValueError("there is a tab in the text; write a space instead")
     return text
 
 
-def _in_words(text: str) -> str:
+def _take_words(text: str) -> str:
     if _NUMBER.fullmatch(text):
         raise ValueError(
             f"{quoted(text)} is not a number with a decimal point; write {text.replace(',', '.')}"
@@ -155,7 +155,7 @@ def _in_words(text: str) -> str:
     return text
 
 
-def along_the_length(text: str) -> tuple[float, float] | None:
+def parse_along_the_length(text: str) -> tuple[float, float] | None:
     """Return the constant part and the part per metre of an uncertainty; None for words.
 
     >>> along_the_length("0.6 + 0.3*L"), along_the_length("see its certificate")
@@ -165,9 +165,9 @@ def along_the_length(text: str) -> tuple[float, float] | None:
     return (float(found["constant"]), float(found["per_metre"])) if found else None
 
 
-def _instrument_uncertainty(text: str) -> str:
+def _take_instrument_uncertainty(text: str) -> str:
     """Take words, and formulas that are understood; refuse what looks like a formula and is none."""
-    if along_the_length(text) is None and (_FORMULA.search(text) or text[:1].isdigit()):
+    if parse_along_the_length(text) is None and (_FORMULA.search(text) or text[:1].isdigit()):
         raise ValueError(
             f"{quoted(text)} is not understood; write a number of micrometres, or a constant part and one "
             "that grows with the length in metres: 0.6 + 0.3*L"
@@ -175,7 +175,7 @@ def _instrument_uncertainty(text: str) -> str:
     return text
 
 
-def file_stem(text: str) -> str:
+def take_file_stem(text: str) -> str:
     """Refuse a text that cannot be the stem of a file's name on every system."""
     if not _FILE_STEM.fullmatch(text):
         raise ValueError(
@@ -188,7 +188,7 @@ def file_stem(text: str) -> str:
     return text
 
 
-def _date(value: Any) -> Any:
+def _take_date(value: Any) -> Any:
     """Take a date only as ISO 8601 writes it: other spellings mean different days in different countries."""
     if isinstance(value, dt.date):
         return value
@@ -222,7 +222,7 @@ LINES_FORM = rf"^(?![\s\S]*[{_UNSEEN}])\s*\S([^\t]*\S)?\s*$"
 _Line = Annotated[
     str,
     StringConstraints(min_length=1, max_length=_LONGEST_LINE, strip_whitespace=True),
-    AfterValidator(_one_line),
+    AfterValidator(_take_one_line),
     Field(json_schema_extra={"pattern": LINE_FORM}),
 ]
 #: A line of text as it is printed; long enough for any name, short enough for a page.
@@ -231,21 +231,21 @@ Text = Annotated[_Line, _FREE]
 Lines = Annotated[
     str,
     StringConstraints(min_length=1, max_length=_LONGEST_TEXT, strip_whitespace=True),
-    AfterValidator(_without_tabs),
+    AfterValidator(_take_without_tabs),
     Field(json_schema_extra={"pattern": LINES_FORM}),
     _FREE,
 ]
 #: Text in a key that takes a number too: what looks like a number must be one.
-InWords = Annotated[_Line, AfterValidator(_in_words)]
+InWords = Annotated[_Line, AfterValidator(_take_words)]
 #: The uncertainty of an instrument that is no single number.
-InstrumentUncertainty = Annotated[InWords, AfterValidator(_instrument_uncertainty)]
+InstrumentUncertainty = Annotated[InWords, AfterValidator(_take_instrument_uncertainty)]
 #: No axis is longer, no room hotter, no test slower; and every square of such numbers is one.
 _LARGEST = 1e9
 #: Nothing that is there is shorter or briefer; and no quotient of such numbers is too large.
 _SMALLEST = 1e-12
 
 
-def _not_too_small(value: float) -> float:
+def _take_not_too_small(value: float) -> float:
     if value < _SMALLEST:
         raise ValueError(f"{value:g} is smaller than anything that is there; {_SMALLEST:g} is the least")
     return value
@@ -255,14 +255,14 @@ def _not_too_small(value: float) -> float:
 Positive = Annotated[
     float,
     Field(gt=0, le=_LARGEST, allow_inf_nan=False, json_schema_extra={"minimum": _SMALLEST}),
-    AfterValidator(_not_too_small),
+    AfterValidator(_take_not_too_small),
 ]
 #: A number from 0.
 NotNegative = Annotated[float, Field(ge=0, le=_LARGEST, allow_inf_nan=False)]
 #: A number of a size that things have.
 Finite = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST, allow_inf_nan=False)]
 #: A date as jobs write it: 2026-11-20.
-Date = Annotated[dt.date, BeforeValidator(_date)]
+Date = Annotated[dt.date, BeforeValidator(_take_date)]
 
 
 class JobPart(BaseModel):
@@ -286,39 +286,41 @@ class Options(BaseModel):
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)
 
 
-def _beside_the_naming_file(value: Any) -> Any:
+def _resolve_beside_naming_file(value: Any) -> Any:
     """Resolve a relative path against the folder of the file that names it."""
     if not value:
         raise ValueError("the name of a file is expected")
     if isinstance(value, LocatedText):
-        return path_named(str(value), Path(value.place.file))
+        return resolve_path_named(str(value), Path(value.place.file))
     return value
 
 
 #: A path in a job file: relative to the file that names it, which may be one that the job extends.
-JobPath = Annotated[Path, BeforeValidator(_beside_the_naming_file), Field(json_schema_extra={"minLength": 1})]
+JobPath = Annotated[
+    Path, BeforeValidator(_resolve_beside_naming_file), Field(json_schema_extra={"minLength": 1})
+]
 
 
-def free_texts(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
+def list_free_texts(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
     """Yield the texts of keys that are free words, each with its key, dotted: ``customer.name``."""
-    for name, field in keys_in(type(keys)).items():
+    for name, field in list_keys_in(type(keys)).items():
         attribute = next(each for each, info in type(keys).model_fields.items() if info is field)
         is_free = _FREE in field.metadata or _has_free(field.annotation)
-        yield from _free_in(getattr(keys, attribute), f"{within}{name}", is_free=is_free)
+        yield from _list_free_in(getattr(keys, attribute), f"{within}{name}", is_free=is_free)
 
 
-def _free_in(value: Any, key: str, *, is_free: bool) -> Iterator[tuple[str, str]]:
+def _list_free_in(value: Any, key: str, *, is_free: bool) -> Iterator[tuple[str, str]]:
     match value:
         case BaseModel():
-            yield from free_texts(value, f"{key}.")
+            yield from list_free_texts(value, f"{key}.")
         case str() if is_free and not isinstance(value, Enum):
             yield key, value
         case dict():
             for name, each in value.items():
-                yield from _free_in(each, f"{key}.{name}", is_free=is_free)
+                yield from _list_free_in(each, f"{key}.{name}", is_free=is_free)
         case list() | tuple():
             for number, each in enumerate(value):
-                yield from _free_in(each, f"{key}.{number}", is_free=is_free)
+                yield from _list_free_in(each, f"{key}.{number}", is_free=is_free)
 
 
 def _has_free(annotation: Any) -> bool:
@@ -334,47 +336,47 @@ class LiveInstrumentKeys(BaseModel):
     plugin: Text = Field(description="Identifier of an installed live instrument.", examples=["umd1"])
 
 
-def keys_in(model: type[BaseModel]) -> dict[str, FieldInfo]:
+def list_keys_in(model: type[BaseModel]) -> dict[str, FieldInfo]:
     """Return the keys that a model knows, as they are written in a job."""
     return {info.alias or name: info for name, info in model.model_fields.items()}
 
 
-def field_at(model: type[BaseModel], path: Iterable[Step]) -> FieldInfo | None:
+def find_field_at(model: type[BaseModel], path: Iterable[Step]) -> FieldInfo | None:
     """Return what the model says of the last key in a path; of a list's item, what it says of the list."""
     annotation: Any = model
     found = None
     for step in path:
-        part = model_in(annotation)
+        part = find_model_in(annotation)
         if part and isinstance(step, str):
-            found = keys_in(part).get(step)
+            found = list_keys_in(part).get(step)
             annotation = found.annotation if found else None
         else:
-            annotation = _item(annotation, step)
+            annotation = _find_item_type(annotation, step)
     return found
 
 
-def model_at(model: type[BaseModel], path: Iterable[Step]) -> type[BaseModel] | None:
+def find_model_at(model: type[BaseModel], path: Iterable[Step]) -> type[BaseModel] | None:
     """Return the model of the group of keys at a path."""
     annotation: Any = model
     for step in path:
-        part = model_in(annotation)
-        field = keys_in(part).get(step) if part and isinstance(step, str) else None
-        annotation = field.annotation if field else _item(annotation, step)
-    return model_in(annotation)
+        part = find_model_in(annotation)
+        field = list_keys_in(part).get(step) if part and isinstance(step, str) else None
+        annotation = field.annotation if field else _find_item_type(annotation, step)
+    return find_model_in(annotation)
 
 
-def model_in(annotation: Any) -> type[BaseModel] | None:
+def find_model_in(annotation: Any) -> type[BaseModel] | None:
     """Return the model among the alternatives of an annotation."""
-    for alternative in _alternatives(annotation):
+    for alternative in _list_alternatives(annotation):
         if isinstance(alternative, type) and issubclass(alternative, BaseModel):
             return alternative
     return None
 
 
-def choices_in(annotation: Any) -> list[str]:
+def list_choices_in(annotation: Any) -> list[str]:
     """Return the values of an annotation that lists them."""
     found: list[str] = []
-    for alternative in _alternatives(annotation):
+    for alternative in _list_alternatives(annotation):
         if isinstance(alternative, type) and issubclass(alternative, Enum):
             found.extend(str(member.value) for member in alternative)
         elif get_origin(alternative) is Literal:
@@ -382,9 +384,9 @@ def choices_in(annotation: Any) -> list[str]:
     return found
 
 
-def _item(annotation: Any, step: Step) -> Any:
+def _find_item_type(annotation: Any, step: Step) -> Any:
     """Return the annotation of a list's items, or of a mapping's values."""
-    for alternative in _alternatives(annotation):
+    for alternative in _list_alternatives(annotation):
         origin, arguments = get_origin(alternative), get_args(alternative)
         if not isinstance(origin, type) or not arguments:
             continue
@@ -395,13 +397,13 @@ def _item(annotation: Any, step: Step) -> Any:
     return None
 
 
-def _alternatives(annotation: Any) -> Iterator[Any]:
+def _list_alternatives(annotation: Any) -> Iterator[Any]:
     """Yield what an annotation stands for: `Annotated` opened, unions taken apart."""
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Annotated:
-        yield from _alternatives(arguments[0])
+        yield from _list_alternatives(arguments[0])
     elif origin in {Union, UnionType}:
         for argument in arguments:
-            yield from _alternatives(argument)
+            yield from _list_alternatives(argument)
     else:
         yield annotation

@@ -11,8 +11,8 @@ from dataclasses import KW_ONLY, dataclass, field, replace
 from enum import StrEnum
 from typing import Protocol, runtime_checkable
 
-from zlmreport.language.catalogues import translated
-from zlmreport.language.formatting import DecimalSign, general_number
+from zlmreport.language.catalogues import translate
+from zlmreport.language.formatting import DecimalSign, write_general_number
 
 #: The place of a phrase whose value chooses between singular and plural.
 _COUNTED = "number"
@@ -86,10 +86,10 @@ class Words:
         phrase = getattr(self, language.value) if language is not Language.ENGLISH else None
         if phrase is None:
             number = self.values.get(_COUNTED, 1)
-            phrase = translated(self.en, language.value, self.context, plural=self.plural, number=number)
+            phrase = translate(self.en, language.value, self.context, plural=self.plural, number=number)
         if not self.values:
             return phrase
-        return phrase.format_map({name: _written(value, language) for name, value in self.values.items()})
+        return phrase.format_map({name: _write_in(value, language) for name, value in self.values.items()})
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,11 +108,11 @@ def same(phrase: str | Said) -> Words:
     return Words("{phrase}", values={"phrase": phrase})
 
 
-def _written(value: str | float | Said, language: Language) -> str:
+def _write_in(value: str | float | Said, language: Language) -> str:
     if isinstance(value, str):
         return value
     if isinstance(value, float):
-        return general_number(value, language.decimal_sign)
+        return write_general_number(value, language.decimal_sign)
     if isinstance(value, Said):
         return value.in_language(language)
     return str(value)

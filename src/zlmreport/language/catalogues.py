@@ -14,7 +14,7 @@ _DOMAIN = "zlmreport"
 _FOLDER = Path(__file__).parent / "translations"
 
 
-def translated(phrase: str, language: str, context: str = "", *, plural: str = "", number: object = 1) -> str:
+def translate(phrase: str, language: str, context: str = "", *, plural: str = "", number: object = 1) -> str:
     """Return a phrase in a language, or in English where its catalogue does not have it.
 
     Parameters
@@ -28,7 +28,7 @@ def translated(phrase: str, language: str, context: str = "", *, plural: str = "
     plural, number
         The English phrase for more than one, or ``""``; and how many there are.
     """
-    catalogue = _catalogue(language)
+    catalogue = _load_catalogue(language)
     count = number if isinstance(number, int) else 2
     if plural and context:
         return catalogue.npgettext(context, phrase, plural, count)
@@ -41,5 +41,5 @@ def translated(phrase: str, language: str, context: str = "", *, plural: str = "
 
 
 @lru_cache
-def _catalogue(language: str) -> NullTranslations:
+def _load_catalogue(language: str) -> NullTranslations:
     return translation(_DOMAIN, _FOLDER, languages=[language], fallback=True)

@@ -54,7 +54,7 @@ class DecimalSign(StrEnum):
     COMMA = ","
 
 
-def fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.POINT) -> str:
+def write_fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.POINT) -> str:
     """Write a value with a fixed number of decimals; negative ones round to tens, hundreds.
 
     Half to even on the decimal value of the double (JCGM 100 leaves the rule open; this one has no
@@ -70,7 +70,7 @@ def fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalSign.PO
     return f"{MINUS}{text}" if rounded < 0 else text
 
 
-def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
+def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
     """Write a value with up to so many significant digits and no trailing zeros.
 
     >>> general_number(250.0), general_number(-0.0315), general_number(2.5, DecimalSign.COMMA)
@@ -82,7 +82,7 @@ def general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: 
     return text.replace("-", MINUS).replace(".", sign)
 
 
-def held(text: str) -> str:
+def hold_units(text: str) -> str:
     r"""Return a text of a page in which no line parts a number from its unit, or a standard's name.
 
     >>> held("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
@@ -93,7 +93,7 @@ def held(text: str) -> str:
     return _BODIES.sub(WORD_JOINER, _TOGETHER.sub(HELD, text))
 
 
-def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:
+def write_percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:
     """Write a share or a probability in per cent, without the sign %.
 
     One that is smaller than the last digit says so: it is small, and not nothing.
@@ -102,11 +102,11 @@ def percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: in
     ('98', '< 1', '0', '< 0.1')
     """
     if 0 < share < 0.01 * 10.0**-decimals:
-        return f"< {fixed_number(10.0**-decimals, decimals, sign)}"
-    return fixed_number(100 * share, decimals, sign)
+        return f"< {write_fixed_number(10.0**-decimals, decimals, sign)}"
+    return write_fixed_number(100 * share, decimals, sign)
 
 
-def p_value(
+def write_p_value(
     value: float,
     sign: DecimalSign = DecimalSign.POINT,
     *,
@@ -126,14 +126,14 @@ def p_value(
     """
     # Written out: the typeface of the documents has no raised minus.
     if value < least:
-        return HELD.join(("p", "<", fixed_number(least, -round(log10(least)), sign)))
+        return HELD.join(("p", "<", write_fixed_number(least, -round(log10(least)), sign)))
     relation, digits = ("≈", 1) if is_extrapolated else ("=", 2)
     rounded = float(f"{value:.{digits - 1}e}")
     places = max(3, digits - 1 - floor(log10(rounded)))
-    return HELD.join(("p", relation, fixed_number(value, places, sign)))
+    return HELD.join(("p", relation, write_fixed_number(value, places, sign)))
 
 
-def rounded_pair(
+def round_pair(
     value: float,
     expanded_uncertainty: float,
     sign: DecimalSign = DecimalSign.POINT,
@@ -147,24 +147,24 @@ def rounded_pair(
     """
     decimals = _DECIMALS
     if isfinite(expanded_uncertainty) and expanded_uncertainty > 0:
-        decimals = _decimals(expanded_uncertainty)
+        decimals = _count_decimals(expanded_uncertainty)
         # 0.0996 is 0.10 with two digits: rounding may have made one digit more of it.
-        decimals = _decimals(round(expanded_uncertainty, decimals))
+        decimals = _count_decimals(round(expanded_uncertainty, decimals))
     if not isfinite(expanded_uncertainty):
-        return fixed_number(value, decimals, sign), "∞"
-    return fixed_number(value, decimals, sign), fixed_number(
-        _not_much_less(expanded_uncertainty, decimals), decimals, sign
+        return write_fixed_number(value, decimals, sign), "∞"
+    return write_fixed_number(value, decimals, sign), write_fixed_number(
+        _find_not_much_less(expanded_uncertainty, decimals), decimals, sign
     )
 
 
-def _not_much_less(value: float, decimals: int) -> float:
+def _find_not_much_less(value: float, decimals: int) -> float:
     """Return an uncertainty that rounding to these decimals makes hardly smaller."""
     if round(value, decimals) < (1 - _MOST_LOST) * value:
         return ceil(value * 10.0**decimals) / 10.0**decimals
     return value
 
 
-def _decimals(value: float) -> int:
+def _count_decimals(value: float) -> int:
     return _DIGITS - 1 - floor(log10(value))
 
 
@@ -179,7 +179,7 @@ class Span:
     subscript: bool  #: True below the line.
 
 
-def spans(notation: str) -> tuple[Span, ...]:
+def split_spans(notation: str) -> tuple[Span, ...]:
     """Return the spans of a notation, in reading order.
 
     Examples
@@ -190,18 +190,18 @@ def spans(notation: str) -> tuple[Span, ...]:
     found: list[Span] = []
     for position, part in enumerate(_SUBSCRIPT.split(notation)):
         if position % 2:
-            found.extend(_subscript_spans(part))
+            found.extend(_split_subscripts(part))
         else:
-            found.extend(_base_spans(part))
+            found.extend(_split_base(part))
     return tuple(found)
 
 
-def plain(notation: str) -> str:
+def write_plain(notation: str) -> str:
     """Return a notation as a plain line: ``P_{s max}`` as ``Ps max``."""
     return _SUBSCRIPT.sub(r"\1", notation)
 
 
-def _subscript_spans(text: str) -> list[Span]:
+def _split_subscripts(text: str) -> list[Span]:
     match = _INDEX.fullmatch(text)
     if match is None:
         return [Span(text, italic=False, subscript=True)]
@@ -210,7 +210,7 @@ def _subscript_spans(text: str) -> list[Span]:
     ]
 
 
-def _base_spans(text: str) -> list[Span]:
+def _split_base(text: str) -> list[Span]:
     found: list[Span] = []
     end = 0
     for match in _LETTERS.finditer(text):

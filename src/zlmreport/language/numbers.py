@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import isfinite
 
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import DecimalSign, fixed_number, rounded_pair
+from zlmreport.language.formatting import DecimalSign, round_pair, write_fixed_number
 
 _SIGNIFICANT_DIGITS = 3
 _NUMBER = Words("{number}")
@@ -24,10 +24,10 @@ class _Rounded:
 
 def number_words(value: float, decimals: int) -> Words:
     """Return a number with fixed decimals."""
-    return _NUMBER.given(number=_Rounded(fixed_number(value, decimals)))
+    return _NUMBER.given(number=_Rounded(write_fixed_number(value, decimals)))
 
 
-def significant_words(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
+def write_significant(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
     """Return a number with so many significant digits; large ones keep more."""
     if value == 0 or not isfinite(value):
         return number_words(0.0, 0) if value == 0 else same(str(value))
@@ -36,7 +36,7 @@ def significant_words(value: float, digits: int = _SIGNIFICANT_DIGITS) -> Words:
     return number_words(value, max(0, digits - 1 - exponent))
 
 
-def pair_words(value: float, expanded_uncertainty: float) -> tuple[Words, Words]:
-    """Return a value and its uncertainty, rounded together as `rounded_pair` does."""
-    number, u = (_NUMBER.given(number=_Rounded(each)) for each in rounded_pair(value, expanded_uncertainty))
+def write_pair(value: float, expanded_uncertainty: float) -> tuple[Words, Words]:
+    """Return a value and its uncertainty, rounded together as `round_pair` does."""
+    number, u = (_NUMBER.given(number=_Rounded(each)) for each in round_pair(value, expanded_uncertainty))
     return number, u

@@ -18,18 +18,18 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from zlmreport import pipeline
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.files import demanded
+from zlmreport.files import demand
 from zlmreport.job.job import Job
 from zlmreport.job.tree import Keys, Scalar
-from zlmreport.machines.curve import AxisErrorCurve, Means, curve_of, measured_curve
+from zlmreport.machines.curve import AxisErrorCurve, Means, make_curve_of_means, make_measured_curve
 from zlmreport.machines.keys import LineKeys, StatedKeys
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
-from zlmreport.machines.machine import unit_of
+from zlmreport.machines.machine import find_unit_of
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.error_symbol import symbol_of_positioning
+from zlmreport.measurement.error_symbol import find_symbol_of_positioning
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MILLIMETRE
-from zlmreport.model.diagnosis.study import instrument_error
+from zlmreport.model.diagnosis.study import find_instrument_error
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.plugin.registry import Registry
 
@@ -43,7 +43,7 @@ _PLACES = frozenset({"X", "Y", "Z", "tool"})
 _AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
 
 
-def line_of(at: LineKeys | None) -> ErrorLine:
+def find_line_of(at: LineKeys | None) -> ErrorLine:
     """Return where an error was measured."""
     if at is None:
         return ErrorLine({})
@@ -53,14 +53,14 @@ def line_of(at: LineKeys | None) -> ErrorLine:
     return ErrorLine(others, (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3))
 
 
-def error_of(job: Job) -> str:
+def find_error_of(job: Job) -> str:
     """Return which of the 21 errors a job measured; that of position where it does not say.
 
     Raises `InputError` if it is none of them.
     """
     if job.axis.circle is not None:
         raise InputError.at(job.place_of("circle"), "it is a circle, which two axes run; name it under tests")
-    name = job.axis.error or symbol_of_positioning(job.axis.name) or job.axis.name
+    name = job.axis.error or find_symbol_of_positioning(job.axis.name) or job.axis.name
     if name not in ERRORS:
         raise InputError.at(
             job.place_of("measurement.error"),
@@ -69,22 +69,22 @@ def error_of(job: Job) -> str:
     return name
 
 
-def line_of_job(job: Job) -> ErrorLine:
+def find_line_of_job(job: Job) -> ErrorLine:
     """Return where the others stood while a job measured."""
     at = job.keys.measurement.at
-    return line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
+    return find_line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
 
 
-def curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> AxisErrorCurve:
+def make_curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> AxisErrorCurve:
     """Return the error that a job measured, with what its budget says of it.
 
     Raises `InputError` if it measured none of the 21, or a squareness error without stating its uncertainty.
     """
-    name, source = error_of(job), job.keys.certificate.number
+    name, source = find_error_of(job), job.keys.certificate.number
     if name not in SQUARENESS:
-        shared = shared_error(job, measurements, registry)
-        return measured_curve(name, measurements, shared, line_of_job(job), source)
-    evaluated = (each.evaluation for each in pipeline.evaluated(job, measurements, registry))
+        shared = find_shared_error(job, measurements, registry)
+        return make_measured_curve(name, measurements, shared, find_line_of_job(job), source)
+    evaluated = (each.evaluation for each in pipeline.evaluate_all(job, measurements, registry))
     found = [one for each in evaluated for one in each.parameters if one.quantity.symbol == name]
     u = found[0].standard_uncertainty if found else None
     if u is None:
@@ -93,24 +93,26 @@ def curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> 
             f"this job states no {name} with its uncertainty; name what enters it under uncertainty and "
             "instrument, and evaluate iso230-1:2012",
         )
-    return single_curve(name, found[0].value, u, line_of_job(job), source)
+    return make_single_curve(name, found[0].value, u, find_line_of_job(job), source)
 
 
-def single_curve(name: str, value: float, u: float, line: ErrorLine, source: str) -> AxisErrorCurve:
+def make_single_curve(name: str, value: float, u: float, line: ErrorLine, source: str) -> AxisErrorCurve:
     """Return a squareness error: one value, rad, with its standard uncertainty."""
     return AxisErrorCurve(name, np.zeros(1), np.array([value]), np.eye(1) * u, line, source)
 
 
-def shared_error(job: Job, measurements: MeasurementSet, registry: Registry) -> InstrumentError:
+def find_shared_error(job: Job, measurements: MeasurementSet, registry: Registry) -> InstrumentError:
     """Return the uncertainty that the readings of a test share, by its budget or else by its instrument."""
     length = float(np.ptp(measurements.target_positions)) or 1.0
-    budget = pipeline.budget_of_job(job, measurements, registry)
+    budget = pipeline.make_budget_of_job(job, measurements, registry)
     if not isinstance(budget, Budget):
-        return instrument_error(job, length)
-    return _shared(((each.acts, each.standard_uncertainty) for each in budget.contributions), length)
+        return find_instrument_error(job, length)
+    return _share_contributions(
+        ((each.acts, each.standard_uncertainty) for each in budget.contributions), length
+    )
 
 
-def _shared(contributions: Iterable[tuple[Acts, float]], length: float) -> InstrumentError:
+def _share_contributions(contributions: Iterable[tuple[Acts, float]], length: float) -> InstrumentError:
     """Return contributions, standard uncertainties in m or rad, by what shares them."""
     sums = {"along": 0.0, "at": 0.0, "between": 0.0}
     for acts, u in contributions:
@@ -182,12 +184,12 @@ class _Results(_Lenient):
     uncertainty: _Uncertainty = _Uncertainty()
 
 
-def curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisErrorCurve:
+def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisErrorCurve:
     """Return the error that a certificate of this program states, with its uncertainty.
 
     Raises `InputError` if it is none that can be read.
     """
-    content = demanded(path, LARGEST)
+    content = demand(path, LARGEST)
     if content.startswith(b"%PDF"):
         carried = opened(path)
         if carried is None:
@@ -206,25 +208,25 @@ def curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisErrorC
         raise InputError.at(
             place, f"{path.name}: {quoted(name)} is none of the 21 errors of three linear axes"
         )
-    unit = unit_of(name)
-    line = line_of(LineKeys.model_validate(found.measurements.at or {}))
+    unit = find_unit_of(name)
+    line = find_line_of(LineKeys.model_validate(found.measurements.at or {}))
     own = next((each for of in found.evaluations for each in of.parameters if each.symbol == name), None)
     if name in SQUARENESS:
         if own is None or own.expanded_uncertainty is None:
             raise InputError.at(place, f"{path.name} states no {name} with its uncertainty")
         u = unit.to_si(own.expanded_uncertainty / (own.coverage_factor or 2.0))
-        return single_curve(name, unit.to_si(own.value), u, line, found.certificate.number)
+        return make_single_curve(name, unit.to_si(own.value), u, line, found.certificate.number)
     positions = max((each.positions for each in found.evaluations), key=len)
     if len(positions) < 2:
         raise InputError.at(place, f"{path.name} states no deviations by position")
-    return _of_positions(name, positions, found, line)
+    return _make_of_positions(name, positions, found, line)
 
 
-def _of_positions(
+def _make_of_positions(
     name: str, positions: tuple[_Position, ...], found: _Results, line: ErrorLine
 ) -> AxisErrorCurve:
     """Return the means of a table by position as a curve."""
-    unit = unit_of(name)
+    unit = find_unit_of(name)
     nodes = np.array([each.target for each in positions]) / 1e3
     sides = [
         side
@@ -240,17 +242,17 @@ def _of_positions(
 
     count = np.maximum(column("n", 1.0).astype(np.int64), 1)
     means = Means(nodes, unit.to_si(column("mean")), count, (count - 1) * unit.to_si(column("s")) ** 2)
-    shared = _shared(
+    shared = _share_contributions(
         (
             (each.acts, float(unit.to_si(each.standard_uncertainty)))
             for each in found.uncertainty.contributions
         ),
         float(np.ptp(nodes)),
     )
-    return curve_of(means, name, shared, line, found.certificate.number)
+    return make_curve_of_means(means, name, shared, line, found.certificate.number)
 
 
-def curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem]) -> list[AxisErrorCurve]:
+def read_curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem]) -> list[AxisErrorCurve]:
     """Return the errors that an item of the machine file states, each a value or a curve of values."""
     found = []
     own = dict(stated.model_extra or {})
@@ -265,16 +267,16 @@ def curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem])
                 Problem(place, f"{quoted(name)} is none of the 21 errors; {did_you_mean(name, ERRORS)}")
             )
             continue
-        curve = _stated(name, value, stated, problems, node.entries[name].value)
+        curve = _read_stated(name, value, stated, problems, node.entries[name].value)
         if curve:
             found.append(curve)
     return found
 
 
-def _stated(
+def _read_stated(
     name: str, value: Any, stated: StatedKeys, problems: list[Problem], node: Any
 ) -> AxisErrorCurve | None:
-    unit, line = unit_of(name), line_of(stated.at)
+    unit, line = find_unit_of(name), find_line_of(stated.at)
     u = float(unit.to_si(stated.expanded_uncertainty)) / 2.0
     source = stated.source or "stated"
     if name in SQUARENESS:
@@ -314,12 +316,12 @@ def _number(value: Any) -> float | None:
     return number if math.isfinite(number) and abs(number) < 1e9 else None
 
 
-def bounds_of(stated: Mapping[str, float], tree: Keys, problems: list[Problem]) -> dict[str, float]:
+def read_bounds_of(stated: Mapping[str, float], tree: Keys, problems: list[Problem]) -> dict[str, float]:
     """Return the bounds of errors that nobody measured, m or rad."""
     found = {}
     for name, bound in stated.items():
         if name in ERRORS:
-            found[name] = float(unit_of(name).to_si(bound))
+            found[name] = float(find_unit_of(name).to_si(bound))
         else:
             problems.append(
                 Problem(

@@ -7,9 +7,9 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.forms import CircleForm, form_at, forms_of, whole_form
+from zlmreport.machines.forms import CircleForm, form_at, list_forms_of, make_whole_form
 from zlmreport.machines.machine import Machine
-from zlmreport.machines.study import Chosen, CircleStudy, bare_study
+from zlmreport.machines.study import Chosen, CircleStudy, study_bare
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.circle_effect import CircleEffect, Searched, SearchedParameter
 
@@ -21,15 +21,15 @@ _STEP = 1e-4
 _PRICE_OF_TERM = 2.0
 
 
-def study_of(
+def study_circles(
     machine: Machine, circles: Sequence[CircularTest], effects: Iterable[CircleEffect] = ()
 ) -> CircleStudy:
     """Return the study of circles; effects that search for a value get the one that fits best."""
-    study = bare_study(machine, circles)
+    study = study_bare(machine, circles)
     listed = list(effects)
     # What nothing is searched for comes first: the rest is searched beside it.
     for effect in sorted(listed, key=lambda each: bool(each.searched)):
-        study = with_effect(study, effect)
+        study = add_effect(study, effect)
     order = [each.identifier for each in listed]
     return CircleStudy(
         study.design, study.deviation, study.predicted, study.factor, study.shared,
@@ -37,20 +37,20 @@ def study_of(
     )  # fmt: skip
 
 
-def with_effect(study: CircleStudy, effect: CircleEffect, form: CircleForm | None = None) -> CircleStudy:
+def add_effect(study: CircleStudy, effect: CircleEffect, form: CircleForm | None = None) -> CircleStudy:
     """Return a study with one effect more, in the form that fits best or in that which is given.
 
     It comes in with all groups of its terms, unless it is one that has one at a time.
     """
-    chosen = form or best_form(study, effect)
+    chosen = form or find_best_form(study, effect)
     if not effect.is_single:
-        chosen = whole_form(effect, study.design, chosen.searched)
-    return study.having(Chosen(effect, chosen, _tangents(study, effect, chosen)))
+        chosen = make_whole_form(effect, study.design, chosen.searched)
+    return study.having(Chosen(effect, chosen, _compute_tangents(study, effect, chosen)))
 
 
-def with_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleStudy:
+def add_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleStudy:
     """Return a study with one effect more, in just this form."""
-    return study.having(Chosen(effect, form, _tangents(study, effect, form)))
+    return study.having(Chosen(effect, form, _compute_tangents(study, effect, form)))
 
 
 class _Fit:
@@ -71,14 +71,14 @@ class _Fit:
         return ratio - _PRICE_OF_TERM * len(form.terms)
 
 
-def best_form(study: CircleStudy, effect: CircleEffect) -> CircleForm:
+def find_best_form(study: CircleStudy, effect: CircleEffect) -> CircleForm:
     """Return the form of an effect that fits best, its searched values refined."""
     fit = _Fit(study)
-    forms = [form for form in forms_of(effect, study.design) if form.terms]
-    return refined_form(study, effect, max(forms, key=fit.gained))
+    forms = [form for form in list_forms_of(effect, study.design) if form.terms]
+    return refine_form(study, effect, max(forms, key=fit.gained))
 
 
-def refined_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleForm:
+def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleForm:
     """Return a form with those searched values refined between two of the grid that may be."""
     fit = _Fit(study)
     grid = list(effect.grid(study.design.fine))
@@ -87,31 +87,31 @@ def refined_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> 
     def of(searched: Searched) -> CircleForm:
         return form_at(effect, study.design, searched, form)
 
-    for place in _refined_places(effect):
+    for place in _find_refined_places(effect):
         values = sorted({searched[place] for searched in grid})
         nearest = int(np.argmin(np.abs(np.array(values) - best[place])))
         low, high = values[max(nearest - 1, 0)], values[min(nearest + 1, len(values) - 1)]
         for _ in range(_ROUNDS):
-            tried = [_moved(best, place, value) for value in np.linspace(low, high, _VALUES).tolist()]
+            tried = [_move_value(best, place, value) for value in np.linspace(low, high, _VALUES).tolist()]
             best = max(tried, key=lambda searched: fit.gained(of(searched)))
             step = (high - low) / (_VALUES - 1)
             low, high = max(best[place] - step, low), min(best[place] + step, high)
     return of(best)
 
 
-def _refined_places(effect: CircleEffect) -> list[int]:
+def _find_refined_places(effect: CircleEffect) -> list[int]:
     return [place for place, parameter in enumerate(effect.searched) if parameter.is_refined]
 
 
-def _moved(searched: Searched, place: int, value: float) -> Searched:
+def _move_value(searched: Searched, place: int, value: float) -> Searched:
     return tuple(value if index == place else each for index, each in enumerate(searched))
 
 
-def _tangents(
+def _compute_tangents(
     study: CircleStudy, effect: CircleEffect, form: CircleForm
 ) -> tuple[tuple[SearchedParameter, FloatArray], ...]:
     """Return by how much Δr changes with each refined parameter, at the coefficients that fit."""
-    places = _refined_places(effect)
+    places = _find_refined_places(effect)
     if not places:
         return ()
     base = study.base
@@ -122,7 +122,10 @@ def _tangents(
         step = _STEP * abs(form.searched[place])
         ends = [
             form_at(
-                effect, study.design, _moved(form.searched, place, form.searched[place] + way * step), form
+                effect,
+                study.design,
+                _move_value(form.searched, place, form.searched[place] + way * step),
+                form,
             )
             for way in (-1.0, 1.0)
         ]

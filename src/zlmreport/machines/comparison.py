@@ -9,16 +9,16 @@ import numpy as np
 
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.machines.course import CircularTest, StraightTest
-from zlmreport.machines.design import side_by_side
+from zlmreport.machines.design import join_side_by_side
 from zlmreport.machines.machine import Machine, TestPrediction, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
 from zlmreport.machines.residual import (
     Stretch,
-    centred,
-    root_mean_square,
-    scatter_within,
-    stretches,
-    stretches_of_line,
+    centre,
+    compute_root_mean_square,
+    estimate_scatter_within,
+    find_stretches,
+    find_stretches_of_line,
 )
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.arrays import FloatArray
@@ -90,11 +90,11 @@ def compare_circles(
     study: CircleStudy | None = None,
 ) -> tuple[ComparedTest, ...]:
     """Return all circles against their prediction, and against the effects of a model if there is a study."""
-    made = _made_by_effects([each.circle for each in circles], study)
-    return tuple(_circle(machine, each, index, registry, made) for index, each in enumerate(circles))
+    made = _compute_made_by_effects([each.circle for each in circles], study)
+    return tuple(_compare_circle(machine, each, index, registry, made) for index, each in enumerate(circles))
 
 
-def _circle(
+def _compare_circle(
     machine: Machine,
     measured: MeasuredCircle,
     index: int,
@@ -104,8 +104,8 @@ def _circle(
     circle, effects = measured.circle, made[index]
     prediction = predict(machine, circle.course())
     left = circle.deviation - prediction.values - sum(effects.values(), np.zeros(len(circle.angle)))
-    shown = centred(circle, left)
-    standard = np.hypot(prediction.standard_uncertainty, scatter_within(circle, shown))
+    shown = centre(circle, left)
+    standard = np.hypot(prediction.standard_uncertainty, estimate_scatter_within(circle, shown))
     numbers = tuple(
         StandardNumbers(
             own.standard,
@@ -124,22 +124,22 @@ def _circle(
         circle,
         prediction,
         left,
-        Sizes(*(root_mean_square(centred(circle, each)) for each in sizes)),
-        {name: root_mean_square(centred(circle, each)) for name, each in prediction.shares.items()},
-        {name: root_mean_square(each) for name, each in effects.items()},
+        Sizes(*(compute_root_mean_square(centre(circle, each)) for each in sizes)),
+        {name: compute_root_mean_square(centre(circle, each)) for name, each in prediction.shares.items()},
+        {name: compute_root_mean_square(each) for name, each in effects.items()},
         numbers,
-        stretches(circle, shown, standard),
+        find_stretches(circle, shown, standard),
     )
 
 
-def _made_by_effects(
+def _compute_made_by_effects(
     circles: Sequence[CircularTest], study: CircleStudy | None
 ) -> tuple[dict[str, FloatArray], ...]:
     """Return what each effect of a study makes of each circle, at all of its readings, m."""
     found: tuple[dict[str, FloatArray], ...] = tuple({} for _ in circles)
     if study is None:
         return found
-    design = side_by_side(circles)
+    design = join_side_by_side(circles)
     for each in study.effects:
         values = {one.name: one.value for one in study.estimates_of(each.effect.identifier)}
         fitted = {term.name for term in each.form.terms}
@@ -163,9 +163,9 @@ def compare_line(machine: Machine, line: StraightTest) -> ComparedTest:
         line,
         prediction,
         left,
-        Sizes(*(root_mean_square(each - each.mean()) for each in sizes)),
-        {name: root_mean_square(each - each.mean()) for name, each in prediction.shares.items()},
+        Sizes(*(compute_root_mean_square(each - each.mean()) for each in sizes)),
+        {name: compute_root_mean_square(each - each.mean()) for name, each in prediction.shares.items()},
         {},
         (),
-        stretches_of_line(line, shown, standard),
+        find_stretches_of_line(line, shown, standard),
     )

@@ -43,7 +43,7 @@ class Nameless:
     columns: FloatArray  #: (N, f): Their random combination is the curve, mean variance one.
 
 
-def nameless_curves(design: ThinnedDesign) -> tuple[Nameless, ...]:
+def make_nameless_curves(design: ThinnedDesign) -> tuple[Nameless, ...]:
     """Return the curves without names: even, odd, locked to the reversals of each axis, in time."""
     found = []
     for length in (40.0, 15.0):
@@ -54,16 +54,16 @@ def nameless_curves(design: ThinnedDesign) -> tuple[Nameless, ...]:
     for axis in design.axes:
         since = design.since_reversal(axis)
         known = np.isfinite(since)
-        bumps = _bumps(np.nan_to_num(since)) * known[:, np.newaxis]
+        bumps = _sample_bumps(np.nan_to_num(since)) * known[:, np.newaxis]
         found.append(Nameless(_REVERSAL.given(axis=AXES[axis]), bumps))
     travelled = [
         _smooth_line(design.travelled, 0.5) * (design.turn == turn)[:, np.newaxis] for turn in design.turns
     ]
     found.append(Nameless(_TIME, np.concatenate(travelled, axis=1)))
-    return tuple(Nameless(each.shape, _of_one(each.columns)) for each in found)
+    return tuple(Nameless(each.shape, _weigh_one(each.columns)) for each in found)
 
 
-def _of_one(columns: FloatArray) -> FloatArray:
+def _weigh_one(columns: FloatArray) -> FloatArray:
     return np.asarray(columns / np.sqrt(np.mean(np.sum(columns**2, axis=1))))
 
 
@@ -75,7 +75,7 @@ def _smooth(angle: FloatArray, length: float) -> FloatArray:
     return np.concatenate([size[kept] * np.cos(waves), size[kept] * np.sin(waves)], axis=1)
 
 
-def _bumps(since: FloatArray) -> FloatArray:
+def _sample_bumps(since: FloatArray) -> FloatArray:
     """Return a random shape locked to a reversal, dying away over some 30°."""
     places = np.radians(np.arange(0.0, 48.0, 3.0))
     bumps = np.exp(-0.5 * ((since[:, np.newaxis] - places) / np.radians(3.0)) ** 2)
@@ -138,7 +138,7 @@ def contest(
     together = np.column_stack([deviation / noise.sigma, simulated])
     arenas = [_Arena(each, together) for each in noise.whitened]
     null = np.array([arena.null for arena in arenas])
-    weight = _shares(null)
+    weight = _compute_shares(null)
     by_effect, best = [], []
     for effect, forms in effects:
         terms = list({id(term): term for form in forms for term in form.terms}.values())
@@ -146,10 +146,10 @@ def contest(
         subsets = [[place[id(term)] for term in form.terms] for form in forms]
         columns = np.column_stack([term.column for term in terms])
         found = np.array([arena.evidence(columns, subsets) for arena in arenas])
-        by_effect.append(_averaged(found, weight))
-        best.append((effect, forms[int(np.argmax(_averaged_forms(found, weight)[:, 0]))]))
+        by_effect.append(_average(found, weight))
+        best.append((effect, forms[int(np.argmax(_average_over_noises(found, weight)[:, 0]))]))
     by_shape = [
-        _averaged(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
+        _average(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
     ]
     named = 2.0 * np.array(by_effect).reshape(len(best), -1)
     curves = 2.0 * np.array(by_shape).reshape(len(nameless), -1)
@@ -194,7 +194,8 @@ class _Arena:
         own = self._whitened.of(columns / np.sqrt(np.mean(columns**2, axis=0)))
         inside, products = self._whitened.taken.T @ own, own.T @ self._left
         return [
-            self._of(*_independent(own[:, chosen], inside[:, chosen], products[chosen])) for chosen in subsets
+            self._of(*_make_independent(own[:, chosen], inside[:, chosen], products[chosen]))
+            for chosen in subsets
         ]
 
     def _of(self, strengths: FloatArray, products: FloatArray) -> FloatArray:
@@ -205,12 +206,12 @@ class _Arena:
         share = worth / (1.0 + worth)
         inside = 1.0 - np.minimum(explained, 1.0 - _LEAST) * share[:, np.newaxis]
         logs = -0.5 * len(strengths) * np.log1p(worth)[:, np.newaxis] - 0.5 * self._freedom * np.log(inside)
-        return _log_mean(logs)
+        return _compute_log_mean(logs)
 
     def curve(self, columns: FloatArray) -> FloatArray:
         """Return the same of a random curve: its coefficients are averaged over, whatever their number."""
         own = self._whitened.of(columns)
-        strengths, products = _independent(own, self._whitened.taken.T @ own, own.T @ self._left)
+        strengths, products = _make_independent(own, self._whitened.taken.T @ own, own.T @ self._left)
         logs = []
         for size in _SIZES:
             shrunk = size**2 / (1.0 + size**2 * strengths)
@@ -219,10 +220,12 @@ class _Arena:
             logs.append(
                 -0.5 * float(np.sum(np.log1p(size**2 * strengths))) - 0.5 * self._freedom * np.log(inside)
             )
-        return _log_mean(np.array(logs))
+        return _compute_log_mean(np.array(logs))
 
 
-def _independent(own: FloatArray, inside: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _make_independent(
+    own: FloatArray, inside: FloatArray, products: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Return strengths of independent combinations of columns, and their products with the deviations.
 
     `own`, (N, k): the whitened columns; `inside`, (r, k): their products with what the base takes out.
@@ -232,23 +235,23 @@ def _independent(own: FloatArray, inside: FloatArray, products: FloatArray) -> t
     return strengths[kept], turn[:, kept].T @ products
 
 
-def _shares(null: FloatArray) -> FloatArray:
+def _compute_shares(null: FloatArray) -> FloatArray:
     """Return the probability of each noise for each deviation, (noises, B)."""
     shares = np.exp(null - null.max(axis=0))
     return np.asarray(shares / shares.sum(axis=0))
 
 
-def _averaged_forms(found: FloatArray, weight: FloatArray) -> FloatArray:
+def _average_over_noises(found: FloatArray, weight: FloatArray) -> FloatArray:
     """Return ln of the mean Bayes factor over the noises, (forms, B)."""
     most = found.max(axis=0)
     return np.asarray(most + np.log(np.sum(weight[:, np.newaxis] * np.exp(found - most), axis=0)))
 
 
-def _averaged(found: FloatArray, weight: FloatArray) -> FloatArray:
+def _average(found: FloatArray, weight: FloatArray) -> FloatArray:
     """Return ln of the mean Bayes factor over noises and forms, (B,)."""
-    return _log_mean(_averaged_forms(found, weight))
+    return _compute_log_mean(_average_over_noises(found, weight))
 
 
-def _log_mean(logs: FloatArray) -> FloatArray:
+def _compute_log_mean(logs: FloatArray) -> FloatArray:
     most = logs.max(axis=0)
     return np.asarray(most + np.log(np.mean(np.exp(logs - most), axis=0)))

@@ -16,11 +16,11 @@ import numpy as np
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.machines.curve import AxisErrorCurve
-from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, square_slope
+from zlmreport.machines.kinematics import SQUARENESS, ErrorLine, find_square_slope
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.measured_tests import MeasuredCircle
-from zlmreport.machines.residual import centred, root_mean_square
-from zlmreport.machines.volume import Space, diagonals, measured_space, volume_map
+from zlmreport.machines.residual import centre, compute_root_mean_square
+from zlmreport.machines.volume import Space, find_measured_space, map_volume, predict_diagonals
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.cross import CrossTable
 from zlmreport.model.effects.circle_design import AXES
@@ -51,13 +51,13 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
     taken: list[str] = []
     small: list[str] = []
     for moving, off in permutations(AXES, 2):
-        known = [each for each in machine.curves if _acts(each.name, moving, off)]
+        known = [each for each in machine.curves if _is_acting_across(each.name, moving, off)]
         worth = [each for each in known if each.span > each.largest_uncertainty]
         small += [each.name for each in known if each not in worth]
         if worth:
             taken += [each.name for each in worth]
-            stretch = _stretch(machine, moving, worth, place)
-            tables.append(_table((moving, off), worth, _rows(stretch, step)))
+            stretch = _find_stretch(machine, moving, worth, place)
+            tables.append(_make_table((moving, off), worth, _rows(stretch, step)))
     if not tables:
         raise InputError.at(
             place,
@@ -67,10 +67,10 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
     return CrossPlan(tuple(tables), tuple(taken), tuple(sorted(small)))
 
 
-def _acts(error: str, moving: str, off: str) -> bool:
+def _is_acting_across(error: str, moving: str, off: str) -> bool:
     """Return whether an error puts one axis aside while the other moves."""
     if error in SQUARENESS:
-        return square_slope(error)[:2] == (off, moving)
+        return find_square_slope(error)[:2] == (off, moving)
     return error == f"E{off}{moving}"
 
 
@@ -83,26 +83,26 @@ def _rows(stretch: tuple[float, float, float], step: float | None) -> FloatArray
     return np.asarray(np.round(np.linspace(low, high, count + 1), _STEP_DIGITS), dtype=np.float64)
 
 
-def _table(axes: tuple[str, str], curves: Sequence[AxisErrorCurve], positions: FloatArray) -> CrossTable:
+def _make_table(axes: tuple[str, str], curves: Sequence[AxisErrorCurve], positions: FloatArray) -> CrossTable:
     """Return the table of two axes, the one that moves and the one that is off, at some positions."""
     values, slope = np.zeros(len(positions)), 0.0
     for each in curves:
         if each.is_single:
-            slope = square_slope(each.name)[2] * float(each.values[0])
+            slope = find_square_slope(each.name)[2] * float(each.values[0])
             values = values + slope * positions
         else:
             values = values + each.reading(positions, np.zeros(len(positions))) @ each.values
     return CrossTable(*axes, positions, values - values[0], slope)
 
 
-def _stretch(
+def _find_stretch(
     machine: Machine, moving: str, curves: Iterable[AxisErrorCurve], place: Place
 ) -> tuple[float, float, float]:
     """Return over which positions a table goes, m: those that were measured; and how far these are apart."""
     for each in curves:
         if not each.is_single:
             return float(each.nodes[0]), float(each.nodes[-1]), float(np.diff(each.nodes).min())
-    space, index = measured_space(machine), AXES.index(moving)
+    space, index = find_measured_space(machine), AXES.index(moving)
     if space is None or not space.high[index] > space.low[index]:
         raise InputError.at(
             place, f"no error of {moving} was measured over a range, so no table over {moving} has an end"
@@ -111,7 +111,7 @@ def _stretch(
     return low, high, (high - low) / (_ROWS - 1)
 
 
-def compensated(machine: Machine, tables: Iterable[CrossTable]) -> Machine:
+def compensate_machine(machine: Machine, tables: Iterable[CrossTable]) -> Machine:
     """Return a machine whose control takes tables away; what is uncertain stays so."""
     curves = {each.name: each for each in machine.curves}
     for table in tables:
@@ -152,33 +152,35 @@ def forecast(
     machine: Machine, tables: Sequence[CrossTable], circles: Sequence[MeasuredCircle], registry: Registry
 ) -> CrossForecast:
     """Return what tables, as the control reads them, make of circles, diagonals and the work space."""
-    after = compensated(machine, tables)
-    space = measured_space(machine)
+    after = compensate_machine(machine, tables)
+    space = find_measured_space(machine)
     found: list[tuple[str, float, float]] = []
     largest = None
     if space:
-        both = zip(diagonals(machine, space), diagonals(after, space), strict=True)
+        both = zip(predict_diagonals(machine, space), predict_diagonals(after, space), strict=True)
         found = [(one.name, one.span, other.span) for one, other in both]
-        largest = _largest(machine, space), _largest(after, space)
+        largest = _find_largest(machine, space), _find_largest(after, space)
     return CrossForecast(
-        tuple(_circle(machine, after, each, registry) for each in circles), tuple(found), largest
+        tuple(_forecast_circle(machine, after, each, registry) for each in circles), tuple(found), largest
     )
 
 
-def _largest(machine: Machine, space: Space) -> float:
-    return float(volume_map(machine, space).length.max())
+def _find_largest(machine: Machine, space: Space) -> float:
+    return float(map_volume(machine, space).length.max())
 
 
-def _circle(machine: Machine, after: Machine, measured: MeasuredCircle, registry: Registry) -> CircleForecast:
+def _forecast_circle(
+    machine: Machine, after: Machine, measured: MeasuredCircle, registry: Registry
+) -> CircleForecast:
     circle = measured.circle
     taken = predict(machine, circle.course()).values - predict(after, circle.course()).values
     sides: list[FloatArray] = [circle.deviation, circle.deviation - taken]
-    before, now = (_numbers(measured.evaluations(each, registry)) for each in sides)
-    sizes = [root_mean_square(centred(circle, each)) for each in sides]
+    before, now = (_collect_numbers(measured.evaluations(each, registry)) for each in sides)
+    sizes = [compute_root_mean_square(centre(circle, each)) for each in sides]
     return CircleForecast(
         circle.name, sizes[0], sizes[1], tuple((name, before[name], now[name]) for name in before)
     )
 
 
-def _numbers(evaluations: Iterable[Evaluation]) -> Mapping[str, float]:
+def _collect_numbers(evaluations: Iterable[Evaluation]) -> Mapping[str, float]:
     return {own.quantity.notation: own.value for each in evaluations for own in each.parameters}

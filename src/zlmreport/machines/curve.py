@@ -110,10 +110,10 @@ class AxisErrorCurve:
         )
 
 
-def measured_curve(
+def make_measured_curve(
     name: str, readings: MeasurementSet, instrument: InstrumentError, line: ErrorLine, source: str
 ) -> AxisErrorCurve:
-    """Return the mean deviations of a test as a curve; `curve_of` says what its covariance holds."""
+    """Return the mean deviations of a test as a curve; its covariance is as in `make_curve_of_means`."""
     found = readings.deviations()
     count = np.sum(np.isfinite(found), axis=2)
     usable = [each.index for each in readings.approaches]
@@ -121,7 +121,7 @@ def measured_curve(
     nodes, found, count = readings.target_positions[kept], found[usable][:, kept], count[usable][:, kept]
     means = np.nanmean(found, axis=2)
     squares = np.nansum((found - means[:, :, np.newaxis]) ** 2, axis=2)
-    return curve_of(Means(nodes, means, count, squares), name, instrument, line, source)
+    return make_curve_of_means(Means(nodes, means, count, squares), name, instrument, line, source)
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,7 +134,7 @@ class Means:
     squares: FloatArray  #: Sum of their squared distances from it.
 
 
-def curve_of(
+def make_curve_of_means(
     means: Means, name: str, instrument: InstrumentError, line: ErrorLine, source: str
 ) -> AxisErrorCurve:
     """Return means as a curve.
@@ -154,7 +154,7 @@ def curve_of(
     return AxisErrorCurve(name, nodes, means.values.ravel(), factor, line, source)
 
 
-def without_alignment(curve: AxisErrorCurve) -> AxisErrorCurve:
+def remove_alignment(curve: AxisErrorCurve) -> AxisErrorCurve:
     """Return a curve without what only says how it was set up.
 
     Of a straightness error the least-squares line: its slope is the artefact's alignment, and what the axes

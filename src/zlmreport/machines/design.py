@@ -54,7 +54,7 @@ def clear_of_reversals(circle: CircularTest) -> CircularTest:
 
 def thinned(circles: Sequence[CircularTest]) -> ThinnedDesign:
     """Return the design of circles with fewer readings: means of neighbours in time."""
-    fine = side_by_side(circles)
+    fine = join_side_by_side(circles)
     turns = len(fine.turns)
     most = max(min(_OF_A_TURN, _TOGETHER // max(turns, 1)), _FEWEST_OF_A_TURN)
     groups: list[IntArray] = []
@@ -72,7 +72,7 @@ def thinned(circles: Sequence[CircularTest]) -> ThinnedDesign:
     )
 
 
-def side_by_side(circles: Sequence[CircularTest]) -> CircleDesign:
+def join_side_by_side(circles: Sequence[CircularTest]) -> CircleDesign:
     """Return all readings of circles side by side; angles go on over a full turn."""
     columns: dict[str, list[Any]] = {name: [] for name in _COLUMNS}
     number = 0

@@ -9,9 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.machines.choosing import refined_form, with_effect, with_form
-from zlmreport.machines.contest import CircleContest, Contender, Held, contest, nameless_curves
-from zlmreport.machines.forms import CircleForm, forms_of, parts_of, whole_form
+from zlmreport.machines.choosing import add_effect, add_form, refine_form
+from zlmreport.machines.contest import CircleContest, Contender, Held, contest, make_nameless_curves
+from zlmreport.machines.forms import CircleForm, list_forms_of, make_whole_form, split_parts_of
 from zlmreport.machines.noise import Whitened
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
@@ -81,7 +81,7 @@ class MachineDiagnosis:
     is_tied: bool  #: Whether the next effect has an equal that this plan cannot tell from it.
 
 
-def rms_of(study: CircleStudy) -> float:
+def compute_rms_of(study: CircleStudy) -> float:
     """Return the RMS of what a study leaves, m."""
     return float(np.sqrt(np.mean(study.residual**2)))
 
@@ -122,7 +122,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     taken: so two effects are found that together look like neither, and a cause that is in no catalogue gets
     no name.
     """
-    stages = _stages(study, catalogue)
+    stages = _build_stages(study, catalogue)
     chosen = max(
         range(len(stages)), key=lambda index: (round(stages[index].worth - NAMED * (index > 0), 9), -index)
     )
@@ -136,11 +136,16 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
             break
         found.append(leader.effect.identifier)
         steps.append(
-            Step(leader.effect.identifier, rms_of(before.study), rms_of(after.study), after.study.noise.rms)
+            Step(
+                leader.effect.identifier,
+                compute_rms_of(before.study),
+                compute_rms_of(after.study),
+                after.study.noise.rms,
+            )
         )
     first, last = stages[0], stages[len(found)]
     is_left = last.is_something_left and not is_tied
-    remainder = _left(last.study, last.outcome) if is_left else None
+    remainder = _find_left(last.study, last.outcome) if is_left else None
     verdict = Verdict.UNEXPLAINED if remainder else Verdict.ADEQUATE
     verdict = Verdict.MISSING if found or is_tied else verdict
     return MachineDiagnosis(
@@ -149,13 +154,13 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     )  # fmt: skip
 
 
-def _stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[_Stage]:
+def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[_Stage]:
     """Return the models that come about when the best effect comes in again and again."""
     stages: list[_Stage] = []
     current, gathered = study, 0.0
     while True:
-        outcome, hidden = _held(current, catalogue, len(stages))
-        stage = _Stage(current, outcome, _candidates(current, outcome), tuple(hidden), gathered)
+        outcome, hidden = _hold_effects(current, catalogue, len(stages))
+        stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered)
         stages.append(stage)
         leader = stage.leader
         needed = FURTHER + NAMED if len(stages) > 1 else NAMED
@@ -164,10 +169,10 @@ def _stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[_Stag
         if len(stages) > _MOST_EFFECTS:
             return stages
         gathered += leader.evidence - (FURTHER if len(stages) > 1 else 0.0)
-        current = with_effect(current, leader.effect, leader.form)
+        current = add_effect(current, leader.effect, leader.form)
 
 
-def _held(
+def _hold_effects(
     study: CircleStudy, catalogue: Sequence[CircleEffect], seed: int
 ) -> tuple[CircleContest, list[str]]:
     """Hold all effects that are not in the model against what it leaves."""
@@ -175,12 +180,14 @@ def _held(
     for effect in catalogue:
         if effect.identifier in study.names:
             continue
-        forms = tuple(form for form in forms_of(effect, study.design) if form.terms and _is_seen(form, study))
+        forms = tuple(
+            form for form in list_forms_of(effect, study.design) if form.terms and _is_seen(form, study)
+        )
         if forms:
             tried.append((effect, forms))
         else:
             unseen.append(effect.identifier)
-    curves = nameless_curves(study.design)
+    curves = make_nameless_curves(study.design)
     return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
 
 
@@ -194,7 +201,7 @@ def _is_seen(form: CircleForm, study: CircleStudy) -> bool:
     return bool(np.sum(left**2) > 1e-6 * np.sum(columns**2))
 
 
-def _candidates(study: CircleStudy, outcome: CircleContest) -> tuple[CircleCandidate, ...]:
+def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[CircleCandidate, ...]:
     """Return the effects that are worth a word, best first, with their estimates and equals."""
     most = outcome.contenders[0].evidence if outcome.contenders else 0.0
     worth = [
@@ -202,28 +209,28 @@ def _candidates(study: CircleStudy, outcome: CircleContest) -> tuple[CircleCandi
         for each, probability in zip(outcome.contenders, outcome.probabilities, strict=True)
         if each.evidence > max(most - 60.0, 0.0) or probability > _SERIOUS
     ][:8]
-    found = [_candidate(study, each, probability) for each, probability in worth]
+    found = [_make_candidate(study, each, probability) for each, probability in worth]
     found.sort(key=lambda each: (not each.is_plausible, -each.evidence))
     plausible = [each for each in found if each.is_plausible]
     if plausible:
         tied = [each for each in plausible if each.evidence > plausible[0].evidence - MENTION]
-        plainest = min(tied, key=_strangeness)
+        plainest = min(tied, key=_measure_strangeness)
         found.sort(key=lambda each: each is not plainest)
-    curves = [_curve(study, each) for each in found]
-    return tuple(_with_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True))
+    curves = [_compute_curve(study, each) for each in found]
+    return tuple(_add_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True))
 
 
-def _candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:
-    form = refined_form(study, contender.effect, contender.form)
-    after = with_form(study, contender.effect, form)
+def _make_candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:
+    form = refine_form(study, contender.effect, contender.form)
+    after = add_form(study, contender.effect, form)
     estimates = after.estimates_of(contender.effect.identifier)
     return CircleCandidate(
         contender.effect, form, contender.evidence, probability, contender.p_value, estimates,
-        rms_of(after), all(each.is_possible for each in estimates),
+        compute_rms_of(after), all(each.is_possible for each in estimates),
     )  # fmt: skip
 
 
-def _strangeness(candidate: CircleCandidate) -> float:
+def _measure_strangeness(candidate: CircleCandidate) -> float:
     """Return how far beyond the usual an effect's values are, and how much was searched for it."""
     beyond = [
         abs(each.value) / each.term.usual
@@ -233,13 +240,13 @@ def _strangeness(candidate: CircleCandidate) -> float:
     return float(np.log(max([*beyond, 1.0]))) + len(candidate.effect.searched)
 
 
-def _curve(study: CircleStudy, candidate: CircleCandidate) -> FloatArray:
+def _compute_curve(study: CircleStudy, candidate: CircleCandidate) -> FloatArray:
     """Return what an effect makes of the deviations at its estimated values."""
     parts = (each.value * each.term.column for each in candidate.estimates if each.term is not None)
     return np.asarray(sum(parts, np.zeros(study.design.count)))
 
 
-def _with_equals(
+def _add_equals(
     study: CircleStudy, candidate: CircleCandidate, curve: FloatArray, others: Sequence[CircleCandidate]
 ) -> CircleCandidate:
     """Return a candidate with those that the plan cannot tell from it, by columns and evidence."""
@@ -252,9 +259,11 @@ def _with_equals(
     for other in others:
         if other is candidate or not other.is_plausible or length <= 0:
             continue
-        whole = whole_form(other.effect, study.design, other.form.searched)
+        whole = make_whole_form(other.effect, study.design, other.form.searched)
         explained = max(
-            _explained(under, form.columns, own) for form in parts_of(other.effect, whole) if form.terms
+            _measure_explained(under, form.columns, own)
+            for form in split_parts_of(other.effect, whole)
+            if form.terms
         )
         apart, nearer = 1.0 - explained / length, abs(other.evidence - candidate.evidence)
         if (apart < _ALIKE and nearer < FURTHER) or (apart < _SIMILAR and nearer < MENTION):
@@ -262,14 +271,14 @@ def _with_equals(
     return replace(candidate, indistinguishable_from=tuple(equals))
 
 
-def _explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
+def _measure_explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
     """Return the squared length of what columns make of a whitened curve, (N, 1)."""
     others = under.of(columns)
     matrix, products = under.product(others, others), under.product(others, own)
     return float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
 
 
-def _left(study: CircleStudy, outcome: CircleContest) -> CircleRemainder:
+def _find_left(study: CircleStudy, outcome: CircleContest) -> CircleRemainder:
     """Return what is left beside all that is named: the residual beyond its noise."""
-    beyond = max(rms_of(study) ** 2 - (study.noise.sigma**2), 0.0)
+    beyond = max(compute_rms_of(study) ** 2 - (study.noise.sigma**2), 0.0)
     return CircleRemainder(float(np.sqrt(beyond)), outcome.shape or Words("of no shape"))

@@ -8,11 +8,11 @@ from typing import Any
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, rms_of
-from zlmreport.machines.report import compared_sizes, stretch_values
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, compute_rms_of
+from zlmreport.machines.report import collect_compared_sizes, collect_stretch
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
-from zlmreport.machines.subjects.findings import absent, findings, remedy, statement
-from zlmreport.machines.subjects.tests import stretch_in_words
+from zlmreport.machines.subjects.findings import list_absent, list_findings, say_remedy, say_verdict
+from zlmreport.machines.subjects.tests import describe_stretch
 from zlmreport.model.diagnosis.diagnosis import Verdict
 
 SCHEMA, BUILD, CHANGE = "zlmreport/diagnosis/1", "zlmreport/build/1", "zlmreport/machine-change/1"
@@ -20,7 +20,7 @@ _MICRO = 1e6
 _MOST_FAILURES = 3
 
 
-def diagnosis_values(
+def collect_diagnosis(
     diagnosis: MachineDiagnosis,
     tests: Sequence[ComparedTest],
     complete: Sequence[ComparedTest],
@@ -34,35 +34,35 @@ def diagnosis_values(
     noise = diagnosis.complete.noise.rms
     return {
         "schema": SCHEMA,
-        "model": model_values(diagnosis.study),
-        "error": study_values(diagnosis.study, noise),
+        "model": collect_model(diagnosis.study),
+        "error": collect_study(diagnosis.study, noise),
         "verdict": diagnosis.verdict.value,
-        "statement": statement(diagnosis).in_language(language),
+        "statement": say_verdict(diagnosis).in_language(language),
         "p_value": diagnosis.p_value.value,
         "set": list(diagnosis.found),
-        "candidates": [candidate_values(each, diagnosis, language) for each in diagnosis.candidates],
-        "remainder": remainder_values(diagnosis, language),
-        "tests": [{**compared_sizes(each), "noise_rms": _MICRO * noise} for each in tests],
+        "candidates": [collect_candidate(each, diagnosis, language) for each in diagnosis.candidates],
+        "remainder": collect_remainder(diagnosis, language),
+        "tests": [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise} for each in tests],
         "complete": {
-            "model": model_values(diagnosis.complete),
-            "error": study_values(diagnosis.complete, noise),
-            "tests": [{**compared_sizes(each), "noise_rms": _MICRO * noise} for each in complete],
+            "model": collect_model(diagnosis.complete),
+            "error": collect_study(diagnosis.complete, noise),
+            "tests": [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise} for each in complete],
         },
-        "findings": [each.in_language(language) for each in findings(diagnosis.complete)],
+        "findings": [each.in_language(language) for each in list_findings(diagnosis.complete)],
         "beside": [
             {
                 "effect": each.effect,
-                "parameters": [parameter_values(one) for one in each.estimates],
+                "parameters": [collect_parameter(one) for one in each.estimates],
                 "statements": [sentence.in_language(language) for sentence in each.sentences],
             }
-            for each in absent(diagnosis.complete, diagnosis.catalogue)
+            for each in list_absent(diagnosis.complete, diagnosis.catalogue)
         ],
         "not_testable": list(diagnosis.not_testable),
         "failures": [
             {
                 "test": each.name,
-                "statement": stretch_in_words(stretch, is_circle=is_circle).in_language(language),
-                **stretch_values(stretch, is_circle=is_circle),
+                "statement": describe_stretch(stretch, is_circle=is_circle).in_language(language),
+                **collect_stretch(stretch, is_circle=is_circle),
             }
             for each in tests
             for is_circle in (isinstance(each.test, CircularTest),)
@@ -86,14 +86,14 @@ def build_values(diagnosis: MachineDiagnosis, language: Language = Language.ENGL
             }
             for each in diagnosis.steps
         ],
-        "verdict": Verdict.UNEXPLAINED.value if diagnosis.remainder else _after(diagnosis),
-        "remainder": remainder_values(diagnosis, language),
-        "model": model_values(diagnosis.complete),
-        "error": study_values(diagnosis.complete, diagnosis.complete.noise.rms),
+        "verdict": Verdict.UNEXPLAINED.value if diagnosis.remainder else _say_after(diagnosis),
+        "remainder": collect_remainder(diagnosis, language),
+        "model": collect_model(diagnosis.complete),
+        "error": collect_study(diagnosis.complete, diagnosis.complete.noise.rms),
     }
 
 
-def _after(diagnosis: MachineDiagnosis) -> str:
+def _say_after(diagnosis: MachineDiagnosis) -> str:
     """Return the verdict on the model as built: effects that cannot be told apart are still missing."""
     is_tied = diagnosis.verdict is Verdict.MISSING and diagnosis.is_tied
     return Verdict.MISSING.value if is_tied else Verdict.ADEQUATE.value
@@ -108,21 +108,21 @@ def change_values(
         "schema": CHANGE,
         **{
             name: {
-                "model": model_values(study),
-                "error": study_values(study, noise),
-                "tests": [{**compared_sizes(each), "noise_rms": _MICRO * noise} for each in compared],
+                "model": collect_model(study),
+                "error": collect_study(study, noise),
+                "tests": [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise} for each in compared],
             }
             for name, study, compared in zip(("before", "after"), (before, after), tests, strict=True)
         },
     }
 
 
-def remainder_values(diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any] | None:
+def collect_remainder(diagnosis: MachineDiagnosis, language: Language) -> dict[str, Any] | None:
     """Return what is left without a name."""
     left = diagnosis.remainder
     if left is None:
         return None
-    total = rms_of(diagnosis.complete)
+    total = compute_rms_of(diagnosis.complete)
     return {
         "rms": _MICRO * left.rms,
         "share": min(1.0, (left.rms / total) ** 2) if total else 0.0,
@@ -131,15 +131,15 @@ def remainder_values(diagnosis: MachineDiagnosis, language: Language) -> dict[st
     }
 
 
-def model_values(study: CircleStudy) -> dict[str, Any]:
+def collect_model(study: CircleStudy) -> dict[str, Any]:
     """Return the effects of a model with their parameters."""
     return {
         "effects": list(study.names),
-        "parameters": [parameter_values(each) for each in study.estimates],
+        "parameters": [collect_parameter(each) for each in study.estimates],
     }
 
 
-def parameter_values(found: EstimatedTerm) -> dict[str, Any]:
+def collect_parameter(found: EstimatedTerm) -> dict[str, Any]:
     """Return a parameter; without U where it was only tried at some values."""
     unit, u = found.unit, found.expanded_uncertainty
     values = {
@@ -153,9 +153,9 @@ def parameter_values(found: EstimatedTerm) -> dict[str, Any]:
     )
 
 
-def study_values(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
+def collect_study(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
     """Return how far circles and model are apart; `noise_rms`, m, of the model that describes them."""
-    left = rms_of(study)
+    left = compute_rms_of(study)
     return {
         "rms": _MICRO * left,
         "noise_rms": _MICRO * noise_rms,
@@ -164,7 +164,7 @@ def study_values(study: CircleStudy, noise_rms: float) -> dict[str, Any]:
     }
 
 
-def candidate_values(
+def collect_candidate(
     candidate: CircleCandidate, diagnosis: MachineDiagnosis, language: Language
 ) -> dict[str, Any]:
     """Return an effect that might be missing."""
@@ -179,10 +179,10 @@ def candidate_values(
         "rms_after": _MICRO * candidate.rms_after,
         "plausible": candidate.is_plausible,
         "explains": candidate.effect.explains.in_language(language),
-        "parameters": [parameter_values(each) for each in candidate.estimates],
+        "parameters": [collect_parameter(each) for each in candidate.estimates],
         "indistinguishable_from": list(candidate.indistinguishable_from),
         "discriminate_by": (
-            remedy(candidate.effect, equals[0], diagnosis.study).in_language(language) if equals else ""
+            say_remedy(candidate.effect, equals[0], diagnosis.study).in_language(language) if equals else ""
         ),
         "unit": "um",
     }

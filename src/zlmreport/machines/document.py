@@ -18,23 +18,23 @@ from zlmreport.document.certificate.attachments import (
     Attachment,
     Relationship,
     Source,
-    arranged,
-    source_attachments,
-    sources_of,
+    arrange_attachments,
+    attach_sources,
+    list_sources_of_several,
 )
-from zlmreport.document.certificate.build import GENERATOR, letterhead_of
+from zlmreport.document.certificate.build import GENERATOR, make_letterhead
 from zlmreport.document.certificate.document import Certificate, PageWords
 from zlmreport.document.certificate.own_look import read_logo
-from zlmreport.document.certificate.statements import in_a_line
+from zlmreport.document.certificate.statements import write_person
 from zlmreport.language import Words
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose
-from zlmreport.machines.diagnosis_report import diagnosis_values
-from zlmreport.machines.prediction import prediction_values
+from zlmreport.machines.diagnosis_report import collect_diagnosis
+from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects import findings, tests
-from zlmreport.machines.subjects.axes import error_section, known_in_words, space_section
+from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space, say_known
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -74,7 +74,9 @@ class _Material:
     complete: tuple[ComparedTest, ...]
 
 
-def machine_document(machine: MachineFile, registry: Registry, generator: str = GENERATOR) -> MachineDocument:
+def make_machine_document(
+    machine: MachineFile, registry: Registry, generator: str = GENERATOR
+) -> MachineDocument:
     """Return the document on a machine."""
     stated, laboratory = machine.file.keys.certificate, machine.file.keys.laboratory
     logo = (
@@ -82,17 +84,17 @@ def machine_document(machine: MachineFile, registry: Registry, generator: str = 
         if laboratory and laboratory.logo
         else None
     )
-    made_from = sources_of((*machine.sources, *([logo.file] if logo else [])), machine.number)
-    material = _material(machine, registry)
-    results = _results(material, made_from, generator)
+    made_from = list_sources_of_several((*machine.sources, *([logo.file] if logo else [])), machine.number)
+    material = _gather_material(machine, registry)
+    results = _write_results(material, made_from, generator)
     say = Sayer(stated.language)
     is_sheet = stated.layout == "sheet"
-    cover = tuple(_sheet(material, say) if is_sheet else _cover(material, say))
+    cover = tuple(_lay_out_sheet(material, say) if is_sheet else _cover(material, say))
     title = say(_TITLE)
     name = machine.file.keys.machine.type or machine.number
     attached = [
         Attachment(f"{machine.number}.json", results, "application/json", Relationship.DATA, say(_RESULTS)),
-        *source_attachments(made_from, stated.language),
+        *attach_sources(made_from, stated.language),
     ]
     return MachineDocument(
         Certificate(
@@ -102,24 +104,24 @@ def machine_document(machine: MachineFile, registry: Registry, generator: str = 
             language=stated.language,
             issued=stated.issued,
             paper=stated.paper,
-            letterhead=letterhead_of(laboratory, logo),
+            letterhead=make_letterhead(laboratory, logo),
             cover=cover,
-            sections=() if is_sheet else tuple(_sections(material, say)),
+            sections=() if is_sheet else tuple(_lay_out_sections(material, say)),
             page_words=PageWords.said(stated.language, f"{title} {machine.number}"),
             description=f"{title}: {name}",
-            measurements=_nothing_measured(),
+            measurements=_make_empty_measurement(),
             evaluations=(),
             generator=generator,
             keywords=(machine.machine.chain.letters,),
             sources=made_from,
-            attachments=arranged(attached, machine.number),
+            attachments=arrange_attachments(attached, machine.number),
             is_compact=is_sheet,
         ),
         results,
     )  # fmt: skip
 
 
-def _material(machine: MachineFile, registry: Registry) -> _Material:
+def _gather_material(machine: MachineFile, registry: Registry) -> _Material:
     circles = compare_circles(machine.machine, machine.measured, registry)
     lines = tuple(compare_line(machine.machine, each) for each in machine.lines)
     if not machine.measured:
@@ -132,13 +134,13 @@ def _material(machine: MachineFile, registry: Registry) -> _Material:
     return _Material(machine, diagnosis, (*circles, *lines), by_model, complete)
 
 
-def _nothing_measured() -> MeasurementSet:
+def _make_empty_measurement() -> MeasurementSet:
     """Return no readings: those of a machine stand in the results of its own."""
     none, integers = np.zeros(0), np.zeros(0, dtype=np.int64)
     return MeasurementSet(Axis("X"), none, integers, integers, integers, none)
 
 
-def _results(material: _Material, made_from: tuple[Source, ...], generator: str) -> bytes:
+def _write_results(material: _Material, made_from: tuple[Source, ...], generator: str) -> bytes:
     machine, diagnosis = material.machine, material.diagnosis
     stated = machine.file.keys.certificate
     values: dict[str, Any] = {
@@ -149,8 +151,8 @@ def _results(material: _Material, made_from: tuple[Source, ...], generator: str)
             "language": stated.language.value,
             "issued": stated.issued.isoformat() if stated.issued else "",
         },
-        "prediction": prediction_values(machine.machine, material.by_axes),
-        "diagnosis": diagnosis_values(diagnosis, material.by_model, material.complete, stated.language)
+        "prediction": collect_prediction(machine.machine, material.by_axes),
+        "diagnosis": collect_diagnosis(diagnosis, material.by_model, material.complete, stated.language)
         if diagnosis
         else None,
         "provenance": {
@@ -173,41 +175,41 @@ def _results(material: _Material, made_from: tuple[Source, ...], generator: str)
 
 def _cover(material: _Material, say: Sayer) -> Iterator[Block]:
     """Yield the first page: what it is about, the verdict, all tests, what was not found."""
-    yield _facts(material.machine, say)
-    yield from _said_first(material, say)
+    yield _list_facts(material.machine, say)
+    yield from _lay_out_first(material, say)
     diagnosis = material.diagnosis
-    absence = findings.absence_section(diagnosis, say) if diagnosis else None
+    absence = findings.lay_out_absence(diagnosis, say) if diagnosis else None
     if absence:
         yield from absence.blocks
 
 
-def _sheet(material: _Material, say: Sayer) -> Iterator[Block]:
+def _lay_out_sheet(material: _Material, say: Sayer) -> Iterator[Block]:
     """Yield all that fits on a page."""
-    yield _facts(material.machine, say)
-    yield from _said_first(material, say)
+    yield _list_facts(material.machine, say)
+    yield from _lay_out_first(material, say)
     circles = [each for each in material.complete or material.by_axes if isinstance(each.test, CircularTest)]
-    yield from (Graph(tests.circle_figure(each)) for each in circles[:_ON_A_SHEET])
-    yield from error_section(material.machine.machine, say, is_full=True).blocks[1:]
+    yield from (Graph(tests.draw_circle(each)) for each in circles[:_ON_A_SHEET])
+    yield from lay_out_errors(material.machine.machine, say, is_full=True).blocks[1:]
 
 
-def _said_first(material: _Material, say: Sayer) -> Iterator[Block]:
+def _lay_out_first(material: _Material, say: Sayer) -> Iterator[Block]:
     diagnosis = material.diagnosis
     if diagnosis:
-        yield from findings.verdict_section(diagnosis, say).blocks
+        yield from findings.lay_out_verdict(diagnosis, say).blocks
         lines = [each for each in material.by_axes if not isinstance(each.test, CircularTest)]
         noise = diagnosis.complete.noise.rms
-        yield tests.sizes_table((*material.complete, *lines), say, noise, with_numbers=True)
+        yield tests.lay_out_sizes((*material.complete, *lines), say, noise, with_numbers=True)
     elif material.by_axes:
-        yield tests.sizes_table(material.by_axes, say)
+        yield tests.lay_out_sizes(material.by_axes, say)
 
 
-def _sections(material: _Material, say: Sayer) -> Iterator[Section]:
+def _lay_out_sections(material: _Material, say: Sayer) -> Iterator[Section]:
     machine, diagnosis = material.machine.machine, material.diagnosis
-    yield error_section(machine, say, is_full=True)
-    yield space_section(machine, say)
+    yield lay_out_errors(machine, say, is_full=True)
+    yield lay_out_space(machine, say)
     if diagnosis:
-        yield findings.model_section(diagnosis.complete, say)
-        candidates = findings.candidate_section(diagnosis, say)
+        yield findings.lay_out_model(diagnosis.complete, say)
+        candidates = findings.lay_out_candidates(diagnosis, say)
         if candidates:
             yield candidates
         steps = findings.step_section(diagnosis, say)
@@ -225,7 +227,7 @@ def _test_sections(
         yield tests.test_section(with_effects.get(each.name, each), say)
 
 
-def _facts(machine: MachineFile, say: Sayer) -> Facts:
+def _list_facts(machine: MachineFile, say: Sayer) -> Facts:
     keys, stated = machine.file.keys, machine.file.keys.certificate
     pairs = [
         (say(_NUMBER), machine.number),
@@ -234,9 +236,9 @@ def _facts(machine: MachineFile, say: Sayer) -> Facts:
         (say(_SERIAL), keys.machine.serial or ""),
         (say(_CHAIN), machine.machine.chain.letters),
         (say(_TOOL), f"{', '.join(map(say.general, keys.tool))} mm"),
-        (say(_KNOWN), say(known_in_words(machine.machine))),
+        (say(_KNOWN), say(say_known(machine.machine))),
         (say(_ISSUED), stated.issued.isoformat() if stated.issued else ""),
-        (say(_AUTHORISED), in_a_line(stated.authorised_by) if stated.authorised_by else ""),
+        (say(_AUTHORISED), write_person(stated.authorised_by) if stated.authorised_by else ""),
     ]
     return Facts(tuple((name, value) for name, value in pairs if value))
 

@@ -6,18 +6,18 @@ import hashlib
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
-from zlmreport.files import demanded, rewrite
+from zlmreport.files import demand, rewrite
 from zlmreport.job.contradictions import validate
 from zlmreport.job.extents import Written
 from zlmreport.job.list_edits import (
     ListKey,
     UneditableError,
-    own_list,
-    with_item,
-    with_list,
-    without_item,
+    add_item,
+    add_list,
+    drop_item,
+    find_own_list,
 )
-from zlmreport.job.parse import LARGEST, decoded, parse
+from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Scalar
 from zlmreport.machines.keys import MachineKeys
 from zlmreport.machines.reading import MachineFile
@@ -27,7 +27,7 @@ from zlmreport.plugin.registry import Registry
 _EFFECTS = ListKey("model", "effects")
 
 
-def effects_with(
+def list_effects_with(
     machine: MachineFile, name: str, registry: Registry, place: Place
 ) -> tuple[CircleEffect, ...]:
     """Return the effects of a machine's model with one more.
@@ -40,7 +40,7 @@ def effects_with(
     return (*machine.effects, effect)
 
 
-def effects_without(machine: MachineFile, name: str) -> tuple[CircleEffect, ...]:
+def list_effects_without(machine: MachineFile, name: str) -> tuple[CircleEffect, ...]:
     """Return the effects of a machine's model without one.
 
     Raises `InputError` if it does not stand in the model.
@@ -68,12 +68,12 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
     changing more; `AccessError` if it cannot be written.
     """
     path, before = machine.path, machine.effect_names
-    content = demanded(path, LARGEST)
+    content = demand(path, LARGEST)
     _refuse_changed(path, content, machine)
-    text = decoded(content, str(path))
+    text = decode(content, str(path))
     place = machine.file.place_of("model", "effects")
     try:
-        edited = _edited(text, before, effects, place)
+        edited = _edit_text(text, before, effects, place)
     except UneditableError:
         edited = text
     found = validate(MachineKeys, parse(edited.encode(), str(path)), [])
@@ -85,13 +85,13 @@ def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
     rewrite(path, edited.encode(), lambda latest: _refuse_changed(path, latest, machine))
 
 
-def _edited(text: str, before: tuple[str, ...], effects: tuple[str, ...], place: Place) -> str:
-    if own_list(Written.of(text), _EFFECTS) is None:
-        return with_list(text, _EFFECTS, [Scalar(place, each) for each in effects])
+def _edit_text(text: str, before: tuple[str, ...], effects: tuple[str, ...], place: Place) -> str:
+    if find_own_list(Written.of(text), _EFFECTS) is None:
+        return add_list(text, _EFFECTS, [Scalar(place, each) for each in effects])
     for name in (each for each in effects if each not in before):
-        text = with_item(text, _EFFECTS, Scalar(place, name))
+        text = add_item(text, _EFFECTS, Scalar(place, name))
     for index in sorted((i for i, each in enumerate(before) if each not in effects), reverse=True):
-        text = without_item(text, _EFFECTS, index)
+        text = drop_item(text, _EFFECTS, index)
     return text
 
 

@@ -36,7 +36,7 @@ class CircleForm:
         )
 
 
-def whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searched) -> CircleForm:
+def make_whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searched) -> CircleForm:
     """Return an effect with all of its terms that a design can show."""
     terms = effect.terms(design.fine, searched)
     thin = (replace(each, column=design.thin(each.column)) for each in terms)
@@ -50,13 +50,13 @@ def form_at(effect: CircleEffect, design: ThinnedDesign, searched: Searched, lik
     return CircleForm(searched, tuple(replace(each, column=design.thin(each.column)) for each in terms))
 
 
-def plain_form(effect: CircleEffect, design: ThinnedDesign) -> CircleForm:
+def make_plain_form(effect: CircleEffect, design: ThinnedDesign) -> CircleForm:
     """Return an effect at the first values of its searched parameters; without terms if there are none."""
     grid = effect.grid(design.fine)
-    return whole_form(effect, design, grid[0]) if grid else CircleForm((), ())
+    return make_whole_form(effect, design, grid[0]) if grid else CircleForm((), ())
 
 
-def parts_of(effect: CircleEffect, whole: CircleForm) -> tuple[CircleForm, ...]:
+def split_parts_of(effect: CircleEffect, whole: CircleForm) -> tuple[CircleForm, ...]:
     """Return a form with each group of its terms by itself, and with all of them."""
     groups = sorted(whole.groups)
     sizes = {len(groups)} if effect.is_base else {1} if effect.is_single else {1, len(groups)}
@@ -67,10 +67,10 @@ def parts_of(effect: CircleEffect, whole: CircleForm) -> tuple[CircleForm, ...]:
     )
 
 
-def forms_of(effect: CircleEffect, design: ThinnedDesign) -> tuple[CircleForm, ...]:
+def list_forms_of(effect: CircleEffect, design: ThinnedDesign) -> tuple[CircleForm, ...]:
     """Return the forms that a design can show: for each searched value, each group of terms and all."""
     return tuple(
         part
         for searched in effect.grid(design.fine)
-        for part in parts_of(effect, whole_form(effect, design, searched))
+        for part in split_parts_of(effect, make_whole_form(effect, design, searched))
     )

@@ -39,7 +39,7 @@ class StatedKeys(BaseModel):
     )
 
 
-def _as_list(value: Any) -> Any:
+def _take_as_list(value: Any) -> Any:
     return value if isinstance(value, list) else [value]
 
 
@@ -89,7 +89,7 @@ class MachineKeys(JobPart):
         description="The tool's offset from the point to which all axis errors refer, X, Y and Z, mm.",
         examples=[[0, 0, 120]],
     )
-    errors: Annotated[list[JobPath | StatedKeys], BeforeValidator(_as_list)] = Field(
+    errors: Annotated[list[JobPath | StatedKeys], BeforeValidator(_take_as_list)] = Field(
         [],
         description="What is known of the 21 errors: jobs that measured them, certificates of this program "
         "(PDF, JSON), or stated values such as {C0Y: 2.5, expanded_uncertainty: 0.6} (arc seconds).",
@@ -101,7 +101,7 @@ class MachineKeys(JobPart):
         "squareness arc seconds. Without it this program assumes some and says so.",
         examples=[{"EAX": 5}],
     )
-    tests: Annotated[list[JobPath], BeforeValidator(_as_list)] = Field(
+    tests: Annotated[list[JobPath], BeforeValidator(_take_as_list)] = Field(
         [],
         description="Jobs of tests of the whole machine: circles, diagonals, lines in other places.",
         examples=[["circle-xy.yaml"]],

@@ -46,7 +46,7 @@ _SQUARE: Mapping[str, tuple[int, int, float]] = MappingProxyType(
 )
 
 
-def square_slope(error: str) -> tuple[str, str, float]:
+def find_square_slope(error: str) -> tuple[str, str, float]:
     """Return of a squareness error which axis is off along which, and how Δ grows with each rad of it."""
     direction, along, sign = _SQUARE[error]
     return AXES[direction], AXES[along], sign

@@ -22,7 +22,7 @@ ASSUMED_BOUNDS: Mapping[str, float] = MappingProxyType(
 )
 
 
-def kind_of(error: str) -> str:
+def find_kind_of(error: str) -> str:
     """Return whether an error is one of position, straightness, angle or squareness."""
     if error in SQUARENESS:
         return "squareness"
@@ -31,9 +31,9 @@ def kind_of(error: str) -> str:
     return "position" if error[1] == error[2] else "straightness"
 
 
-def unit_of(error: str) -> Unit:
+def find_unit_of(error: str) -> Unit:
     """Return the unit in which an error is read and printed."""
-    return ARCSECOND if kind_of(error) in {"angle", "squareness"} else MICROMETRE
+    return ARCSECOND if find_kind_of(error) in {"angle", "squareness"} else MICROMETRE
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,7 +104,7 @@ def predict(machine: Machine, course: Course) -> TestPrediction:
     shares: dict[str, FloatArray] = {}
     factors = [np.zeros((count, 0))]
     for curve in machine.curves:
-        gain = _gain(curve.name, machine, curve, course, tool)
+        gain = _compute_gain(curve.name, machine, curve, course, tool)
         if not np.any(gain):
             continue
         index = AXES.index(curve.axis)
@@ -117,17 +117,17 @@ def predict(machine: Machine, course: Course) -> TestPrediction:
     bound = np.zeros(count)
     for each in machine.unmeasured:
         # Uniform over the bound: u = bound/√3 (JCGM 100, 4.3.7); a squareness error grows with its axis.
-        bound += (each.bound * _gain(each.name, machine, None, course, tool)) ** 2 / 3.0
+        bound += (each.bound * _compute_gain(each.name, machine, None, course, tool)) ** 2 / 3.0
     return TestPrediction(
         values,
-        _compressed(np.concatenate(factors, axis=1)),
+        _compress(np.concatenate(factors, axis=1)),
         MappingProxyType(shares),
         outside,
         np.sqrt(bound),
     )
 
 
-def _gain(
+def _compute_gain(
     name: str, machine: Machine, curve: AxisErrorCurve | None, course: Course, tool: FloatArray | Point
 ) -> FloatArray:
     """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
@@ -136,7 +136,7 @@ def _gain(
     return np.asarray(np.sum(moved * course.sensing, axis=1), dtype=np.float64)
 
 
-def _compressed(factor: FloatArray) -> FloatArray:
+def _compress(factor: FloatArray) -> FloatArray:
     """Return a factor of fewer columns with the same covariance."""
     if factor.shape[1] < 2:
         return factor
@@ -145,14 +145,14 @@ def _compressed(factor: FloatArray) -> FloatArray:
     return np.asarray(factor @ turn[:, kept], dtype=np.float64)
 
 
-def missing_errors(
+def list_missing_errors(
     curves: Mapping[str, AxisErrorCurve], stated: Mapping[str, float]
 ) -> tuple[Unmeasured, ...]:
     """Return the errors that nobody measured, each with its bound: as stated, in m or rad, or as assumed."""
     return tuple(
         Unmeasured(
             name,
-            stated.get(name, float(unit_of(name).to_si(ASSUMED_BOUNDS[kind_of(name)]))),
+            stated.get(name, float(find_unit_of(name).to_si(ASSUMED_BOUNDS[find_kind_of(name)]))),
             name not in stated,
         )
         for name in ERRORS

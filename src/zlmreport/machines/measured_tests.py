@@ -12,7 +12,7 @@ from zlmreport.errors import InputError, quoted
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.machines.axis_errors import error_of, line_of_job
+from zlmreport.machines.axis_errors import find_error_of, find_line_of_job
 from zlmreport.machines.course import CircularTest, Course, StraightTest
 from zlmreport.machines.kinematics import SQUARENESS
 from zlmreport.measurement.arrays import FloatArray, IntArray
@@ -39,7 +39,7 @@ class MeasuredCircle:
         """Evaluate other deviations at the same places, (N,), m, by the standards that the job names."""
         values = np.full(len(self.readings.deviation), np.nan)
         values[self.kept] = deviation
-        return pipeline.parameters(self.job, replace(self.readings, deviation=values), registry)
+        return pipeline.evaluate_parameters(self.job, replace(self.readings, deviation=values), registry)
 
 
 def read_test(path: Path, registry: Registry) -> tuple[MeasuredCircle | StraightTest, list[SourceFile]]:
@@ -51,16 +51,16 @@ def read_test(path: Path, registry: Registry) -> tuple[MeasuredCircle | Straight
     measurements = pipeline.read(job, registry)
     files = [*job.files, *measurements.provenance.files]
     if job.axis.circle is not None:
-        return measured_circle(path.stem, job, job.axis.circle, measurements), files
-    return _line(path.stem, job, measurements), files
+        return read_measured_circle(path.stem, job, job.axis.circle, measurements), files
+    return _read_line(path.stem, job, measurements), files
 
 
-def measured_circle(
+def read_measured_circle(
     name: str, job: Job, nominal: NominalCircle, measurements: MeasurementSet
 ) -> MeasuredCircle:
     """Return the circle that a job measured."""
     kept = np.flatnonzero(np.isfinite(measurements.deviation))
-    tool = line_of_job(job).tool
+    tool = find_line_of_job(job).tool
     bare = CircularTest(
         name,
         nominal,
@@ -72,11 +72,11 @@ def measured_circle(
         tool if any(tool) else None,
     )
     logged = None if measurements.time is None else measurements.time[kept]
-    circle = replace(bare, time=_reckoned(bare) if logged is None or np.isnan(logged).any() else logged)
+    circle = replace(bare, time=_reckon_times(bare) if logged is None or np.isnan(logged).any() else logged)
     return MeasuredCircle(circle, job, measurements, kept)
 
 
-def _reckoned(circle: CircularTest) -> FloatArray:
+def _reckon_times(circle: CircularTest) -> FloatArray:
     """Return times by the feed, the turns in the order of their readings, one after the other."""
     time, begun = np.zeros(len(circle.angle)), 0.0
     for own in sorted(circle.turns(), key=lambda each: int(each[0])):
@@ -86,9 +86,9 @@ def _reckoned(circle: CircularTest) -> FloatArray:
     return time
 
 
-def _line(name: str, job: Job, measurements: MeasurementSet) -> StraightTest:
+def _read_line(name: str, job: Job, measurements: MeasurementSet) -> StraightTest:
     """Return a line in another place: the displacement that a job measured along it."""
-    error = error_of(job)
+    error = find_error_of(job)
     if error in SQUARENESS or error[1] not in AXES:
         raise InputError.at(
             job.place_of("measurement.error"),
@@ -97,7 +97,7 @@ def _line(name: str, job: Job, measurements: MeasurementSet) -> StraightTest:
         )
     found, sides = measurements.deviations(), measurements.approaches
     counts = np.sum(np.isfinite(found), axis=2)
-    line, moving, sensed = line_of_job(job), AXES.index(error[2]), AXES.index(error[1])
+    line, moving, sensed = find_line_of_job(job), AXES.index(error[2]), AXES.index(error[1])
     at = np.concatenate([measurements.target_positions for _ in sides])
     position = np.zeros((len(at), 3))
     for axis, place in line.others.items():

@@ -50,7 +50,7 @@ class NoiseShape:
 SHAPES = tuple(NoiseShape(*each) for each in product(_PATH, _EVEN, _ODD))
 
 
-def geometry(design: ThinnedDesign) -> tuple[FloatArray, FloatArray]:
+def make_geometry(design: ThinnedDesign) -> tuple[FloatArray, FloatArray]:
     """Return irregular geometry, even and odd, as columns of random combination: (N, r) each, variance one.
 
     Waves about the circle, weighted so that their combination is correlated over `GEOMETRY_LENGTH`; each
@@ -95,7 +95,7 @@ class CircleNoise:
 
     def __init__(self, design: ThinnedDesign) -> None:
         self.design = design
-        self.even, self.odd = geometry(design)
+        self.even, self.odd = make_geometry(design)
         self._turns = tuple(np.flatnonzero(design.turn == turn) for turn in design.turns)
         self._by_path: dict[float, Whitening] = {}
 

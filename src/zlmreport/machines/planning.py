@@ -19,7 +19,7 @@ from zlmreport.language import Language, Words
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.design import thinned
 from zlmreport.machines.diagnosis import MachineDiagnosis
-from zlmreport.machines.forms import plain_form, whole_form
+from zlmreport.machines.forms import make_plain_form, make_whole_form
 from zlmreport.machines.noise import CircleNoise, NoiseModel, Whitened
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.arrays import FloatArray
@@ -72,7 +72,7 @@ class NextRun:
     visible: tuple[VisibleSize, ...]
 
 
-def next_run(diagnosis: MachineDiagnosis, catalogue: Sequence[CircleEffect]) -> NextRun:
+def plan_next_run(diagnosis: MachineDiagnosis, catalogue: Sequence[CircleEffect]) -> NextRun:
     """Return the runs that decide between the leading candidates of a diagnosis."""
     study = diagnosis.complete
     tied = diagnosis.candidates[:1]
@@ -83,40 +83,40 @@ def next_run(diagnosis: MachineDiagnosis, catalogue: Sequence[CircleEffect]) -> 
     if len(between) < 2:
         between = ()
     proposals = []
-    for circle, what, minutes in _options(study):
-        decides = _decides(diagnosis, between, circle) if between else 0.0
+    for circle, what, minutes in _list_options(study):
+        decides = _compute_least_decision(diagnosis, between, circle) if between else 0.0
         proposals.append(RunProposal(circle, what, minutes, decides))
     proposals.sort(key=lambda each: -(each.decides if between else 1.0) / each.minutes)
-    return NextRun(between, tuple(proposals), tuple(visible_sizes(study, catalogue)))
+    return NextRun(between, tuple(proposals), tuple(find_visible_sizes(study, catalogue)))
 
 
-def _options(study: CircleStudy) -> Iterator[tuple[CircularTest, Words, float]]:
+def _list_options(study: CircleStudy) -> Iterator[tuple[CircularTest, Words, float]]:
     """Yield runs that are not there yet: the other sense, other feeds, other bars, other planes."""
     circles = study.design.circles
     last = circles[-1]
     senses = {int(each) for each in np.unique(study.design.sense)}
     if len(senses) == 1:
         sense = -senses.pop()
-        yield _run(last, senses=(sense,)), _OTHER_SENSE, _AGAIN + _minutes(last, 1)
+        yield _run(last, senses=(sense,)), _OTHER_SENSE, _AGAIN + _estimate_minutes(last, 1)
     feeds = {round(each.nominal.feed, 9) for each in circles}
     for factor, what in ((4.0, _FASTER), (0.25, _SLOWER)):
         feed = last.nominal.feed * factor
         if feed <= _FASTEST and round(feed, 9) not in feeds and len(feeds) < 3:
             new = _run(last, feed=feed)
-            yield new, what.given(feed=round(feed * 60e3, 1)), _AGAIN + _minutes(new, 2)
+            yield new, what.given(feed=round(feed * 60e3, 1)), _AGAIN + _estimate_minutes(new, 2)
     used = {round(each.nominal.radius, 6) for each in circles}
     for bar in BARS:
         if bar not in used and 0.3 < bar / last.nominal.radius < 3.5:
             new = _run(last, radius=bar)
-            yield new, _OTHER_BAR.given(radius=bar * 1e3), _ANOTHER_BAR + _minutes(new, 2)
+            yield new, _OTHER_BAR.given(radius=bar * 1e3), _ANOTHER_BAR + _estimate_minutes(new, 2)
     for plane in PLANES:
         if plane not in study.design.planes:
             new = _run(last, plane=plane)
-            yield new, _OTHER_PLANE.given(plane=plane), _ANOTHER_PLANE + _minutes(new, 2)
-    yield _run(last), _REPEAT, _AGAIN + _minutes(last, 2)
+            yield new, _OTHER_PLANE.given(plane=plane), _ANOTHER_PLANE + _estimate_minutes(new, 2)
+    yield _run(last), _REPEAT, _AGAIN + _estimate_minutes(last, 2)
 
 
-def _minutes(circle: CircularTest, turns: int) -> float:
+def _estimate_minutes(circle: CircularTest, turns: int) -> float:
     return turns * _OVERSHOOT * 2.0 * math.pi / circle.nominal.angular_speed / 60.0
 
 
@@ -141,14 +141,16 @@ def _run(circle: CircularTest, senses: tuple[int, ...] = (1, -1), **changed: Any
     )
 
 
-def _decides(diagnosis: MachineDiagnosis, between: tuple[CircleEffect, ...], circle: CircularTest) -> float:
+def _compute_least_decision(
+    diagnosis: MachineDiagnosis, between: tuple[CircleEffect, ...], circle: CircularTest
+) -> float:
     """Return the least probability, over pairs, with which a run more tells effects apart."""
     study = diagnosis.complete
     design = thinned([*study.design.circles, circle])
     base = np.concatenate(
         [
             np.zeros((design.count, 0)),
-            *(whole_form(each.effect, design, each.form.searched).columns for each in study.effects),
+            *(make_whole_form(each.effect, design, each.form.searched).columns for each in study.effects),
         ],
         axis=1,
     )
@@ -158,7 +160,7 @@ def _decides(diagnosis: MachineDiagnosis, between: tuple[CircleEffect, ...], cir
     by_name = {each.effect.identifier: each for each in diagnosis.candidates}
     for one in between:
         own = by_name[one.identifier]
-        whole = whole_form(one, design, own.form.searched)
+        whole = make_whole_form(one, design, own.form.searched)
         values = {each.name: each.value for each in own.estimates}
         curve = sum(
             (values.get(term.name, 0.0) * term.column for term in whole.terms), np.zeros(design.count)
@@ -166,13 +168,13 @@ def _decides(diagnosis: MachineDiagnosis, between: tuple[CircleEffect, ...], cir
         for other in between:
             if other is one:
                 continue
-            columns = whole_form(other, design, by_name[other.identifier].form.searched).columns
-            kappa = _apart(whitened, curve, columns) / study.noise.sigma**2
-            least = min(least, _normal((kappa - _STRONG) / (2.0 * math.sqrt(max(kappa, 1e-12)))))
+            columns = make_whole_form(other, design, by_name[other.identifier].form.searched).columns
+            kappa = _measure_apart(whitened, curve, columns) / study.noise.sigma**2
+            least = min(least, _compute_normal((kappa - _STRONG) / (2.0 * math.sqrt(max(kappa, 1e-12)))))
     return least
 
 
-def _apart(whitened: Whitened, curve: FloatArray, columns: FloatArray) -> float:
+def _measure_apart(whitened: Whitened, curve: FloatArray, columns: FloatArray) -> float:
     """Return the squared length of a curve that columns leave of it."""
     own, others = whitened.of(curve[:, np.newaxis]), whitened.of(columns)
     matrix, products = whitened.product(others, others), whitened.product(others, own)
@@ -180,18 +182,18 @@ def _apart(whitened: Whitened, curve: FloatArray, columns: FloatArray) -> float:
     return length - float((products.T @ np.linalg.pinv(matrix, rcond=1e-10) @ products)[0, 0])
 
 
-def _normal(x: float) -> float:
+def _compute_normal(x: float) -> float:
     return 0.5 * (1.0 + math.erf(x / math.sqrt(2.0)))
 
 
-def visible_sizes(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> Iterator[VisibleSize]:
+def find_visible_sizes(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> Iterator[VisibleSize]:
     """Yield the smallest size of each plain effect that circles show half of the time."""
     whitened = study.noise.best
     for effect in catalogue:
         is_searched = any(each.is_refined for each in effect.searched)
         if is_searched or effect.is_base or effect.identifier in study.names:
             continue
-        for term in plain_form(effect, study.design).terms:
+        for term in make_plain_form(effect, study.design).terms:
             own = whitened.of(term.column[:, np.newaxis])
             left, full = float(whitened.product(own, own)[0, 0]), float(np.sum(own**2))
             if left > _LEAST_SHARE * full:

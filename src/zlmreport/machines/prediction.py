@@ -7,20 +7,20 @@ from typing import Any
 
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.machine import Machine
-from zlmreport.machines.report import compared_values, diagonal_values, error_values, volume_values
-from zlmreport.machines.volume import diagonals, measured_space, volume_map
+from zlmreport.machines.report import collect_compared, collect_diagonal, collect_errors, collect_volume
+from zlmreport.machines.volume import find_measured_space, map_volume, predict_diagonals
 
 SCHEMA = "zlmreport/prediction/1"
 
 
-def prediction_values(machine: Machine, compared: Iterable[ComparedTest]) -> dict[str, Any]:
+def collect_prediction(machine: Machine, compared: Iterable[ComparedTest]) -> dict[str, Any]:
     """Return what the axes predict of each test, of the work space and of its diagonals."""
-    space = measured_space(machine)
+    space = find_measured_space(machine)
     return {
         "schema": SCHEMA,
         "chain": machine.chain.letters,
-        "errors": error_values(machine),
-        "tests": [compared_values(each) for each in compared],
-        "volume": volume_values(volume_map(machine, space)) if space else None,
-        "diagonals": [diagonal_values(each) for each in diagonals(machine, space)] if space else [],
+        "errors": collect_errors(machine),
+        "tests": [collect_compared(each) for each in compared],
+        "volume": collect_volume(map_volume(machine, space)) if space else None,
+        "diagonals": [collect_diagonal(each) for each in predict_diagonals(machine, space)] if space else [],
     }

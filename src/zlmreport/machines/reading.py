@@ -8,24 +8,24 @@ from pathlib import Path
 
 from zlmreport import pipeline
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.files import demanded
+from zlmreport.files import demand
 from zlmreport.job.extends import MACHINE
 from zlmreport.job.loading import KeysFile, load, read_keys_file
-from zlmreport.job.tree import Items, Keys, found_at
+from zlmreport.job.tree import Items, Keys, find_at
 from zlmreport.machines.axis_errors import (
     LARGEST,
     Opened,
-    bounds_of,
-    curve_of_certificate,
-    curve_of_job,
-    curves_of_statement,
+    make_curve_of_certificate,
+    make_curve_of_job,
+    read_bounds_of,
+    read_curves_of_statement,
 )
-from zlmreport.machines.choosing import study_of
+from zlmreport.machines.choosing import study_circles
 from zlmreport.machines.course import CircularTest, StraightTest
-from zlmreport.machines.curve import AxisErrorCurve, without_alignment
+from zlmreport.machines.curve import AxisErrorCurve, remove_alignment
 from zlmreport.machines.keys import MachineKeys, StatedKeys
 from zlmreport.machines.kinematics import Chain
-from zlmreport.machines.machine import Machine, missing_errors
+from zlmreport.machines.machine import Machine, list_missing_errors
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
 from zlmreport.machines.study import CircleStudy
 from zlmreport.measurement.provenance import SourceFile
@@ -67,7 +67,7 @@ class MachineFile:
             raise InputError.at(
                 self.file.place_of("tests"), "no circle is among the tests; a diagnosis needs one at least"
             )
-        return study_of(self.machine, self.circles, self.effects if effects is None else effects)
+        return study_circles(self.machine, self.circles, self.effects if effects is None else effects)
 
     @property
     def test_names(self) -> tuple[str, ...]:
@@ -80,23 +80,23 @@ class MachineFile:
         return self.file.keys.certificate.number or self.path.stem
 
 
-def no_pdf(_path: Path) -> bytes | None:
+def open_no_pdf(_path: Path) -> bytes | None:
     """Open no PDF."""
     return None
 
 
-def read_machine(path: Path, registry: Registry, opened: Opened = no_pdf) -> MachineFile:
+def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -> MachineFile:
     """Read a machine file and all that it names.
 
     Raises `InputError` with every mistake of the file itself; `AccessError` if a file cannot be read.
     """
     file = read_keys_file(path, MachineKeys, MACHINE)
     problems: list[Problem] = []
-    chain = _chain(file, problems)
-    curves, sources = _curves(file, registry, opened, problems)
-    bounds_node = found_at(file.tree, ("bounds",))
-    bounds = bounds_of(file.keys.bounds, bounds_node, problems) if isinstance(bounds_node, Keys) else {}
-    effects = _effects(file, registry, problems)
+    chain = _read_chain(file, problems)
+    curves, sources = _read_curves(file, registry, opened, problems)
+    bounds_node = find_at(file.tree, ("bounds",))
+    bounds = read_bounds_of(file.keys.bounds, bounds_node, problems) if isinstance(bounds_node, Keys) else {}
+    effects = _choose_effects(file, registry, problems)
     circles: list[MeasuredCircle] = []
     lines: list[StraightTest] = []
     names: set[str] = set()
@@ -124,8 +124,8 @@ def read_machine(path: Path, registry: Registry, opened: Opened = no_pdf) -> Mac
     machine = Machine(
         chain,
         (tool[0] / 1e3, tool[1] / 1e3, tool[2] / 1e3),
-        tuple(without_alignment(each) for each in curves.values()),
-        missing_errors(curves, bounds),
+        tuple(remove_alignment(each) for each in curves.values()),
+        list_missing_errors(curves, bounds),
     )
     return MachineFile(
         path, file, machine, tuple(circles), tuple(lines), (file.file, *file.extended, *sources), effects,
@@ -133,7 +133,7 @@ def read_machine(path: Path, registry: Registry, opened: Opened = no_pdf) -> Mac
     )  # fmt: skip
 
 
-def _effects(
+def _choose_effects(
     file: KeysFile[MachineKeys], registry: Registry, problems: list[Problem]
 ) -> tuple[CircleEffect, ...]:
     """Return the effects of the model; one that there is not, or that stands there twice, is a problem."""
@@ -150,7 +150,7 @@ def _effects(
     return tuple(found.values())
 
 
-def _chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain | None:
+def _read_chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain | None:
     try:
         return Chain(file.keys.chain)
     except ValueError as error:
@@ -158,21 +158,21 @@ def _chain(file: KeysFile[MachineKeys], problems: list[Problem]) -> Chain | None
         return None
 
 
-def _curves(
+def _read_curves(
     file: KeysFile[MachineKeys], registry: Registry, opened: Opened, problems: list[Problem]
 ) -> tuple[dict[str, AxisErrorCurve], list[SourceFile]]:
     """Return the errors that the file names, by name, and the files that they came from."""
     found: dict[str, AxisErrorCurve] = {}
     sources: list[SourceFile] = []
-    node = found_at(file.tree, ("errors",))
+    node = find_at(file.tree, ("errors",))
     items = node.items if isinstance(node, Items) else (node,) if node else ()
     for item, stated in zip(items, file.keys.errors, strict=True):
         place = item.place
         try:
             if isinstance(stated, StatedKeys):
-                curves = curves_of_statement(stated, item, problems) if isinstance(item, Keys) else []
+                curves = read_curves_of_statement(stated, item, problems) if isinstance(item, Keys) else []
             else:
-                curve, read = _curve_of_file(stated, place, registry, opened)
+                curve, read = _read_curve_of_file(stated, place, registry, opened)
                 curves, sources = [curve], sources + read
         except InputError as error:
             problems += error.problems
@@ -188,12 +188,12 @@ def _curves(
     return found, sources
 
 
-def _curve_of_file(
+def _read_curve_of_file(
     path: Path, place: Place, registry: Registry, opened: Opened
 ) -> tuple[AxisErrorCurve, list[SourceFile]]:
     if path.suffix.casefold() in _CERTIFICATES:
-        return curve_of_certificate(path, place, opened), [SourceFile.of(path, demanded(path, LARGEST))]
+        return make_curve_of_certificate(path, place, opened), [SourceFile.of(path, demand(path, LARGEST))]
     job = load(path, registry)
     measurements = pipeline.read(job, registry)
     files = [*job.files, *measurements.provenance.files]
-    return curve_of_job(job, measurements, registry), files
+    return make_curve_of_job(job, measurements, registry), files

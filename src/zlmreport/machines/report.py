@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.machines.comparison import ComparedTest, StandardNumbers
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.kinematics import ERRORS
-from zlmreport.machines.machine import Machine, unit_of
+from zlmreport.machines.machine import Machine, find_unit_of
 from zlmreport.machines.residual import Stretch
 from zlmreport.machines.volume import Diagonal, VolumeMap
 from zlmreport.model.effects.circle_design import AXES
@@ -19,12 +19,12 @@ _MICRO, _MILLI = 1e6, 1e3
 _SENSES = {1: "ccw", -1: "cw"}
 
 
-def error_values(machine: Machine) -> list[dict[str, Any]]:
+def collect_errors(machine: Machine) -> list[dict[str, Any]]:
     """Return the 21 errors: those that are known with their uncertainty, the others with their bounds."""
     unmeasured = {each.name: each for each in machine.unmeasured}
     found: list[dict[str, Any]] = []
     for name in ERRORS:
-        unit, curve = unit_of(name), machine.curve(name)
+        unit, curve = find_unit_of(name), machine.curve(name)
         if curve is None:
             missing = unmeasured[name]
             found.append(
@@ -53,7 +53,7 @@ def error_values(machine: Machine) -> list[dict[str, Any]]:
     return found
 
 
-def compared_values(found: ComparedTest) -> dict[str, Any]:
+def collect_compared(found: ComparedTest) -> dict[str, Any]:
     """Return a test with all its curves."""
     prediction, test = found.prediction, found.test
     if isinstance(test, CircularTest):
@@ -84,41 +84,41 @@ def compared_values(found: ComparedTest) -> dict[str, Any]:
         "outside_measured_range": prediction.outside.tolist(),
         "measured": (_MICRO * test.deviation).tolist(),
         "residual": (_MICRO * found.left).tolist(),
-        **compared_sizes(found),
+        **collect_compared_sizes(found),
     }
 
 
-def compared_sizes(found: ComparedTest) -> dict[str, Any]:
+def collect_compared_sizes(found: ComparedTest) -> dict[str, Any]:
     """Return how large a test is, without its curves."""
     return {
         "test": found.name,
         "rms_measured": _MICRO * found.rms.measured,
         "rms_predicted": _MICRO * found.rms.predicted,
         "rms_left": _MICRO * found.rms.left,
-        "numbers": [_standard_values(each) for each in found.numbers],
-        "of_axes": _in_micrometres(found.of_axes),
-        "of_effects": _in_micrometres(found.of_effects),
+        "numbers": [_collect_standard_values(each) for each in found.numbers],
+        "of_axes": _write_in_micrometres(found.of_axes),
+        "of_effects": _write_in_micrometres(found.of_effects),
         "fails": [
-            stretch_values(each, is_circle=isinstance(found.test, CircularTest)) for each in found.fails
+            collect_stretch(each, is_circle=isinstance(found.test, CircularTest)) for each in found.fails
         ],
         "unit": "um",
     }
 
 
-def _in_micrometres(values: Mapping[str, float]) -> dict[str, float]:
+def _write_in_micrometres(values: Mapping[str, float]) -> dict[str, float]:
     return {name: _MICRO * value for name, value in values.items()}
 
 
-def _standard_values(numbers: StandardNumbers) -> dict[str, Any]:
+def _collect_standard_values(numbers: StandardNumbers) -> dict[str, Any]:
     return {
         "standard": numbers.standard,
         "measured": {each.quantity.symbol: _MICRO * each.value for each in numbers.measured},
-        "predicted": _in_micrometres(numbers.predicted),
-        "left": _in_micrometres(numbers.left),
+        "predicted": _write_in_micrometres(numbers.predicted),
+        "left": _write_in_micrometres(numbers.left),
     }
 
 
-def stretch_values(stretch: Stretch, *, is_circle: bool) -> dict[str, Any]:
+def collect_stretch(stretch: Stretch, *, is_circle: bool) -> dict[str, Any]:
     """Return where a residual leaves its band: over the angle or the line, and on each axis that moves."""
     begin, end = (
         float(np.degrees(each)) if is_circle else each * _MILLI for each in (stretch.begin, stretch.end)
@@ -133,7 +133,7 @@ def stretch_values(stretch: Stretch, *, is_circle: bool) -> dict[str, Any]:
     }
 
 
-def volume_values(found: VolumeMap) -> dict[str, Any]:
+def collect_volume(found: VolumeMap) -> dict[str, Any]:
     """Return the map of the work space."""
     place = found.largest
     return {
@@ -153,7 +153,7 @@ def volume_values(found: VolumeMap) -> dict[str, Any]:
     }
 
 
-def diagonal_values(diagonal: Diagonal) -> dict[str, Any]:
+def collect_diagonal(diagonal: Diagonal) -> dict[str, Any]:
     """Return what is predicted of a body diagonal."""
     return {
         "diagonal": diagonal.name,

@@ -19,7 +19,7 @@ _MEDIAN_OF_NORMAL = 0.6745
 _POINTS = 50
 
 
-def centred(circle: CircularTest, values: FloatArray) -> FloatArray:
+def centre(circle: CircularTest, values: FloatArray) -> FloatArray:
     """Return radial deviations without the centre of each turn, and without the mean radius of the test.
 
     The mean radius stays where the bar is calibrated.
@@ -36,19 +36,19 @@ def centred(circle: CircularTest, values: FloatArray) -> FloatArray:
     return np.asarray(values - base @ np.linalg.lstsq(base, values, rcond=None)[0], dtype=np.float64)
 
 
-def root_mean_square(values: FloatArray) -> float:
+def compute_root_mean_square(values: FloatArray) -> float:
     """Return the root of the mean square."""
     return float(np.sqrt(np.mean(values**2))) if len(values) else 0.0
 
 
-def scatter_within(circle: CircularTest, residual: FloatArray) -> float:
+def estimate_scatter_within(circle: CircularTest, residual: FloatArray) -> float:
     """Return by how much means over half a correlation length scatter, m: by how they bend at random.
 
     The second difference of three neighbours has six times their variance; its median does not see a step.
     """
     bends = []
     for turn in circle.turns():
-        _, mean, count = _arcs(circle.angle[turn], residual[turn])
+        _, mean, count = _split_into_arcs(circle.angle[turn], residual[turn])
         there = mean[count > 0]
         bends.append(there[:-2] - 2.0 * there[1:-1] + there[2:])
     together = np.abs(np.concatenate(bends))
@@ -66,7 +66,7 @@ class Stretch:
     largest: float  #: The residual there, m.
 
 
-def stretches(circle: CircularTest, residual: FloatArray, standard: FloatArray) -> tuple[Stretch, ...]:
+def find_stretches(circle: CircularTest, residual: FloatArray, standard: FloatArray) -> tuple[Stretch, ...]:
     """Return where a residual is beyond twice its standard deviation for longer than a correlation length.
 
     `residual`, `standard`, (N,): m. The residual is averaged over a correlation length first; `standard` is
@@ -77,15 +77,15 @@ def stretches(circle: CircularTest, residual: FloatArray, standard: FloatArray) 
         own = np.flatnonzero(circle.sense == way)
         if not len(own):
             continue
-        edges, mean, count = _arcs(circle.angle[own], residual[own])
-        u = np.sqrt(_arcs(circle.angle[own], standard[own] ** 2)[1])
+        edges, mean, count = _split_into_arcs(circle.angle[own], residual[own])
+        u = np.sqrt(_split_into_arcs(circle.angle[own], standard[own] ** 2)[1])
         beyond = (count > 0) & (np.abs(mean) > 2.0 * u)
-        found += [_arc(circle, way, (edges[first], edges[last + 1]), mean[first : last + 1])
-                  for first, last in _runs(beyond, mean)]  # fmt: skip
+        found += [_make_arc(circle, way, (edges[first], edges[last + 1]), mean[first : last + 1])
+                  for first, last in _find_runs(beyond, mean)]  # fmt: skip
     return tuple(sorted(found, key=lambda each: -abs(each.largest)))
 
 
-def _arcs(angle: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
+def _split_into_arcs(angle: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray, IntArray]:
     """Return the edges of arcs of half a correlation length, and mean and number of values in each."""
     bins = round(2.0 * np.pi / _LENGTH) * 2
     where = np.floor((angle % (2.0 * np.pi)) / (2.0 * np.pi) * bins).astype(int) % bins
@@ -94,7 +94,7 @@ def _arcs(angle: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray
     return np.linspace(0.0, 2.0 * np.pi, bins + 1), mean, count
 
 
-def _runs(beyond: BoolArray, mean: FloatArray) -> Iterator[tuple[int, int]]:
+def _find_runs(beyond: BoolArray, mean: FloatArray) -> Iterator[tuple[int, int]]:
     """Yield first and last place of stretches of two places or more, of one sign."""
     start = None
     for index in range(len(beyond) + 1):
@@ -107,20 +107,22 @@ def _runs(beyond: BoolArray, mean: FloatArray) -> Iterator[tuple[int, int]]:
             start = index if index < len(beyond) and beyond[index] else None
 
 
-def _arc(circle: CircularTest, way: float, ends: tuple[float, float], mean: FloatArray) -> Stretch:
+def _make_arc(circle: CircularTest, way: float, ends: tuple[float, float], mean: FloatArray) -> Stretch:
     angles = np.linspace(*ends, _POINTS)
     coordinates = {}
     for axis, wave in zip(circle.axes, (np.cos(angles), np.sin(angles)), strict=True):
         places = circle.nominal.centre[axis] + circle.nominal.radius * wave
         coordinates[AXES[axis]] = (float(places.min()), float(places.max()))
-    return Stretch(way, float(ends[0]), float(ends[1]), coordinates, _largest(mean))
+    return Stretch(way, float(ends[0]), float(ends[1]), coordinates, _find_largest(mean))
 
 
-def _largest(values: FloatArray) -> float:
+def _find_largest(values: FloatArray) -> float:
     return float(values[np.argmax(np.abs(values))])
 
 
-def stretches_of_line(line: StraightTest, residual: FloatArray, standard: FloatArray) -> tuple[Stretch, ...]:
+def find_stretches_of_line(
+    line: StraightTest, residual: FloatArray, standard: FloatArray
+) -> tuple[Stretch, ...]:
     """Return where a residual along a line is beyond twice its standard deviation at two places or more."""
     found: list[Stretch] = []
     direction = np.sign(line.course.motion.sum(axis=1))
@@ -128,7 +130,7 @@ def stretches_of_line(line: StraightTest, residual: FloatArray, standard: FloatA
         own = np.flatnonzero(direction == way)
         own = own[np.argsort(line.at[own])]
         left, place = residual[own], line.course.position[own]
-        for first, last in _runs(np.abs(left) > 2.0 * standard[own], left):
+        for first, last in _find_runs(np.abs(left) > 2.0 * standard[own], left):
             part = place[first : last + 1]
             coordinates = {
                 axis: (float(part[:, index].min()), float(part[:, index].max()))
@@ -137,6 +139,8 @@ def stretches_of_line(line: StraightTest, residual: FloatArray, standard: FloatA
             }
             ends = line.at[own][first], line.at[own][last]
             found.append(
-                Stretch(way, float(ends[0]), float(ends[1]), coordinates, _largest(left[first : last + 1]))
+                Stretch(
+                    way, float(ends[0]), float(ends[1]), coordinates, _find_largest(left[first : last + 1])
+                )
             )
     return tuple(sorted(found, key=lambda each: -abs(each.largest)))

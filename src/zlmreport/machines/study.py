@@ -229,7 +229,7 @@ class CircleStudy:
         )
 
 
-def said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
+def list_said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
     """Return the estimates of terms, as an effect is asked to say what they mean."""
     return [
         Estimate(each.name, each.unit, each.value, each.expanded_uncertainty)
@@ -238,7 +238,7 @@ def said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
     ]
 
 
-def bare_study(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy:
+def study_bare(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy:
     """Return the study of circles with an empty model."""
     circles = [clear_of_reversals(each) for each in circles]
     design = thinned(circles)

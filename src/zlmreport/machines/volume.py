@@ -73,7 +73,7 @@ class Diagonal:
         return float(np.ptp(self.deviation))
 
 
-def measured_space(machine: Machine) -> Space | None:
+def find_measured_space(machine: Machine) -> Space | None:
     """Return the box over which the errors of the axes were measured; None if no axis was.
 
     An axis without a curve of its own stays at one place: 0, or where its line was.
@@ -90,14 +90,14 @@ def measured_space(machine: Machine) -> Space | None:
     return Space(low, high) if np.any(high > low) and np.all(high >= low) else None
 
 
-def volume_map(machine: Machine, space: Space) -> VolumeMap:
+def map_volume(machine: Machine, space: Space) -> VolumeMap:
     """Return the error over the work space."""
     grids = [
         np.linspace(low, high, _POINTS) if high > low else np.array([low])
         for low, high in zip(space.low, space.high, strict=True)
     ]
     points = np.array(list(product(*grids)))
-    values, factor, bound = _relative(machine, points, space.middle)
+    values, factor, bound = _compute_relative(machine, points, space.middle)
     shape = tuple(len(grid) for grid in grids)
     length = np.linalg.norm(values, axis=1)
     # U of the length of Δ: along Δ; where Δ is nothing, the largest of any direction.
@@ -114,7 +114,7 @@ def volume_map(machine: Machine, space: Space) -> VolumeMap:
     )
 
 
-def diagonals(machine: Machine, space: Space, points: int = 21) -> tuple[Diagonal, ...]:
+def predict_diagonals(machine: Machine, space: Space, points: int = 21) -> tuple[Diagonal, ...]:
     """Return what the errors predict of the four body diagonals."""
     found = []
     for name in DIAGONALS:
@@ -124,7 +124,7 @@ def diagonals(machine: Machine, space: Space, points: int = 21) -> tuple[Diagona
         way = end - begin
         length = float(np.linalg.norm(way))
         share = np.linspace(0.0, 1.0, points)
-        values, factor, _ = _relative(machine, begin + share[:, np.newaxis] * way, begin)
+        values, factor, _ = _compute_relative(machine, begin + share[:, np.newaxis] * way, begin)
         sensed = np.einsum("ndr,d->nr", factor, way / length)
         found.append(
             Diagonal(name, share * length, values @ way / length, 2.0 * np.sqrt(np.sum(sensed**2, axis=1)))
@@ -132,7 +132,7 @@ def diagonals(machine: Machine, space: Space, points: int = 21) -> tuple[Diagona
     return tuple(found)
 
 
-def _relative(
+def _compute_relative(
     machine: Machine, points: FloatArray, origin: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return Δ relative to a point, (N, 3), its factor, (N, 3, r), and u of what nobody measured, (N,)."""

@@ -178,6 +178,6 @@ def refuse_other_than_positions(axis: Axis, place: Place, reason: str) -> None:
         raise InputError.at(place, f"this job is on {named}, not on positioning: {reason}")
 
 
-def position_units(kind: AxisKind) -> Mapping[str, Unit]:
+def list_position_units(kind: AxisKind) -> Mapping[str, Unit]:
     """Return the units in which positions and deviations of an axis may be given."""
     return LENGTH_UNITS if kind is AxisKind.LINEAR else ANGLE_UNITS

@@ -113,18 +113,18 @@ def collect(
     found = list(problems)
     sound = []
     for reading in readings:
-        wrong = list(_wrong_alone(reading, axis))
+        wrong = list(_find_wrong_alone(reading, axis))
         found.extend(wrong)
         if not wrong:
             sound.append(reading)
     if sound:
-        measurements = _arranged(sound, axis, provenance)
-        found.extend(problems_of(measurements, [reading.place for reading in sound]))
+        measurements = _arrange_readings(sound, axis, provenance)
+        found.extend(find_problems_of(measurements, [reading.place for reading in sound]))
         if not found:
             return measurements
     elif not found:
         found.append(Problem(place, "holds no readings"))
-    raise InputError(_capped(found))
+    raise InputError(_cap_problems(found))
 
 
 def is_run(number: float) -> bool:
@@ -132,12 +132,12 @@ def is_run(number: float) -> bool:
     return 1 <= number <= _MOST_RUNS and float(number).is_integer()
 
 
-def no_run(number: float) -> str:
+def say_no_run(number: float) -> str:
     """Return what to say of a number that cannot be that of a run."""
     return f"{number:.9g} is no number of a run; runs are counted 1, 2, 3 and so on"
 
 
-def _wrong_alone(reading: Reading, axis: Axis) -> Iterator[Problem]:
+def _find_wrong_alone(reading: Reading, axis: Axis) -> Iterator[Problem]:
     """Yield what is wrong with a reading whatever the others are."""
     if axis.measurand.coordinate is Coordinate.TIME:
         if not abs(reading.target_position) <= _LONGEST:
@@ -145,19 +145,19 @@ def _wrong_alone(reading: Reading, axis: Axis) -> Iterator[Problem]:
     elif not abs(reading.target_position) <= _FARTHEST:
         yield Problem(reading.place, "the target position is not on any axis; is its unit right?")
     if not is_run(reading.run):
-        yield Problem(reading.place, no_run(reading.run))
+        yield Problem(reading.place, say_no_run(reading.run))
     quantities = {"the deviation": reading.deviation, "the time": reading.time or 0.0, **reading.conditions}
     for name, value in quantities.items():
         if math.isinf(value):
             yield Problem(reading.place, f"{name} is infinite; a reading is a finite number")
 
 
-def _arranged(readings: Sequence[Reading], axis: Axis, provenance: Provenance) -> MeasurementSet:
+def _arrange_readings(readings: Sequence[Reading], axis: Axis, provenance: Provenance) -> MeasurementSet:
     """Return the readings as a measurement set that nobody has checked yet."""
-    positions, target = _targets(np.array([reading.target_position for reading in readings]))
+    positions, target = _find_targets(np.array([reading.target_position for reading in readings]))
     deviation = np.array([reading.deviation for reading in readings])
     if axis.kind is AxisKind.ROTARY and axis.measurand.is_position:
-        deviation, wrapped = _unwrapped(deviation)
+        deviation, wrapped = _unwrap_turns(deviation)
         if wrapped:
             remark = _MODULO.given(count=wrapped)
             provenance = replace(provenance, remarks=(*provenance.remarks, remark))
@@ -183,7 +183,7 @@ def _arranged(readings: Sequence[Reading], axis: Axis, provenance: Provenance) -
     )
 
 
-def _unwrapped(deviation: FloatArray) -> tuple[FloatArray, int]:
+def _unwrap_turns(deviation: FloatArray) -> tuple[FloatArray, int]:
     """Return deviations without the whole turns in them, and how many had some.
 
     A display that counts modulo 360° shows 359.99° for a target of 0°, and 0.01° for one of 360°.
@@ -192,7 +192,7 @@ def _unwrapped(deviation: FloatArray) -> tuple[FloatArray, int]:
     return np.where(turns == 0, deviation, deviation - 2 * math.pi * turns), int(np.count_nonzero(turns))
 
 
-def _targets(positions: FloatArray) -> tuple[FloatArray, IntArray]:
+def _find_targets(positions: FloatArray) -> tuple[FloatArray, IntArray]:
     """Return the distinct target positions, rising, and for each reading the index of its own.
 
     Positions that differ by the noise of a computation (0.3 and 0.1 + 0.2) are one target: the one that
@@ -206,7 +206,7 @@ def _targets(positions: FloatArray) -> tuple[FloatArray, IntArray]:
     return distinct[by_frequency[first]], cluster[spelling]
 
 
-def _capped(problems: Sequence[Problem]) -> list[Problem]:
+def _cap_problems(problems: Sequence[Problem]) -> list[Problem]:
     """Return the first problems in the order of the file, and how many more there are."""
     ordered = sorted(set(problems))
     named, more = ordered[:MOST_NAMED], ordered[MOST_NAMED:]
@@ -215,16 +215,18 @@ def _capped(problems: Sequence[Problem]) -> list[Problem]:
     return named
 
 
-def problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
+def find_problems_of(measurements: MeasurementSet, places: Sequence[Place]) -> list[Problem]:
     """Return everything that is wrong with the readings together.
 
     `measurements`: The readings, arranged but not checked.
     """
-    misread = list(_columns_are_what_they_say(measurements, places))
+    misread = list(_check_columns_are_what_they_say(measurements, places))
     return misread or [problem for check in _CHECKS for problem in check(measurements, places)]
 
 
-def _columns_are_what_they_say(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_columns_are_what_they_say(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
     """Refuse what is no test at all: something else was taken for the target position or the run."""
     targets, runs = len(measurements.target_positions), len(measurements.runs)
     readings = len(measurements.deviation)
@@ -243,7 +245,9 @@ def _columns_are_what_they_say(measurements: MeasurementSet, places: Sequence[Pl
         )
 
 
-def _targets_lie_on_the_travel(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_targets_lie_on_the_travel(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
     axis = measurements.axis
     if axis.travel is None:
         return
@@ -255,39 +259,44 @@ def _targets_lie_on_the_travel(measurements: MeasurementSet, places: Sequence[Pl
             unit = axis.position_unit
             yield Problem(
                 places[reading],
-                f"target {_position(measurements, index)} lies off the travel (axis.travel in the job), "
+                f"target {_write_position(measurements, index)} lies off the travel "
+                "(axis.travel in the job), "
                 f"{unit.from_si(first):.9g} to {unit.from_si(last):.9g} {unit.symbol}",
             )
 
 
-def _no_reading_is_there_twice(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
-    passes = _passes(measurements)
+def _check_no_reading_is_there_twice(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
+    passes = _number_passes(measurements)
     key = passes * len(measurements.target_positions) + measurements.target
     _, first, same = np.unique(key, return_index=True, return_inverse=True)
     for reading in np.flatnonzero(first[same] != np.arange(len(key))).tolist():
         earlier = places[first[same[reading]]]
         yield Problem(
             places[reading],
-            f"{_named(measurements, reading)}, stands in line {earlier.line} already; "
-            f"a repeated run has a number of its own{_of_a_turn(measurements, reading)}",
+            f"{_name_reading(measurements, reading)}, stands in line {earlier.line} already; "
+            f"a repeated run has a number of its own{_say_of_a_turn(measurements, reading)}",
         )
 
 
-def _of_a_turn(measurements: MeasurementSet, reading: int) -> str:
+def _say_of_a_turn(measurements: MeasurementSet, reading: int) -> str:
     """Return what may be meant where the end of a full turn stands as its beginning."""
     is_zero = measurements.target_positions[measurements.target[reading]] == 0
     is_rotary = measurements.axis.kind is AxisKind.ROTARY
     return "; the target at the end of a full turn is 360" if is_zero and is_rotary else ""
 
 
-def _no_target_is_off_the_list(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_no_target_is_off_the_list(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
     """Refuse a target that most runs do not have, where one that they have was left out."""
-    occupied = _occupied(measurements)
-    regular = _regular_targets(occupied)
+    occupied = _find_occupied(measurements)
+    regular = _find_regular_targets(occupied)
     if np.all(regular):
         return
     ordinary_pass = 2 * np.count_nonzero(occupied[:, regular], axis=1) >= np.count_nonzero(regular)
-    passes = _passes(measurements)
+    passes = _number_passes(measurements)
     for reading in np.flatnonzero(~regular[measurements.target] & ordinary_pass[passes]).tolist():
         left_out = np.flatnonzero(regular & ~occupied[passes[reading]])
         if left_out.size:
@@ -296,15 +305,17 @@ def _no_target_is_off_the_list(measurements: MeasurementSet, places: Sequence[Pl
             meant = int(left_out[np.argmin(np.abs(targets[left_out] - targets[index]))])
             yield Problem(
                 places[reading],
-                f"target {_position(measurements, index)} is on no other run's list, and "
-                f"{_position(measurements, meant)}, which is, has no reading in this run; was that meant? "
-                "(A target that was left out keeps its row, with an empty cell.)",
+                f"target {_write_position(measurements, index)} is on no other run's list, and "
+                f"{_write_position(measurements, meant)}, which is, has no reading in this run; "
+                "was that meant? (A target that was left out keeps its row, with an empty cell.)",
             )
 
 
-def _deviations_are_credible(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_deviations_are_credible(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
     """Refuse deviations that reach the next target: positions given as deviations, or a wrong unit."""
-    largest, what = _largest_deviation(measurements)
+    largest, what = _find_largest_deviation(measurements)
     beyond = np.flatnonzero(np.abs(measurements.deviation) > largest).tolist()
     axis = measurements.axis
     unit = axis.position_unit if axis.measurand.is_position else axis.deviation_unit
@@ -323,12 +334,12 @@ def _deviations_are_credible(measurements: MeasurementSet, places: Sequence[Plac
         )
 
 
-def _something_was_read(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_something_was_read(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
     if np.all(np.isnan(measurements.deviation)):
         yield Problem(Place(places[0].file), "every reading is missing; there is nothing to evaluate")
 
 
-def _times_do_not_fall(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_times_do_not_fall(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
     if measurements.time is None:
         return
     logged = np.flatnonzero(~np.isnan(measurements.time))
@@ -340,7 +351,9 @@ def _times_do_not_fall(measurements: MeasurementSet, places: Sequence[Place]) ->
         )
 
 
-def _conditions_are_credible(measurements: MeasurementSet, places: Sequence[Place]) -> Iterator[Problem]:
+def _check_conditions_are_credible(
+    measurements: MeasurementSet, places: Sequence[Place]
+) -> Iterator[Problem]:
     for name, values in measurements.conditions.items():
         kind = CONDITIONS.get(name)
         if kind is None:
@@ -356,44 +369,44 @@ def _conditions_are_credible(measurements: MeasurementSet, places: Sequence[Plac
 
 
 _CHECKS: tuple[Check, ...] = (
-    _targets_lie_on_the_travel,
-    _no_reading_is_there_twice,
-    _no_target_is_off_the_list,
-    _deviations_are_credible,
-    _something_was_read,
-    _times_do_not_fall,
-    _conditions_are_credible,
+    _check_targets_lie_on_the_travel,
+    _check_no_reading_is_there_twice,
+    _check_no_target_is_off_the_list,
+    _check_deviations_are_credible,
+    _check_something_was_read,
+    _check_times_do_not_fall,
+    _check_conditions_are_credible,
 )
 
 
-def _passes(measurements: MeasurementSet) -> IntArray:
+def _number_passes(measurements: MeasurementSet) -> IntArray:
     """Return for each reading the index of its pass over the targets: one run in one direction."""
     _, run = np.unique(measurements.run, return_inverse=True)
     _, index = np.unique(2 * run + (measurements.approach == Approach.POSITIVE), return_inverse=True)
     return np.asarray(index, dtype=np.int64)
 
 
-def _occupied(measurements: MeasurementSet) -> BoolArray:
+def _find_occupied(measurements: MeasurementSet) -> BoolArray:
     """Return which pass has a row for which target, shape (pass, target)."""
-    passes = _passes(measurements)
+    passes = _number_passes(measurements)
     occupied = np.zeros((passes.max() + 1, len(measurements.target_positions)), dtype=np.bool_)
     occupied[passes, measurements.target] = True
     return occupied
 
 
-def _regular_targets(occupied: BoolArray) -> BoolArray:
+def _find_regular_targets(occupied: BoolArray) -> BoolArray:
     """Return which targets more than half of the passes have."""
     return np.asarray(2 * np.count_nonzero(occupied, axis=0) > len(occupied), dtype=np.bool_)
 
 
-def _largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
+def _find_largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
     """Return the largest deviation that can be one, m or rad, and what it is."""
     measurand = measurements.axis.measurand
     if not measurand.is_position:
         if measurand.coordinate is Coordinate.TIME:
             return _WIDEST[0], "any displacement over time"
         return (_WIDEST_ANGLE, "any angle of an axis") if measurand.unit in ANGLES else _WIDEST
-    regular = _regular_targets(_occupied(measurements))
+    regular = _find_regular_targets(_find_occupied(measurements))
     targets = measurements.target_positions
     if np.count_nonzero(regular) > 1:
         targets = targets[regular]
@@ -408,12 +421,12 @@ def _largest_deviation(measurements: MeasurementSet) -> tuple[float, str]:
     return _ONE, "any deviation"
 
 
-def _position(measurements: MeasurementSet, index: int) -> str:
+def _write_position(measurements: MeasurementSet, index: int) -> str:
     unit = measurements.axis.position_unit
     return f"{unit.from_si(float(measurements.target_positions[index])):.9g} {unit.symbol}"
 
 
-def _named(measurements: MeasurementSet, reading: int) -> str:
+def _name_reading(measurements: MeasurementSet, reading: int) -> str:
     arrow = Approach(int(measurements.approach[reading])).arrow
-    target = _position(measurements, int(measurements.target[reading]))
+    target = _write_position(measurements, int(measurements.target[reading]))
     return f"target {target} {arrow}, run {measurements.run[reading]}"

@@ -11,10 +11,10 @@ from typing import ClassVar, Protocol, TypeVar
 
 from zlmreport.errors import InputError, Place, Problem, did_you_mean, quoted
 from zlmreport.language.formatting import DecimalSign
-from zlmreport.measurement.collect import is_run, no_run
+from zlmreport.measurement.collect import is_run, say_no_run
 from zlmreport.measurement.table import THOUSANDS, UNITS, Row, TextTable
 from zlmreport.measurement.text_file import parse_number
-from zlmreport.measurement.units import DEGREE, Scale, Unit, unit_named
+from zlmreport.measurement.units import DEGREE, Scale, Unit, find_unit_named
 
 _ONE_SIGN = re.compile(r"[+\-−]?([0-9]*)([.,])([0-9]*)([eE][+-]?[0-9]+)?")
 #: A number, and what may be its unit.
@@ -51,7 +51,7 @@ class NamedColumns(Protocol):
         """Spellings of units, by column."""
 
 
-def folded(name: str) -> str:
+def fold(name: str) -> str:
     """Return a name without what people do not mind: case, and blanks, hyphens or underscores.
 
     >>> folded(" Air Temperature ")
@@ -60,7 +60,7 @@ def folded(name: str) -> str:
     return re.sub(r"[\s_-]+", "_", name.strip().casefold())
 
 
-def decimal_sign(table: TextTable, indices: Sequence[int], thousands: str = "") -> DecimalSign:
+def find_decimal_sign(table: TextTable, indices: Sequence[int], thousands: str = "") -> DecimalSign:
     """Return the decimal sign in which the cells of some columns are written.
 
     ``12,5`` has a decimal comma; ``1,234`` may as well have a thousands separator. A point is taken for a
@@ -75,7 +75,7 @@ def decimal_sign(table: TextTable, indices: Sequence[int], thousands: str = "") 
     doubt: dict[str, tuple[str, Place]] = {}
     for row in table.rows:
         for index in indices:
-            match = _ONE_SIGN.fullmatch(_without_unit(row.cells[index], thousands))
+            match = _ONE_SIGN.fullmatch(_take_unit_off(row.cells[index], thousands))
             if match and not (table.source.of_cells and match[2] == DecimalSign.POINT):
                 whole, sign, decimals, exponent = match.groups()
                 groups = 1 <= len(whole) <= 3 and whole[0] != "0" and len(decimals) == 3 and not exponent
@@ -102,13 +102,13 @@ def decimal_sign(table: TextTable, indices: Sequence[int], thousands: str = "") 
     return DecimalSign.POINT
 
 
-def _without_unit(cell: str, thousands: str) -> str:
+def _take_unit_off(cell: str, thousands: str) -> str:
     match = _MEASURED.fullmatch(cell) if cell and not cell[-1].isdecimal() else None
     number = match[1].rstrip() if match else cell
-    return without_thousands(number, thousands) if thousands else number
+    return take_thousands_off(number, thousands) if thousands else number
 
 
-def without_thousands(number: str, signs: str) -> str:
+def take_thousands_off(number: str, signs: str) -> str:
     """Return a number without what parts its groups of three digits; as it is if that is none of the signs.
 
     >>> without_thousands("1 250,5", " "), without_thousands("1.250", "'")
@@ -155,7 +155,7 @@ class Cells:
         unit = column.units.get(match[2].strip().casefold()) if match else None
         number = match[1].rstrip() if match and unit else text
         try:
-            value = parse_number(without_thousands(number, self.thousands), self._sign_of(number))
+            value = parse_number(take_thousands_off(number, self.thousands), self._sign_of(number))
         except ValueError:
             groups = _GROUPS.fullmatch(number)
             is_sure = groups and (groups[4] or groups[3] not in ".," or len(groups[2]) > len(".000"))
@@ -188,7 +188,7 @@ class Cells:
         run = self.demanded_number(row, column)
         if run is None or is_run(run):
             return run
-        self.note(row, column, no_run(run))
+        self.note(row, column, say_no_run(run))
         return None
 
     def word(self, row: Row, column: TextColumn, read: Callable[[str], _T]) -> _T | None:
@@ -223,7 +223,7 @@ class Heading:
 
     def is_called(self, name: str) -> bool:
         """Whether a name, with or without the unit, means this heading."""
-        return folded(name) in {folded(self.text), folded(self.name)}
+        return fold(name) in {fold(self.text), fold(self.name)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,20 +239,20 @@ class TextColumn:
     units: Mapping[str, Unit | Scale] = field(default_factory=dict, compare=False)
 
 
-def _never(_text: str) -> bool:
+def _is_never(_text: str) -> bool:
     return False
 
 
-def _headings(table: TextTable, is_no_unit: Callable[[str], bool]) -> tuple[Heading, ...]:
+def _read_headings(table: TextTable, is_no_unit: Callable[[str], bool]) -> tuple[Heading, ...]:
     """Return the names in a header, their units taken off, or taken from the row of units."""
     units = table.units.cells if table.units else ()
     return tuple(
-        _with_unit_below(heading_of(text, index, is_no_unit), units[index] if index < len(units) else "")
+        _add_unit_below(read_heading(text, index, is_no_unit), units[index] if index < len(units) else "")
         for index, text in enumerate(table.header.cells)
     )
 
 
-def heading_of(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = _never) -> Heading:
+def read_heading(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = _is_never) -> Heading:
     """Return a name in a header, its unit taken off.
 
     `is_no_unit`: Whether what stands in brackets is no unit, but belongs to the name.
@@ -271,7 +271,7 @@ def heading_of(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = _n
     return Heading(index, text, text, None)
 
 
-def _with_unit_below(heading: Heading, unit: str) -> Heading:
+def _add_unit_below(heading: Heading, unit: str) -> Heading:
     """Return a heading with the unit that stands below it, if it has none itself."""
     unit = unit.strip("()[] ")
     has_own = heading.bracket is not None and heading.bracket.casefold() in UNITS
@@ -279,23 +279,23 @@ def _with_unit_below(heading: Heading, unit: str) -> Heading:
 
 
 def read_headings(
-    table: TextTable, options: NamedColumns, is_no_unit: Callable[[str], bool] = _never
+    table: TextTable, options: NamedColumns, is_no_unit: Callable[[str], bool] = _is_never
 ) -> tuple[Heading, ...]:
-    """Return the headings of the columns that are to be read; `is_no_unit` as of `heading_of`.
+    """Return the headings of the columns that are to be read; `is_no_unit` as of `read_heading`.
 
     Raises `InputError` if the header holds numbers, a name twice, or none where there are readings, or if the
     job speaks of columns that there are not.
     """
-    found = _headings(table, is_no_unit)
+    found = _read_headings(table, is_no_unit)
     if any(_NUMBER.fullmatch(heading.text) for heading in found) and not any(
-        folded(heading.name) in options.column_names for heading in found
+        fold(heading.name) in options.column_names for heading in found
     ):
         raise InputError.at(
             table.place(table.header, 0),
             "the table begins with numbers; its first row names the columns, as in "
             f"{options.header_example}, or the job does: 'header: [target, …]'",
         )
-    problems = [*_unnamed(table, found), *_not_there(table, found, options)]
+    problems = [*_find_unnamed(table, found), *_find_not_there(table, found, options)]
     if problems:
         raise InputError(problems)
     return tuple(
@@ -312,13 +312,13 @@ def find_heading(
 
     Raises `InputError` if there are several.
     """
-    mapped = [file_name for key, file_name in options.columns.items() if folded(key) == name]
-    others = [file_name for key, file_name in options.columns.items() if folded(key) != name]
+    mapped = [file_name for key, file_name in options.columns.items() if fold(key) == name]
+    others = [file_name for key, file_name in options.columns.items() if fold(key) != name]
     candidates = [
         heading
         for heading in among
         if any(heading.is_called(file_name) for file_name in mapped)
-        or (folded(heading.name) == name and not any(heading.is_called(other) for other in others))
+        or (fold(heading.name) == name and not any(heading.is_called(other) for other in others))
     ]
     if len(candidates) > 1:
         first, second = candidates[:2]
@@ -330,21 +330,23 @@ def find_heading(
     return candidates[0] if candidates else None
 
 
-def missing_column(name: str, among: Sequence[Heading], table: TextTable, options: NamedColumns) -> Problem:
+def report_missing_column(
+    name: str, among: Sequence[Heading], table: TextTable, options: NamedColumns
+) -> Problem:
     """Return the problem that a column is not there, with the nearest name of those that mean nothing yet."""
     known = options.column_names
-    free = {folded(heading.name): heading for heading in among if folded(heading.name) not in known}
+    free = {fold(heading.name): heading for heading in among if fold(heading.name) not in known}
     nearest = difflib.get_close_matches(name, free, n=1)
     guess = free[nearest[0]].text if nearest else None
     return Problem(
         table.place(table.header, 0),
         f"there is no column {name!r}{f', but {quoted(guess)}' if guess else ''}; name it in the job, as in "
         f"'columns: {{{name}: {guess or '…'}}}' "
-        f"(the file has {', '.join(map(quoted, _names(among)))})",
+        f"(the file has {', '.join(map(quoted, _list_names(among)))})",
     )
 
 
-def column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
+def find_column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
     name: str,
     heading: Heading,
     options: NamedColumns,
@@ -365,7 +367,7 @@ def column_with_unit(  # noqa: PLR0913, PLR0917 - what a unit may follow from
     spelling = stated if stated is not None else heading.bracket
     known, usual = units
     try:
-        unit = unit_named(spelling, known) if spelling else usual
+        unit = find_unit_named(spelling, known) if spelling else usual
     except ValueError as error:
         place = stated_at if stated is not None else _place_of_unit(heading, table)
         raise InputError.at(place, f"column {quoted(heading.text)}: {error}") from error
@@ -377,16 +379,16 @@ def _place_of_unit(heading: Heading, table: TextTable) -> Place:
     return table.place(table.header if is_above or table.units is None else table.units, heading.index)
 
 
-def _names(among: Sequence[Heading]) -> list[str]:
+def _list_names(among: Sequence[Heading]) -> list[str]:
     """Return the names that there are, as many as a message can hold."""
     return [heading.text for heading in among if heading.text][:_MOST_NAMED]
 
 
-def _unnamed(table: TextTable, found: Sequence[Heading]) -> Iterator[Problem]:
+def _find_unnamed(table: TextTable, found: Sequence[Heading]) -> Iterator[Problem]:
     """Yield the columns that have cells and no name, or the name of another."""
     first: dict[str, Heading] = {}
     for heading in found:
-        same = first.setdefault(folded(heading.text), heading)
+        same = first.setdefault(fold(heading.text), heading)
         if heading.text and same is not heading:
             yield Problem(
                 table.place(table.header, heading.index),
@@ -403,7 +405,7 @@ def _unnamed(table: TextTable, found: Sequence[Heading]) -> Iterator[Problem]:
                 )
 
 
-def _not_there(table: TextTable, found: Sequence[Heading], options: NamedColumns) -> Iterator[Problem]:
+def _find_not_there(table: TextTable, found: Sequence[Heading], options: NamedColumns) -> Iterator[Problem]:
     """Yield the names that the job speaks of and the file does not have."""
     spoken = {**{name: f"columns: {{{key}: …}}" for key, name in options.columns.items()}}
     spoken |= dict.fromkeys(options.ignore, "ignore")
@@ -412,5 +414,5 @@ def _not_there(table: TextTable, found: Sequence[Heading], options: NamedColumns
             yield Problem(
                 table.place(table.header, 0),
                 f"the job names a column {quoted(name)} ('{key}'), and there is none; "
-                f"{did_you_mean(name, _names(found))}",
+                f"{did_you_mean(name, _list_names(found))}",
             )

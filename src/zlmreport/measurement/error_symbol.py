@@ -20,7 +20,7 @@ from zlmreport.measurement.measurand import (
     SQUARENESS,
     STRAIGHTNESS,
     Measurand,
-    measurands_of,
+    list_measurands_of,
 )
 
 LINEAR_AXES = "XYZUVW"
@@ -59,7 +59,7 @@ class ErrorSymbol:
         return f"{self.axis}{kinds[self.measurand.identifier]}{letter}".lower()
 
 
-def error_named(text: str) -> ErrorSymbol:
+def find_error_named(text: str) -> ErrorSymbol:
     """Return the error of a symbol; raise `ValueError` for one that names none that is measured.
 
     >>> error_named("eyx").measurand.identifier, error_named("C0Y").reference
@@ -79,28 +79,28 @@ def error_named(text: str) -> ErrorSymbol:
 _Standard = TypeVar("_Standard")
 
 
-def for_error(standard: _Standard, stated: str) -> _Standard:
+def evaluate_for_error(standard: _Standard, stated: str) -> _Standard:
     """Return a standard as it evaluates an error; as it is, if it does not tell errors apart.
 
     `stated`: The symbol of the error, or one of the standard's measurands by its identifier; empty for none.
     """
     of_error: Callable[[ErrorSymbol | Measurand], _Standard] | None = getattr(standard, "of_error", None)
-    own = {each.identifier: each for each in measurands_of(standard)}
+    own = {each.identifier: each for each in list_measurands_of(standard)}
     if of_error is None or not stated:
         return standard
     try:
-        return of_error(own.get(stated) or error_named(stated))
+        return of_error(own.get(stated) or find_error_named(stated))
     except ValueError:  # a job's mistake, which is told where the job is checked
         return standard
 
 
-def symbol_of_positioning(axis: str) -> str:
+def find_symbol_of_positioning(axis: str) -> str:
     """Return the symbol of positioning of an axis, ``EXX``; empty where no letter begins its name."""
-    letter = letter_of(axis)
+    letter = find_letter_of(axis)
     return f"E{letter}{letter}" if letter else ""
 
 
-def letter_of(axis: str) -> str:
+def find_letter_of(axis: str) -> str:
     """Return the letter of an axis by its name, ``X`` for ``x1``; empty for a name that has none."""
     letter = axis.strip()[:1].upper()
     return letter if letter and letter in LINEAR_AXES + ROTARY_AXES else ""

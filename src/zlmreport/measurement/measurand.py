@@ -234,7 +234,7 @@ OF_SYMBOLS: Mapping[str, Measurand] = MappingProxyType(
 )
 
 
-def measurands_of(plugin: Any) -> tuple[Measurand, ...]:
+def list_measurands_of(plugin: Any) -> tuple[Measurand, ...]:
     """Return what a standard evaluates or an effect describes: positioning where it does not say."""
     found: tuple[Measurand, ...] = getattr(plugin, "measurands", (POSITIONING,))
     return found
@@ -242,9 +242,9 @@ def measurands_of(plugin: Any) -> tuple[Measurand, ...]:
 
 def is_for(plugin: Any, measurand: Measurand) -> bool:
     """Return whether a standard or an effect is for what was measured."""
-    return measurand.identifier in {each.identifier for each in measurands_of(plugin)}
+    return measurand.identifier in {each.identifier for each in list_measurands_of(plugin)}
 
 
-def listed(measurands: Iterable[Measurand]) -> str:
+def list_identifiers(measurands: Iterable[Measurand]) -> str:
     """Return measurands by their identifiers, for messages."""
     return ", ".join(dict.fromkeys(each.identifier for each in measurands))

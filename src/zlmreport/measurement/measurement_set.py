@@ -135,7 +135,7 @@ class MeasurementSet:
         turned over, too.
     tests
         Several measured lines that are evaluated together, by their names; the set then has no readings of
-        its own. Build one with `joined`.
+        its own. Build one with `join_lines`.
     """
 
     axis: Axis
@@ -211,7 +211,7 @@ class MeasurementSet:
         return tuple(found)
 
 
-def joined(axis: Axis, tests: Mapping[str, MeasurementSet]) -> MeasurementSet:
+def join_lines(axis: Axis, tests: Mapping[str, MeasurementSet]) -> MeasurementSet:
     """Return several measured lines as one set, for what follows from them together.
 
     `axis`: What follows, and of which axis.

@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Problem, quoted
 from zlmreport.language.formatting import DecimalSign
 from zlmreport.measurement.axis import PositionTable
 from zlmreport.measurement.text_file import TextCell, TextFile, parse_number, read_text
-from zlmreport.measurement.units import Unit, unit_named
+from zlmreport.measurement.units import Unit, find_unit_named
 
 _BRACKETED = re.compile(r"(.*?)\s*[(\[]\s*([^()\[\]]+?)\s*[)\]]")
 
@@ -46,12 +46,12 @@ def read_position_table(
     if directions and names & set(directions) and value.name not in names:
         columns = (position, *(replace(value, name=name) for name in directions))
     order = _order(text, header, columns)
-    units = [_unit(column, header[index]) for column, index in zip(columns, order, strict=True)]
+    units = [_read_unit(column, header[index]) for column, index in zip(columns, order, strict=True)]
     problems: list[Problem] = []
-    sign = _decimal_sign(rows)
-    found = [list(_numbers(row, order, len(header), sign, problems)) for row in rows]
+    sign = _find_decimal_sign(rows)
+    found = [list(_read_numbers(row, order, len(header), sign, problems)) for row in rows]
     if not problems:
-        problems.extend(_not_rising([row[order[0]] for row in rows], [numbers[0] for numbers in found]))
+        problems.extend(_find_not_rising([row[order[0]] for row in rows], [numbers[0] for numbers in found]))
     if len(rows) < 2 and not problems:
         problems.append(Problem(text.place(), "has less than two rows of numbers; a table has two at least"))
     if problems:
@@ -86,21 +86,21 @@ def _split(heading: str) -> tuple[str, str | None]:
     return (match[1], match[2]) if match else (heading, None)
 
 
-def _unit(column: TableColumn, cell: TextCell) -> Unit:
+def _read_unit(column: TableColumn, cell: TextCell) -> Unit:
     spelling = _split(cell.text)[1]
     try:
-        return unit_named(spelling, column.units) if spelling else column.unit
+        return find_unit_named(spelling, column.units) if spelling else column.unit
     except ValueError as error:
         raise InputError.at(cell.place, f"column {quoted(cell.text)}: {error}") from error
 
 
-def _decimal_sign(rows: Sequence[Sequence[TextCell]]) -> DecimalSign:
+def _find_decimal_sign(rows: Sequence[Sequence[TextCell]]) -> DecimalSign:
     """Return the comma if there is one in a cell: then it parts no cells."""
     has_comma = any("," in cell.text for row in rows for cell in row)
     return DecimalSign.COMMA if has_comma else DecimalSign.POINT
 
 
-def _numbers(
+def _read_numbers(
     row: Sequence[TextCell], order: Sequence[int], width: int, sign: DecimalSign, problems: list[Problem]
 ) -> Iterator[float]:
     """Yield the numbers of a row; what is wrong with it is noted."""
@@ -116,7 +116,7 @@ def _numbers(
             )
 
 
-def _not_rising(cells: Sequence[TextCell], positions: Sequence[float]) -> Iterator[Problem]:
+def _find_not_rising(cells: Sequence[TextCell], positions: Sequence[float]) -> Iterator[Problem]:
     for later in (np.flatnonzero(np.diff(positions) <= 0) + 1).tolist():
         cell = cells[later]
         yield Problem(

@@ -89,7 +89,7 @@ class Row:
             row, column = self.lying[index]
             return row.spot(min(column, len(row.cells) - 1))
         if self.delimiter == BLANKS or _QUOTE in self.text:
-            starts = [start for start, _ in _parts(self.text, self.delimiter, len(self.cells))]
+            starts = [start for start, _ in _split_line(self.text, self.delimiter, len(self.cells))]
             return self.line, starts[index] + 1 if index < len(starts) else len(self.text) + 1
         return self.line, sum(map(len, self.text.split(self.delimiter, index)[:index])) + index + 1
 
@@ -116,12 +116,12 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
 
     Raises `InputError` if there is no header, or the table is laid out in another way.
     """
-    content, parted_by = _content(text, options)
+    content, parted_by = _split_content(text, options)
     delimiter = "\t" if text.of_cells else options.stated_delimiter or parted_by
     is_plain = not (options.transposed or options.header or options.header_rows > 1)
     if is_plain:
         _refuse_preamble(content, delimiter, names_column, text)
-    delimiter = delimiter or _delimiter(content, options, names_column)
+    delimiter = delimiter or _find_delimiter(content, options, names_column)
     number, line = content[0]
     if delimiter is None:
         raise InputError.at(
@@ -132,33 +132,33 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
     problems: list[Problem] = []
     rows = list(_rows(content, delimiter, text, problems))
     if options.transposed:
-        rows = _turned(rows)
-    header, below = _header(rows, options, text)
+        rows = _turn_rows(rows)
+    header, below = _find_header(rows, options, text)
     for index, name in enumerate(header.cells):
         if len(name) > _LONGEST_NAME:
             message = f"{quoted(name)} is too long to be the name of a column; does the table begin here?"
             raise InputError.at(text.place(*header.spot(index)), message)
     units = below.pop(0) if below and is_units(below[0].cells) else None
-    below = _before(below, options.ends_before, header, text)
+    below = _find_rows_before(below, options.ends_before, header, text)
     sound = []
     for row in below:
-        padded = _padded(row, len(header.cells)) if text.of_cells or options.transposed else row
-        wrong = _ragged(padded, header, text)
+        padded = _pad_row(row, len(header.cells)) if text.of_cells or options.transposed else row
+        wrong = _find_ragged(padded, header, text)
         problems += wrong
         if not wrong:
             sound.append(padded)
     table = TextTable(
-        text, header, units and _padded(units, len(header.cells)), tuple(sound), tuple(problems)
+        text, header, units and _pad_row(units, len(header.cells)), tuple(sound), tuple(problems)
     )
     if is_plain:
         _refuse_lying(table, names_column)
     return table
 
 
-def _content(text: TextFile, options: FileTableLayout) -> tuple[list[tuple[int, str]], str | None]:
+def _split_content(text: TextFile, options: FileTableLayout) -> tuple[list[tuple[int, str]], str | None]:
     """Return the lines of the table with their numbers, and the delimiter that the first one states."""
     first, last = options.lines or ((options.skip_rows or 0) + 1, None)
-    content = whole_lines(text.numbered(first, last))
+    content = join_whole_lines(text.numbered(first, last))
     states = states_delimiter(content[0][1]) if content else None
     if states:
         content = content[1:]
@@ -178,7 +178,7 @@ def states_delimiter(line: str) -> str | None:
     return match[1] if match else None
 
 
-def whole_lines(content: Sequence[tuple[int, str]]) -> list[tuple[int, str]]:
+def join_whole_lines(content: Sequence[tuple[int, str]]) -> list[tuple[int, str]]:
     """Return lines, those joined that a cell in quotation marks goes over; each with its first number."""
     joined: list[tuple[int, str]] = []
     index = 0
@@ -197,17 +197,17 @@ def whole_lines(content: Sequence[tuple[int, str]]) -> list[tuple[int, str]]:
     return joined
 
 
-def _header(rows: Sequence[Row], options: FileTableLayout, text: TextFile) -> tuple[Row, list[Row]]:
+def _find_header(rows: Sequence[Row], options: FileTableLayout, text: TextFile) -> tuple[Row, list[Row]]:
     """Return the row of names, and the rows below it."""
     if options.header:
         return Row(0, "", "", options.header), list(rows)
     count = options.header_rows
     if len(rows) < count:
         raise InputError.at(text.place(), f"holds no table: there are {count} rows of names to read")
-    return joined_header(rows[:count]), list(rows[count:])
+    return join_header(rows[:count]), list(rows[count:])
 
 
-def joined_header(rows: Sequence[Row]) -> Row:
+def join_header(rows: Sequence[Row]) -> Row:
     """Return the row of names; of two, each name made of the upper and the lower cell.
 
     An upper cell holds for those to its right that are empty, but the first, which names the rows.
@@ -216,7 +216,7 @@ def joined_header(rows: Sequence[Row]) -> Row:
         return rows[0]
     upper, lower = rows
     width = max(len(upper.cells), len(lower.cells))
-    above, below = _padded(upper, width).cells, _padded(lower, width).cells
+    above, below = _pad_row(upper, width).cells, _pad_row(lower, width).cells
     names, spanning = [], ""
     for index, (over, name) in enumerate(zip(above, below, strict=True)):
         if over:
@@ -232,19 +232,19 @@ def is_units(cells: Sequence[str]) -> bool:
     return are_short and any(cell.casefold() in UNITS for cell in filled)
 
 
-def _before(rows: list[Row], beginning: str | None, header: Row, text: TextFile) -> list[Row]:
+def _find_rows_before(rows: list[Row], beginning: str | None, header: Row, text: TextFile) -> list[Row]:
     """Return the rows above the one that begins so."""
     if beginning is None:
         return rows
     for index, row in enumerate(rows):
-        if first_cell(row.cells).casefold().startswith(beginning.casefold()):
+        if find_first_cell(row.cells).casefold().startswith(beginning.casefold()):
             return rows[:index]
     raise InputError.at(
         text.place(header.line), f"no row below begins with {quoted(beginning)}, as 'ends_before' says"
     )
 
 
-def first_cell(cells: Sequence[str]) -> str:
+def find_first_cell(cells: Sequence[str]) -> str:
     """Return the first cell of a row that holds something."""
     return next(filter(None, cells), "")
 
@@ -258,8 +258,8 @@ def _refuse_preamble(
     """Refuse a table whose header stands below other text, with the rows to be skipped."""
     first, line = content[0]
     for row, (number, below) in enumerate(content[:_LONGEST_PREAMBLE]):
-        parted_by = delimiter or _by_names([below], names_column)
-        known = sum(map(names_column, _header_cells(below, parted_by))) if parted_by else 0
+        parted_by = delimiter or _find_delimiter_by_names([below], names_column)
+        known = sum(map(names_column, _split_header(below, parted_by))) if parted_by else 0
         if row == 0 and known:
             return
         if known > 1:
@@ -284,7 +284,7 @@ def _refuse_lying(table: TextTable, names_column: Callable[[str], bool]) -> None
         )
 
 
-def _delimiter(
+def _find_delimiter(
     content: Sequence[tuple[int, str]], options: FileTableLayout, names_column: Callable[[str], bool]
 ) -> str | None:
     """Return the delimiter by which a table is parted, as its header or its rows tell."""
@@ -294,23 +294,23 @@ def _delimiter(
         return next(fits, None)
     if options.transposed:
         return next((each for each in DELIMITERS if all(each in line for _, line in content[:2])), None)
-    return _by_names([line for _, line in content[: options.header_rows]], names_column)
+    return _find_delimiter_by_names([line for _, line in content[: options.header_rows]], names_column)
 
 
-def _by_names(header: Sequence[str], names_column: Callable[[str], bool]) -> str | None:
+def _find_delimiter_by_names(header: Sequence[str], names_column: Callable[[str], bool]) -> str | None:
     """Return the delimiter by which a header names most known columns; of equals the first."""
 
     def known(delimiter: str) -> int:
-        rows = [Row(1, line, delimiter, tuple(_header_cells(line, delimiter))) for line in header]
-        return sum(map(names_column, joined_header(rows).cells))
+        rows = [Row(1, line, delimiter, tuple(_split_header(line, delimiter))) for line in header]
+        return sum(map(names_column, join_header(rows).cells))
 
     present = [delimiter for delimiter in DELIMITERS if all(delimiter in line for line in header)]
     return max(present, key=known, default=None)
 
 
-def _header_cells(header: str, delimiter: str) -> Sequence[str]:
+def _split_header(header: str, delimiter: str) -> Sequence[str]:
     try:
-        return parted(1, header, delimiter).cells
+        return part_line(1, header, delimiter).cells
     except EnclosureError:
         return ()
 
@@ -322,7 +322,7 @@ def _rows(
     width = 0
     for number, line in content:
         try:
-            row = parted(number, line, delimiter, width)
+            row = part_line(number, line, delimiter, width)
         except EnclosureError as error:
             problem = Problem(text.place(number, error.column), str(error))
             if number == content[0][0]:
@@ -334,7 +334,7 @@ def _rows(
             yield row
 
 
-def _turned(rows: Sequence[Row]) -> list[Row]:
+def _turn_rows(rows: Sequence[Row]) -> list[Row]:
     """Return the columns of rows as rows; what is short is filled with empty cells."""
     width = max((len(row.cells) for row in rows), default=0)
     turned = []
@@ -346,12 +346,12 @@ def _turned(rows: Sequence[Row]) -> list[Row]:
     return turned
 
 
-def _padded(row: Row, width: int) -> Row:
+def _pad_row(row: Row, width: int) -> Row:
     short = width - len(row.cells)
     return replace(row, cells=(*row.cells, *[""] * short)) if short > 0 and not row.lying else row
 
 
-def _ragged(row: Row, header: Row, text: TextFile) -> list[Problem]:
+def _find_ragged(row: Row, header: Row, text: TextFile) -> list[Problem]:
     """Return what is wrong with the number of cells; empty cells at the end are nobody's mistake."""
     expected, found = len(header.cells), len(row.cells)
     surplus = next((index for index in range(expected, found) if row.cells[index]), None)
@@ -382,28 +382,28 @@ class EnclosureError(ValueError):
         self.column = column
 
 
-def parted(number: int, line: str, delimiter: str, width: int = 0) -> Row:
+def part_line(number: int, line: str, delimiter: str, width: int = 0) -> Row:
     """Return the cells of a line; `width` is how many the first one of a table has that blanks part.
 
     Raises `EnclosureError` if a quotation mark does not enclose its cell.
     """
     if delimiter == BLANKS or _QUOTE in line:
-        parts = [part for _, part in _parts(line, delimiter, width)]
+        parts = [part for _, part in _split_line(line, delimiter, width)]
     else:
         parts = line.split(delimiter)
     return Row(number, line, delimiter, tuple(part.strip(_BLANKS) for part in parts))
 
 
-def _parts(line: str, delimiter: str, width: int = 0) -> Iterator[tuple[int, str]]:
+def _split_line(line: str, delimiter: str, width: int = 0) -> Iterator[tuple[int, str]]:
     """Yield the cells of a line that is not simply parted, each with the index at which it begins."""
     if delimiter != BLANKS:
-        return _quoted_parts(line, delimiter)
+        return _split_quoted_line(line, delimiter)
     by_two = [(match.start(), match[0]) for match in re.finditer(r"\S+(?: \S+)*", line)]
     is_by_two = len(by_two) == width if width else len(by_two) > 1
     return iter(by_two if is_by_two else [(match.start(), match[0]) for match in re.finditer(r"\S+", line)])
 
 
-def _quoted_parts(line: str, delimiter: str) -> Iterator[tuple[int, str]]:
+def _split_quoted_line(line: str, delimiter: str) -> Iterator[tuple[int, str]]:
     """Yield the cells of a line with quotation marks."""
     part = re.escape(delimiter)
     cell = re.compile(rf'[ ]*"((?:[^"]|"")*)"[ ]*(?={part}|$)|([^{part}]*)')

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, InputError, Place, quoted
-from zlmreport.files import read, unreadable
+from zlmreport.files import make_unreadable, read
 from zlmreport.language.formatting import MINUS, DecimalSign
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.measurement.workbook import SEPARATOR, filled_sheets, is_workbook, sheet_lines
+from zlmreport.measurement.workbook import SEPARATOR, is_workbook, read_filled_sheets, read_sheet_lines
 
 #: Of a measurement file, in bytes.
 LARGEST = 64 * 1024 * 1024
@@ -128,52 +128,52 @@ def read_text(path: Path, encoding: str | None = None, sheet: str | None = None)
         with what would be right.
     """
     file = Place(str(path))
-    content = _content(path, file)
+    content = _read_content(path, file)
     if not content.strip():
         raise InputError.at(file, "is empty; a measurement file holds readings")
     if is_workbook(content):
-        rows = sheet_lines(content, file, _LARGEST_UNPACKED, sheet)
+        rows = read_sheet_lines(content, file, _LARGEST_UNPACKED, sheet)
         return TextFile(file.file, tuple(rows), SourceFile.of(path, content), of_cells=True)
     if sheet is not None:
         raise InputError.at(file, "is no workbook, and the job names a sheet of it; remove 'sheet'")
     for beginning, kind in _NO_TEXT.items():
         if content.startswith(beginning):
             raise InputError.at(file, f"is {kind}, not text; export the readings as text (CSV, UTF-8)")
-    text = _decoded(content, file, encoding).rstrip(_END_OF_FILE)
+    text = _decode(content, file, encoding).rstrip(_END_OF_FILE)
     unseen = _UNSEEN.search(text)
     if unseen:
-        raise InputError.at(_place_after(text[: unseen.start()], file), _described(unseen[0]))
-    lines = _lines(text)
+        raise InputError.at(_place_after(text[: unseen.start()], file), _describe_character(unseen[0]))
+    lines = _split_lines(text)
     if not lines[-1]:
         lines.pop()
     _refuse_continuous_logs(lines, file)
     return TextFile(file.file, tuple(lines), SourceFile.of(path, content))
 
 
-def sheets_of(path: Path) -> tuple[str, ...]:
+def list_sheets_of(path: Path) -> tuple[str, ...]:
     """Return the names of the sheets of a workbook that hold something; none of any other file.
 
     Raises `AccessError` if it cannot be read, `InputError` if it is a damaged workbook.
     """
     file = Place(str(path))
-    content = _content(path, file)
-    return tuple(filled_sheets(content, file, _LARGEST_UNPACKED)) if is_workbook(content) else ()
+    content = _read_content(path, file)
+    return tuple(read_filled_sheets(content, file, _LARGEST_UNPACKED)) if is_workbook(content) else ()
 
 
-def likely_encodings(path: Path) -> tuple[str | None, ...]:
+def list_likely_encodings(path: Path) -> tuple[str | None, ...]:
     """Return the encodings that a file of text may have, the likeliest first; None for UTF-8.
 
     Raises `AccessError` if it cannot be read.
     """
-    content = _content(path, Place(str(path)))
-    wide = _wide_encoding(content)
+    content = _read_content(path, Place(str(path)))
+    wide = _find_wide_encoding(content)
     if wide:
         return (wide,)
     of_dos = any(sign in content for sign in _OF_DOS)
     return (None, *(("cp850", "cp1252") if of_dos else ("cp1252", "cp850")))
 
 
-def known_encoding(name: str) -> str:
+def require_known_encoding(name: str) -> str:
     """Return the name of an encoding of text; raise ValueError if there is none of that name."""
     try:
         b"\xff".decode(name, "replace")
@@ -184,13 +184,13 @@ def known_encoding(name: str) -> str:
     return name
 
 
-def _content(path: Path, file: Place) -> bytes:
+def _read_content(path: Path, file: Place) -> bytes:
     try:
         content = read(path, LARGEST)
     except FileNotFoundError as error:
-        raise AccessError.at(file, f"cannot be read: there is no such file{_nearest(path)}") from error
+        raise AccessError.at(file, f"cannot be read: there is no such file{_find_nearest(path)}") from error
     except OSError as error:
-        raise unreadable(path, error) from error
+        raise make_unreadable(path, error) from error
     if len(content) > LARGEST:
         raise InputError.at(
             file, "is longer than 64 MiB: name a file that holds the readings of one test only"
@@ -198,7 +198,7 @@ def _content(path: Path, file: Place) -> bytes:
     return content
 
 
-def _nearest(path: Path) -> str:
+def _find_nearest(path: Path) -> str:
     try:
         beside = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
     except OSError:
@@ -207,7 +207,7 @@ def _nearest(path: Path) -> str:
     return f"; did you mean {quoted(nearest[0])}?" if nearest else ""
 
 
-def _decoded(content: bytes, file: Place, encoding: str | None) -> str:
+def _decode(content: bytes, file: Place, encoding: str | None) -> str:
     if encoding is None:
         _refuse_wide_characters(content, file)
         encoding = "utf-8"
@@ -230,7 +230,7 @@ def _decoded(content: bytes, file: Place, encoding: str | None) -> str:
 
 def _refuse_wide_characters(content: bytes, file: Place) -> None:
     """Refuse text of two or four bytes a character, which nothing in the job says."""
-    found = _wide_encoding(content)
+    found = _find_wide_encoding(content)
     if found:
         raise InputError.at(
             Place(file.file, 1, 1),
@@ -238,7 +238,7 @@ def _refuse_wide_characters(content: bytes, file: Place) -> None:
         )
 
 
-def _wide_encoding(content: bytes) -> str | None:
+def _find_wide_encoding(content: bytes) -> str | None:
     """Return the encoding of text of two or four bytes a character; None of any other content."""
     for mark, name in _MARKS.items():
         if content.startswith(mark):
@@ -265,7 +265,7 @@ def _refuse_continuous_logs(lines: list[str], file: Place) -> None:
             )
 
 
-def _described(character: str) -> str:
+def _describe_character(character: str) -> str:
     code = f"U+{ord(character):04X}"
     name = unicodedata.name(character, "").lower()
     if name:
@@ -275,11 +275,11 @@ def _described(character: str) -> str:
 
 def _place_after(text: str, file: Place) -> Place:
     """Return the place of the character that follows a text."""
-    lines = _lines(text)
+    lines = _split_lines(text)
     return Place(file.file, len(lines), len(lines[-1]) + 1)
 
 
-def _lines(text: str) -> list[str]:
+def _split_lines(text: str) -> list[str]:
     """Split where editors do: `str.splitlines` knows more line ends than they."""
     return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
@@ -320,10 +320,10 @@ def parse_number(text: str, sign: DecimalSign = DecimalSign.POINT) -> float:
         if math.isinf(value):
             raise ValueError(f"{quoted(text)} is too large to be a reading")
         return value
-    raise ValueError(_wrong(text, written, sign))
+    raise ValueError(_say_wrong(text, written, sign))
 
 
-def _wrong(text: str, written: str, sign: DecimalSign) -> str:
+def _say_wrong(text: str, written: str, sign: DecimalSign) -> str:
     shown = quoted(text)
     if len(written) > _LONGEST:
         return f"{shown} is too long to be a number"

@@ -25,13 +25,13 @@ _CLOCK = re.compile(r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,]([0-9]{1,6}))?
 _GERMAN_DAY = re.compile(r"([0-9]{1,2})\.([0-9]{1,2})\.([0-9]{4}|[0-9]{2})(?:,?\s+(.+?)(?:\s*Uhr)?)?")
 
 
-def time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
+def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
     """Return what reads the time of a row, NaN for an empty cell; the first time tells the kind of all."""
     if column is None:
         return lambda _row: math.nan
     index = column.index
     first = next((row.cells[index] for row in cells.table.rows if row.cells[index]), "")
-    beginning = moment(first)
+    beginning = read_moment(first)
     if beginning is None or _is_number(first, cells):
         return lambda row: cells.number(row, column)
     days, before = 0.0, 0.0
@@ -41,7 +41,7 @@ def time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
         text = row.cells[index]
         if not text:
             return math.nan
-        found = moment(text)
+        found = read_moment(text)
         if found is None or _kind(found) != _kind(beginning):
             like = quoted(first)
             cells.note(row, column, f"{quoted(text)} is no time written like the first one, {like}")
@@ -55,7 +55,7 @@ def time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
     return seconds
 
 
-def moment(text: str) -> dt.datetime | None:
+def read_moment(text: str) -> dt.datetime | None:
     """Return a time as ISO 8601 writes it, of the day alone, or as in ``18.11.2026 8:15``; None for others.
 
     >>> moment("18.11.2026 8:15") == moment("2026-11-18T08:15")

@@ -26,10 +26,10 @@ _TOUCHING = ("°", "″")
 def with_unit(number: str, symbol: str) -> str:
     """Return a number with its unit as printed: ``20 µm``, ``20″``, ``4.2 ± 0.3 µm``, ``(4.2 ± 0.3)″``."""
     is_sum = symbol in _TOUCHING and "±" in number
-    return f"({number}){behind(symbol)}" if is_sum else f"{number}{behind(symbol)}"
+    return f"({number}){write_behind(symbol)}" if is_sum else f"{number}{write_behind(symbol)}"
 
 
-def behind(symbol: str) -> str:
+def write_behind(symbol: str) -> str:
     """Return a unit as it stands behind a number: ``″`` touches it, and a blank parts others from it."""
     return symbol if symbol in _TOUCHING else f" {symbol}"
 
@@ -135,7 +135,7 @@ SECOND = Scale("s")
 _U = TypeVar("_U", bound=Unit | Scale)
 
 
-def _spelled(units: Mapping[str, _U]) -> Mapping[str, _U]:
+def _list_spellings(units: Mapping[str, _U]) -> Mapping[str, _U]:
     """Return units by each spelling that a key lists; folding makes the two micro signs one."""
     return MappingProxyType(
         {spelling.casefold(): unit for spellings, unit in units.items() for spelling in spellings.split()}
@@ -143,7 +143,7 @@ def _spelled(units: Mapping[str, _U]) -> Mapping[str, _U]:
 
 
 #: Units of length by the spellings that files and jobs use.
-LENGTH_UNITS = _spelled(
+LENGTH_UNITS = _list_spellings(
     {
         "m": METRE,
         "mm": MILLIMETRE,
@@ -154,7 +154,7 @@ LENGTH_UNITS = _spelled(
     }
 )
 #: Units of angles by their spellings.
-ANGLE_UNITS = _spelled(
+ANGLE_UNITS = _list_spellings(
     {
         "° deg degree degrees": DEGREE,
         "″ arcsec arcseconds": ARCSECOND,
@@ -165,11 +165,11 @@ ANGLE_UNITS = _spelled(
     }
 )
 #: Units of positions in time by their spellings.
-TIMES = _spelled({"h hours": HOUR, "min": MINUTE, "s sec seconds": SECONDS})
+TIMES = _list_spellings({"h hours": HOUR, "min": MINUTE, "s sec seconds": SECONDS})
 #: Of positions and deviations of any axis.
 POSITION_UNITS: Mapping[str, Unit] = MappingProxyType({**LENGTH_UNITS, **ANGLE_UNITS})
-TEMPERATURE_UNITS = _spelled({"°C degC C": CELSIUS, "K": KELVIN, "°F degF F": FAHRENHEIT})
-PRESSURE_UNITS = _spelled(
+TEMPERATURE_UNITS = _list_spellings({"°C degC C": CELSIUS, "K": KELVIN, "°F degF F": FAHRENHEIT})
+PRESSURE_UNITS = _list_spellings(
     {
         "Pa": Scale("Pa"),
         "hPa": HECTOPASCAL,
@@ -178,9 +178,9 @@ PRESSURE_UNITS = _spelled(
         "mmHg": Scale("mmHg", si=133.322),
     }
 )
-RATIO_UNITS = _spelled({"% %RH percent": PERCENT, "1": Scale("1")})
+RATIO_UNITS = _list_spellings({"% %RH percent": PERCENT, "1": Scale("1")})
 #: Units of time by their spellings.
-TIME_UNITS = _spelled(
+TIME_UNITS = _list_spellings(
     {
         "s sec seconds": SECOND,
         "ms": Scale("ms", si=1e-3),
@@ -190,7 +190,7 @@ TIME_UNITS = _spelled(
 )
 
 
-def unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
+def find_unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
     """Return the unit of a spelling, with either micro sign; raise ValueError if it is none of the units.
 
     >>> unit_named("µm", LENGTH_UNITS).ascii
@@ -205,11 +205,11 @@ def unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
     return found
 
 
-def printed_symbol(ascii_name: str) -> str:
+def find_printed_symbol(ascii_name: str) -> str:
     """Return the printed symbol of a unit that a results file names: ``um`` as ``µm``; others as they are."""
     return next((unit.symbol for unit in (*LENGTHS, *ANGLES) if unit.ascii == ascii_name), ascii_name)
 
 
-def above_reference(temperature: _Value) -> _Value:
+def compute_above_reference(temperature: _Value) -> _Value:
     """Return ΔT = T − 20 °C, K, of a temperature in kelvin."""
     return temperature - REFERENCE_TEMPERATURE

@@ -27,7 +27,7 @@ def is_workbook(content: bytes) -> bool:
         return False
 
 
-def sheet_lines(content: bytes, file: Place, largest: int, sheet: str | None = None) -> list[str]:
+def read_sheet_lines(content: bytes, file: Place, largest: int, sheet: str | None = None) -> list[str]:
     """Return the rows of a sheet, cells apart by tabs; a formula as its last value.
 
     `sheet`: Its name; None for the only one that holds something.
@@ -35,7 +35,7 @@ def sheet_lines(content: bytes, file: Place, largest: int, sheet: str | None = N
     Raises `InputError` if the workbook is damaged, unpacks to more than `largest` bytes, has no such sheet,
     or none or several with content where none is named; or a cell that no line can hold.
     """
-    filled = filled_sheets(content, file, largest)
+    filled = read_filled_sheets(content, file, largest)
     if sheet is not None and sheet not in filled:
         raise InputError.at(
             file, f"has no sheet {quoted(sheet)} that holds something; {did_you_mean(sheet, list(filled))}"
@@ -48,10 +48,10 @@ def sheet_lines(content: bytes, file: Place, largest: int, sheet: str | None = N
             else "has no content; a measurement file holds readings"
         )
         raise InputError.at(file, found)
-    return list(_lines(filled[sheet or next(iter(filled))], file))
+    return list(_write_lines(filled[sheet or next(iter(filled))], file))
 
 
-def filled_sheets(content: bytes, file: Place, largest: int) -> dict[str, list[tuple[object, ...]]]:
+def read_filled_sheets(content: bytes, file: Place, largest: int) -> dict[str, list[tuple[object, ...]]]:
     """Return the rows of each sheet that holds something, by its name, in the order of the workbook.
 
     Raises `InputError` if the workbook is damaged, or unpacks to more than `largest` bytes.
@@ -76,9 +76,9 @@ def filled_sheets(content: bytes, file: Place, largest: int) -> dict[str, list[t
     }
 
 
-def _lines(rows: Iterable[tuple[object, ...]], file: Place) -> Iterator[str]:
+def _write_lines(rows: Iterable[tuple[object, ...]], file: Place) -> Iterator[str]:
     for row, cells in enumerate(rows, 1):
-        texts = [_text(value) for value in cells]
+        texts = [_write_cell(value) for value in cells]
         for column, text in enumerate(texts, 1):
             if not text.isprintable():
                 raise InputError.at(
@@ -87,7 +87,7 @@ def _lines(rows: Iterable[tuple[object, ...]], file: Place) -> Iterator[str]:
         yield SEPARATOR.join(texts).rstrip(SEPARATOR)
 
 
-def _text(value: object) -> str:
+def _write_cell(value: object) -> str:
     """Return a cell as text: numbers with all their digits and a decimal point, times as in ISO 8601.
 
     A line break in a cell, as in a heading with its unit below, is a blank, as are blanks of other kinds.

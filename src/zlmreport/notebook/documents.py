@@ -17,8 +17,8 @@ from zlmreport.files import Document, write, write_new
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
-from zlmreport.model.compensation.basis import basis_of_means
-from zlmreport.model.compensation.curve import curve_of
+from zlmreport.model.compensation.basis import make_basis_of_means
+from zlmreport.model.compensation.curve import make_error_curve
 from zlmreport.model.compensation.making import Made, make
 from zlmreport.notebook.frames import as_html, frame_of
 from zlmreport.notebook.layout import sections_html
@@ -50,7 +50,7 @@ class Certificate:
     @cached_property
     def results(self) -> tuple[Result, ...]:
         """The evaluations by the standards of the job, with uncertainties and decisions."""
-        chosen = pipeline.standards(self._job, registry())
+        chosen = pipeline.choose_standards(self._job, registry())
         return tuple(
             Result.of(evaluation, standard, options)
             for evaluation, (standard, options) in zip(self._composed.evaluations, chosen, strict=True)
@@ -75,10 +75,10 @@ class Certificate:
         """
         path = Path(path)
         if path.suffix:
-            (content,) = self._rendered([plugin or _renderer_of(path)])
+            (content,) = self._rendered([plugin or _find_renderer_of(path)])
             return write([Document(path, content)])[0]
         known = {each.identifier: each for each in registry().renderers}
-        names = pipeline.file_names(self.number, [known[each] for each in self._job.formats])
+        names = pipeline.name_files(self.number, [known[each] for each in self._job.formats])
         contents = self._rendered(self._job.formats)
         write(Document(path / name, content) for name, content in zip(names, contents, strict=True))
         return path
@@ -96,7 +96,7 @@ class Certificate:
         return "".join(each._repr_html_() for each in self.results)
 
 
-def _renderer_of(path: Path) -> str:
+def _find_renderer_of(path: Path) -> str:
     by_suffix: dict[str, str] = {}
     for each in registry().renderers:
         by_suffix.setdefault(each.suffix, each.identifier)
@@ -147,7 +147,7 @@ class Verification:
         statements = (found.signature, *found.files, *found.pages, *found.document)
         return (
             *(
-                f"{each.subject}: {_in_english(each.detail)}"
+                f"{each.subject}: {_write_in_english(each.detail)}"
                 for each in statements
                 if each.verdict == "differs"
             ),
@@ -161,7 +161,7 @@ class Verification:
     @property
     def remarks(self) -> tuple[str, ...]:
         """What limits the comparison."""
-        return tuple(map(_in_english, self._found.remarks))
+        return tuple(map(_write_in_english, self._found.remarks))
 
     def __bool__(self) -> bool:
         """Whether it holds."""
@@ -176,7 +176,7 @@ class Verification:
         return as_html((f"{self.number}: {_OUTCOMES[self._found.outcome]}",), rows)
 
 
-def _in_english(words: Words | str) -> str:
+def _write_in_english(words: Words | str) -> str:
     return words if isinstance(words, str) else words.in_language(Language.ENGLISH)
 
 
@@ -205,7 +205,7 @@ class Compensation:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return how to make it anew: plugins stay here, and go by their names."""
-        return _made_again, (self.data, self.controller, self._asked)
+        return _make_again, (self.data, self.controller, self._asked)
 
     @property
     def table(self) -> Any:
@@ -308,7 +308,7 @@ def compensate(  # noqa: PLR0913 - each by its name
             "unconfirmed=True writes it all the same: try it with care, one point first",
         )
     options = checked(writer.options, keys, "compensate")
-    basis = basis_of_means(curve_of(data.measurements, _PLACE), data.measurements)
+    basis = make_basis_of_means(make_error_curve(data.measurements, _PLACE), data.measurements)
     made = make(
         basis,
         axis,
@@ -322,5 +322,5 @@ def compensate(  # noqa: PLR0913 - each by its name
     return Compensation(data, made, number, asked)
 
 
-def _made_again(data: Readings, controller: str, asked: Mapping[str, Any]) -> Compensation:
+def _make_again(data: Readings, controller: str, asked: Mapping[str, Any]) -> Compensation:
     return compensate(data, controller, **asked)

@@ -34,9 +34,9 @@ def frame_of(columns: Mapping[str, NDArray[Any]], library: Library | None = None
     """
     if library is not None and library not in LIBRARIES:
         raise InputError.at(Place("to_frame"), f"{library!r} is unknown; {did_you_mean(library, LIBRARIES)}")
-    chosen = library or _library_here()
+    chosen = library or _find_library_here()
     if chosen is None:
-        return _structured(columns)
+        return _make_structured(columns)
     try:
         import narwhals as nw  # noqa: PLC0415 - for who makes a frame
 
@@ -46,7 +46,7 @@ def frame_of(columns: Mapping[str, NDArray[Any]], library: Library | None = None
         raise InputError.at(Place("to_frame"), message) from error
 
 
-def _structured(columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
+def _make_structured(columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
     rows = len(next(iter(columns.values()), ()))
     found = np.empty(rows, dtype=[(name, column.dtype) for name, column in columns.items()])
     for name, column in columns.items():
@@ -54,7 +54,7 @@ def _structured(columns: Mapping[str, NDArray[Any]]) -> NDArray[Any]:
     return found
 
 
-def _library_here() -> Library | None:
+def _find_library_here() -> Library | None:
     """Return the library of frames that is in use, or else one that is installed; None if there is none."""
     in_use = [each for each in LIBRARIES if each in sys.modules]
     return next(iter(in_use), None) or next((each for each in LIBRARIES if find_spec(each)), None)
@@ -101,11 +101,11 @@ def as_html(head: Sequence[str], rows: Iterable[Sequence[Any]], caption: str = "
     """Return a table for a notebook: texts escaped, numbers to a few digits, nothing where nothing is."""
     above = f"<caption>{html.escape(caption)}</caption>" if caption else ""
     titles = "".join(f"<th>{html.escape(title)}</th>" for title in head)
-    body = "".join(f"<tr>{''.join(f'<td>{_shown(cell)}</td>' for cell in row)}</tr>" for row in rows)
+    body = "".join(f"<tr>{''.join(f'<td>{_show_cell(cell)}</td>' for cell in row)}</tr>" for row in rows)
     return f"<table>{above}<thead><tr>{titles}</tr></thead><tbody>{body}</tbody></table>"
 
 
-def _shown(cell: Any) -> str:
+def _show_cell(cell: Any) -> str:
     if cell is None or (isinstance(cell, float) and np.isnan(cell)):
         return ""
     return html.escape(f"{cell:.{_DIGITS}g}" if isinstance(cell, float) else str(cell))

@@ -15,21 +15,22 @@ from zlmreport.document.blocks import (
     Paragraph,
     Section,
     Table,
-    text_of,
+    write_cell_text,
 )
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.notebook.frames import as_html
 
 
 def sections_html(sections: Iterable[Section]) -> str:
     """Return sections under their titles: texts escaped, graphs left out."""
     return "".join(
-        f"<h4>{html.escape(each.title)}</h4>{''.join(_html(block, each.title) for block in each.blocks)}"
+        f"<h4>{html.escape(each.title)}</h4>"
+        + "".join(_write_html(block, each.title) for block in each.blocks)
         for each in sections
     )
 
 
-def _html(block: Block, title: str) -> str:
+def _write_html(block: Block, title: str) -> str:
     match block:
         case Paragraph(text):
             return f"<p>{html.escape(text)}</p>"
@@ -39,19 +40,20 @@ def _html(block: Block, title: str) -> str:
         case Facts(pairs):
             return as_html(tuple(name for name, _ in pairs), [tuple(value for _, value in pairs)])
         case Table():
-            return _table(block)
+            return _write_table(block)
         case Formulas(rows=rows):
             return as_html(
-                ("", "", ""), [(plain(a.notation), plain(b.notation), name) for a, b, name in rows]
+                ("", "", ""),
+                [(write_plain(a.notation), write_plain(b.notation), name) for a, b, name in rows],
             )
         case Graph():
             return ""
 
 
-def _table(table: Table) -> str:
+def _write_table(table: Table) -> str:
     columns = [column for column in table.columns if column.kind is not ColumnKind.BARS]
     shown = table.without(*(column.key for column in table.columns if column not in columns))
-    head = [" ".join(filter(None, (text_of(column.heading), column.unit))) for column in columns]
+    head = [" ".join(filter(None, (write_cell_text(column.heading), column.unit))) for column in columns]
     return as_html(head, _rows(shown))
 
 
@@ -60,4 +62,4 @@ def _rows(table: Table) -> Iterator[list[str]]:
     for group in table.groups:
         if group.heading:
             yield [group.heading, *[""] * (len(table.columns) - 1)]
-        yield from ([text_of(cell) for cell in row] for row in group.rows)
+        yield from ([write_cell_text(cell) for cell in row] for row in group.rows)

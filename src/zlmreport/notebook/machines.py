@@ -8,15 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
-from zlmreport.machines.choosing import with_effect
+from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
-from zlmreport.machines.diagnosis_report import build_values, diagnosis_values
-from zlmreport.machines.prediction import prediction_values
+from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
+from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
 from zlmreport.plugin.registry import Registry, find_plugins
-from zlmreport.verification.carrier import results_in
+from zlmreport.verification.carrier import find_results_in
 
 _PLACE = Place("z.machine")
 
@@ -81,7 +81,7 @@ class Machine:
             *compare_circles(machine, self.file.measured, self.registry),
             *(compare_line(machine, each) for each in self.file.lines),
         )
-        return prediction_values(machine, compared)
+        return collect_prediction(machine, compared)
 
     def diagnose(self) -> DiagnosisOfMachine:
         """Say which effect is missing."""
@@ -90,14 +90,14 @@ class Machine:
             compare_circles(self.file.machine, self.file.measured, self.registry, study)
             for study in (found.study, found.complete)
         )
-        return DiagnosisOfMachine(diagnosis_values(found, before, after))
+        return DiagnosisOfMachine(collect_diagnosis(found, before, after))
 
     def add(self, effect: str) -> Machine:
         """Return the machine with one effect more."""
         found = {each.identifier: each for each in self.file.catalogue}
         if effect not in found:
             raise InputError.at(_PLACE, f"{quoted(effect)} is no effect; {did_you_mean(effect, list(found))}")
-        return Machine(self.file, self.registry, with_effect(self.study, found[effect]))
+        return Machine(self.file, self.registry, add_effect(self.study, found[effect]))
 
     def remove(self, effect: str) -> Machine:
         """Return the machine with one effect less."""
@@ -123,5 +123,5 @@ def machine(path: str | Path) -> Machine:
     Raises `InputError` with every mistake; if it names no circle.
     """
     registry = find_plugins()
-    file = read_machine(Path(path), registry, results_in)
+    file = read_machine(Path(path), registry, find_results_in)
     return Machine(file, registry, file.study())

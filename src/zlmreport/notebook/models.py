@@ -11,32 +11,32 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from zlmreport.document.blocks import Notice, Section
-from zlmreport.document.subjects.diagnosis import diagnosis_sections
+from zlmreport.document.subjects.diagnosis import lay_out_diagnosis
 from zlmreport.document.subjects.fit import fit_sections
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.choices import EffectChoice, effect_choices, next_number
+from zlmreport.job.choices import EffectChoice, choose_effects_of, find_next_number
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.diagnosis.asking import AskedLength, lengths_asked
+from zlmreport.model.diagnosis.asking import AskedLength, list_lengths_asked
 from zlmreport.model.diagnosis.build_report import build_values
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import (
     Diagnosis as FoundDiagnosis,
     ErrorNumbers,
+    compute_error_numbers,
     diagnose,
-    error_numbers,
 )
-from zlmreport.model.diagnosis.report import report, report_error, report_model, verdict_statement
+from zlmreport.model.diagnosis.report import report, report_error, report_model, write_verdict_statement
 from zlmreport.model.diagnosis.study import Fitted
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, chosen_terms
-from zlmreport.model.effects.design import at_positions, outside_of_measured
-from zlmreport.model.effects.effect import unit_of
-from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, choose_terms
+from zlmreport.model.effects.design import list_outside_of_measured, place_at_positions
+from zlmreport.model.effects.effect import find_unit_of
+from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit as fit_model
-from zlmreport.model.fitting.observations import Observations, observations_of
+from zlmreport.model.fitting.observations import Observations, make_observations_of
 from zlmreport.notebook.frames import frame_of
 from zlmreport.notebook.layout import sections_html
 from zlmreport.notebook.readings import Readings, readings_of, registry, tree_of
@@ -116,10 +116,10 @@ class Diagnosis:
 
     def __init__(self, values: Mapping[str, Any], found: FoundDiagnosis, asks: Sequence[str]) -> None:
         self._values = values
-        self.statement = verdict_statement(found).in_language(Language.ENGLISH)
+        self.statement = write_verdict_statement(found).in_language(Language.ENGLISH)
         self.asks = tuple(asks)
         titles = {each.identifier: each.title for each in registry().effects}
-        self._sections = diagnosis_sections(found, Language.ENGLISH, titles)
+        self._sections = lay_out_diagnosis(found, Language.ENGLISH, titles)
 
     @property
     def verdict(self) -> str:
@@ -238,7 +238,7 @@ class Model:
         self._choices = tuple(choices)
         self._assumptions = assumptions
         kind = data.measurements.axis.kind
-        self._model = AxisModel(chosen_terms(self._choices, registry().effect, kind))
+        self._model = AxisModel(choose_terms(self._choices, registry().effect, kind))
         self.effects: tuple[str, ...] = tuple(self._model.identifiers)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -247,12 +247,12 @@ class Model:
 
     @cached_property
     def _observed(self) -> Observations:
-        return observations_of(self.data.measurements)
+        return make_observations_of(self.data.measurements)
 
     @cached_property
     def _kept(self) -> Observations:
         """The readings without those that stand off."""
-        return self._observed.without(outliers(self._observed.design, self._observed.deviation).readings)
+        return self._observed.without(find_outliers(self._observed.design, self._observed.deviation).readings)
 
     @cached_property
     def fit(self) -> Fit:
@@ -261,7 +261,7 @@ class Model:
 
     @cached_property
     def _error(self) -> ErrorNumbers:
-        return error_numbers(self.fit)
+        return compute_error_numbers(self.fit)
 
     @property
     def rms(self) -> float:
@@ -335,7 +335,9 @@ class Model:
         return [
             (
                 columns.index(own),
-                unit_of(own[1].dimension, design.axis.kind, time_is_counted=design.time_is_counted).per_si,
+                find_unit_of(
+                    own[1].dimension, design.axis.kind, time_is_counted=design.time_is_counted
+                ).per_si,
             )
             for each in self.fit.estimates
             if (own := (each.effect, each.parameter)) in columns
@@ -365,13 +367,13 @@ class Model:
         design = self.fit.design
         unit = design.axis.position_unit
         places = np.atleast_1d(np.asarray(unit.to_si(np.asarray(positions, dtype=np.float64))))
-        sentences = outside_of_measured(design.axis.name, unit, places, design.span)
+        sentences = list_outside_of_measured(design.axis.name, unit, places, design.span)
         if sentences:
             raise InputError(Problem(Place("at"), sentence) for sentence in sentences)
         columns: dict[str, FloatArray] = {"position": unit.from_si(places)}
         for approach in Approach:
             if np.any(design.direction == approach):
-                found = self.fit.predict(at_positions(design, places, approach))
+                found = self.fit.predict(place_at_positions(design, places, approach))
                 columns[_SIDES[approach]] = self._printed(found.deviation)
                 columns[f"U_{_SIDES[approach]}"] = self._printed(found.expanded_uncertainty)
         return frame_of(columns, self.data.library)
@@ -381,9 +383,9 @@ class Model:
         try:
             found = diagnose(self._model, self._observed, registry().effects, self._assumptions)
         except ModelError as error:
-            raise _refused(error) from error
-        asked = lengths_asked(self._observed.design, self._model.identifiers, registry().effects)
-        return Diagnosis(report(found), found, [_question(each) for each in asked])
+            raise _make_refusal(error) from error
+        asked = list_lengths_asked(self._observed.design, self._model.identifiers, registry().effects)
+        return Diagnosis(report(found), found, [_read_question(each) for each in asked])
 
     def build(self) -> Build:
         """Return the model that comes of adding, step by step, every effect with evidence of its own."""
@@ -395,15 +397,17 @@ class Model:
         try:
             found = build(self._model, diagnosing)
         except ModelError as error:
-            raise _refused(error) from error
-        added = _chosen([{each.identifier: each.settings.model_dump(mode="json")} for each in found.added])
+            raise _make_refusal(error) from error
+        added = _choose_effects(
+            [{each.identifier: each.settings.model_dump(mode="json")} for each in found.added]
+        )
         known = {each.identifier for each in added}
         kept = [
             each
             for each in self._choices
             if each.identifier in found.model.identifiers and each.identifier not in known
         ]
-        model = _fitted(self.data, [*kept, *added], self._assumptions)
+        model = _fit_model(self.data, [*kept, *added], self._assumptions)
         return Build(model, build_values(found))
 
     def add(self, effect: str | Mapping[str, Any] | Candidate) -> Model:
@@ -416,15 +420,15 @@ class Model:
         """
         if isinstance(effect, Candidate):
             effect = {effect.effect: effect.settings}
-        (choice,) = _chosen([effect])
+        (choice,) = _choose_effects([effect])
         if choice.identifier in self.effects and not choice.is_formula:
             installed = registry().effect(choice.installed)
             if installed.several:
-                choice = choice.numbered(next_number(choice.installed, self._choices))
+                choice = choice.numbered(find_next_number(choice.installed, self._choices))
         contains = () if choice.is_formula else registry().effect(choice.identifier).contains
         replaced = {choice.identifier, *contains}
         kept = [each for each in self._choices if each.identifier not in replaced]
-        return _fitted(self.data, [*kept, choice], self._assumptions)
+        return _fit_model(self.data, [*kept, choice], self._assumptions)
 
     def remove(self, *effects: str) -> Model:
         """Return the model without some effects, fitted anew."""
@@ -433,7 +437,7 @@ class Model:
             known = ", ".join(self.effects)
             raise KeyError(f"the model has no effect {unknown[0]!r} (it has: {known})")
         kept = [each for each in self._choices if each.identifier not in effects]
-        return _fitted(self.data, kept, self._assumptions)
+        return _fit_model(self.data, kept, self._assumptions)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the estimate with its uncertainty over the travel on axes of matplotlib, and return them."""
@@ -457,7 +461,7 @@ class Model:
         return sections_html(fit_sections(Fitted(self.fit, self._error), Language.ENGLISH))
 
 
-def _question(asked: AskedLength) -> str:
+def _read_question(asked: AskedLength) -> str:
     effects = ", ".join(asked.effects)
     return (
         f"{asked.name.in_language(Language.ENGLISH)} ({asked.unit}): stated, z.read(…, "
@@ -497,26 +501,28 @@ def fit(
     """
     data = readings_of(data, _NAME)
     u = data.measurements.axis.deviation_unit.to_si(instrument_uncertainty) / _COVERAGE_FACTOR
-    return _fitted(data, _chosen(effects), Assumptions(instrument=InstrumentError(at_each_position=u)))
+    return _fit_model(
+        data, _choose_effects(effects), Assumptions(instrument=InstrumentError(at_each_position=u))
+    )
 
 
-def _fitted(data: Readings, choices: Sequence[EffectChoice], assumptions: Assumptions) -> Model:
+def _fit_model(data: Readings, choices: Sequence[EffectChoice], assumptions: Assumptions) -> Model:
     model = Model(data, choices, assumptions)
     try:
         _ = model.fit  # what cannot be fitted fails here, and not when it is looked at
     except ModelError as error:
-        raise _refused(error) from error
+        raise _make_refusal(error) from error
     return model
 
 
-def _chosen(effects: Sequence[str | Mapping[str, Any]]) -> tuple[EffectChoice, ...]:
+def _choose_effects(effects: Sequence[str | Mapping[str, Any]]) -> tuple[EffectChoice, ...]:
     listed = tree_of({"effects": list(effects)}, _NAME).entries["effects"].value
     problems: list[Problem] = []
-    choices = effect_choices(listed, registry(), problems, within="effects")
+    choices = choose_effects_of(listed, registry(), problems, within="effects")
     if problems:
         raise InputError(Problem(Place(_NAME), each.message) for each in problems)
     return choices
 
 
-def _refused(error: ModelError) -> InputError:
+def _make_refusal(error: ModelError) -> InputError:
     return InputError(Problem(Place(_NAME), sentence) for sentence in error.sentences)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.model.effects.effect import unit_of
+from zlmreport.model.effects.effect import find_unit_of
 from zlmreport.notebook.readings import registry
 
 
@@ -61,7 +61,7 @@ def standards() -> dict[str, OfferedStandard]:
     return {
         each.identifier: OfferedStandard(
             each.identifier,
-            _said(each.title),
+            _say(each.title),
             tuple(quantity.symbol for quantity in each.quantities),
             tuple(each.options.model_fields),
         )
@@ -74,10 +74,10 @@ def effects() -> dict[str, OfferedEffect]:
     return {
         each.identifier: OfferedEffect(
             each.identifier,
-            _said(each.title),
-            plain(each.equation),
+            _say(each.title),
+            write_plain(each.equation),
             {
-                parameter.name: unit_of(parameter.dimension, AxisKind.LINEAR).ascii
+                parameter.name: find_unit_of(parameter.dimension, AxisKind.LINEAR).ascii
                 for parameter in (*each.linear, *each.searched)
             },
             tuple(each.options.model_fields),
@@ -86,5 +86,5 @@ def effects() -> dict[str, OfferedEffect]:
     }
 
 
-def _said(words: Words) -> str:
+def _say(words: Words) -> str:
     return words.in_language(Language.ENGLISH)

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from zlmreport import pipeline
-from zlmreport.document.figures.sequence import sequence
+from zlmreport.document.figures.sequence import draw_sequence
 from zlmreport.document.subjects.plan import plan_sections
 from zlmreport.document.subjects.plan_values import plan_values
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.planning.planned_test import planned_test
-from zlmreport.model.planning.programs import motion_of
+from zlmreport.model.planning.planned_test import describe_planned_test
+from zlmreport.model.planning.programs import plan_motion_of
 from zlmreport.model.planning.visibility import Sight
 from zlmreport.notebook.frames import Library, frame_of
 from zlmreport.notebook.layout import sections_html
@@ -48,12 +48,12 @@ class Plan:
     """A planned test: ``plan.targets``, ``plan.to_frame()``, ``plan.minutes``, ``plan.hidden``."""
 
     def __init__(self, job: Job) -> None:
-        planned = planned_test(job, pipeline.standards(job, registry()), registry().effects)
+        planned = describe_planned_test(job, pipeline.choose_standards(job, registry()), registry().effects)
         plan = planned.proposal.plan
         self._values = plan_values(job, planned)
         self._sections = plan_sections(job, planned, Language.ENGLISH)
-        self._sequence = sequence(
-            motion_of(job.keys.certificate.number, job.axis, plan, job.place_of("plan"))
+        self._sequence = draw_sequence(
+            plan_motion_of(job.keys.certificate.number, job.axis, plan, job.place_of("plan"))
         )
 
     @cached_property
@@ -104,7 +104,7 @@ class Plan:
 
     def __repr__(self) -> str:
         """Return how large the test is."""
-        targets, runs = counted(len(self.targets), "target"), counted(self.runs, "run")
+        targets, runs = count_in_words(len(self.targets), "target"), count_in_words(self.runs, "run")
         return f"<Plan: {targets}, {runs}, {self.method}, {self.minutes:.0f} min>"
 
     def _repr_html_(self) -> str:

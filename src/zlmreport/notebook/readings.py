@@ -16,9 +16,9 @@ from pydantic import BaseModel
 from zlmreport.errors import InputError, Place, Problem, did_you_mean
 from zlmreport.job.contradictions import validate
 from zlmreport.job.job import Job
-from zlmreport.job.loading import axis_in_si, load
+from zlmreport.job.loading import convert_axis_to_si, load
 from zlmreport.job.measurement_keys import AxisKeys
-from zlmreport.job.parse import counted, parse
+from zlmreport.job.parse import count_in_words, parse
 from zlmreport.job.simulation import load_simulation
 from zlmreport.job.tree import Keys
 from zlmreport.measurement.approach import Approach
@@ -27,7 +27,7 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.collect import Reading, collect
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
-from zlmreport.model.simulation.files import description_of
+from zlmreport.model.simulation.files import read_description_of
 from zlmreport.model.simulation.simulate import simulate as simulate_test
 from zlmreport.notebook.frames import Library, columns_of, frame_of, library_of, table_html
 from zlmreport.plugin.protocols import SourceContext
@@ -161,11 +161,14 @@ class Readings:
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return how to make the readings anew: they are read-only again then."""
-        return _made_anew, (self.measurements, self.library)
+        return _make_anew, (self.measurements, self.library)
 
     def __repr__(self) -> str:
         """Return the axis and how many readings there are."""
-        targets, runs = counted(len(self.targets), "target"), counted(len(self.measurements.runs), "run")
+        targets, runs = (
+            count_in_words(len(self.targets), "target"),
+            count_in_words(len(self.measurements.runs), "run"),
+        )
         missing = len(self.measurements.missing())
         left_out = f", {missing} missing" if missing else ""
         return f"<Readings of axis {self.measurements.axis.name}: {targets}, {runs}{left_out}>"
@@ -174,7 +177,7 @@ class Readings:
         return table_html(self._columns)
 
 
-def _made_anew(measurements: MeasurementSet, library: Library | None) -> Readings:
+def _make_anew(measurements: MeasurementSet, library: Library | None) -> Readings:
     logs = measurements.conditions.values()
     for each in (*(getattr(measurements, own.name) for own in fields(measurements)), *logs):
         if isinstance(each, np.ndarray):
@@ -226,7 +229,7 @@ def read(
             raise InputError.at(
                 Place("read"), f"columns need no {'plugin' if plugin else next(iter(keys))!r}"
             )
-        return Readings(_of_columns(columns, axis_of(axis)), library_of(source))
+        return Readings(_read_columns(columns, axis_of(axis)), library_of(source))
     if not isinstance(source, str | Path):
         raise InputError.at(
             Place("read"), f"a {type(source).__name__} is no path of a file, and no frame with named columns"
@@ -240,9 +243,9 @@ def read(
             raise InputError.at(Place("read"), message)
         job = load(path, registry())
         found = pipeline.read(job, registry())
-        return Readings(found if axis is None else _of_axis(found, job, axis))
+        return Readings(found if axis is None else _replace_axis(found, job, axis))
     name = "read"
-    reader = registry().source(plugin, Place(name)) if plugin else _reader_of(path)
+    reader = registry().source(plugin, Place(name)) if plugin else _find_reader_of(path)
     options = checked(reader.options, {"file": str(path), **keys}, name)
     return Readings(reader.read(options, SourceContext(axis_of(axis), Place(name))))
 
@@ -251,10 +254,10 @@ def axis_of(axis: str | Mapping[str, Any] | None) -> Axis:
     """Return an axis by its name, or by its keys as in a job; without a name X, or C if it is rotary."""
     keys = {"name": axis} if isinstance(axis, str) else dict(axis or {})
     usual = "C" if keys.get("kind") == AxisKind.ROTARY else "X"
-    return axis_in_si(checked(AxisKeys, {"name": usual, **keys}, "axis"))
+    return convert_axis_to_si(checked(AxisKeys, {"name": usual, **keys}, "axis"))
 
 
-def _of_axis(found: MeasurementSet, job: Job, axis: str | Mapping[str, Any]) -> MeasurementSet:
+def _replace_axis(found: MeasurementSet, job: Job, axis: str | Mapping[str, Any]) -> MeasurementSet:
     """Return the readings of a job with keys of the axis that stand instead of its own."""
     stated = job.keys.axis.model_dump(mode="json", exclude_unset=True)
     keys = {"name": axis} if isinstance(axis, str) else axis
@@ -267,7 +270,7 @@ def _of_axis(found: MeasurementSet, job: Job, axis: str | Mapping[str, Any]) -> 
     )
 
 
-def _reader_of(path: Path) -> Any:
+def _find_reader_of(path: Path) -> Any:
     """Return the data source for files of a suffix."""
     suffix = path.suffix.casefold()
     by_suffix = {each: source for source in registry().sources for each in getattr(source, "suffixes", ())}
@@ -281,7 +284,7 @@ def _reader_of(path: Path) -> Any:
     )
 
 
-def _of_columns(columns: Mapping[str, NDArray[Any]], axis: Axis) -> MeasurementSet:
+def _read_columns(columns: Mapping[str, NDArray[Any]], axis: Axis) -> MeasurementSet:
     place = Place("columns")
     value = next((name for name in ("deviation", "position") if name in columns), "")
     missing = [name for name in _NEEDED if name not in columns]
@@ -301,9 +304,9 @@ def _rows(
     found = np.asarray(columns[value], dtype=np.float64)
     found = deviation.to_si(found) if value == "deviation" else position.to_si(found) - target
     runs = np.asarray(columns.get("run", np.ones(len(target))), dtype=np.float64)
-    seconds = _seconds(columns["time"]) if "time" in columns else np.full(len(target), np.nan)
+    seconds = _convert_to_seconds(columns["time"]) if "time" in columns else np.full(len(target), np.nan)
     known = {*_NEEDED, "run", "time", value}
-    logs = {name: _log(name, log) for name, log in columns.items() if name not in known}
+    logs = {name: _read_log(name, log) for name, log in columns.items() if name not in known}
     for row, spelt in enumerate(columns["direction"].tolist()):
         place = Place("columns", row + 1)
         approach = _DIRECTIONS.get(str(spelt).strip().casefold())
@@ -322,13 +325,13 @@ def _rows(
         )
 
 
-def _seconds(times: NDArray[Any]) -> FloatArray:
+def _convert_to_seconds(times: NDArray[Any]) -> FloatArray:
     if times.dtype.kind == "M":
         return np.asarray((times - times.min()) / np.timedelta64(1, "s"), dtype=np.float64)
     return np.asarray(times, dtype=np.float64)
 
 
-def _log(name: str, values: NDArray[Any]) -> FloatArray:
+def _read_log(name: str, values: NDArray[Any]) -> FloatArray:
     log = np.asarray(values, dtype=np.float64)
     return log * CONDITIONS[name].unit.si + CONDITIONS[name].unit.zero if name in CONDITIONS else log
 
@@ -359,10 +362,10 @@ def of_arrays(
     """
     place = Place("test")
     of = axis_of(axis)
-    positions = _numbers("targets", targets)
+    positions = _take_numbers("targets", targets)
     found = {Approach.POSITIVE: up, Approach.NEGATIVE: down}
     grids = {
-        approach: np.atleast_2d(_numbers("up" if approach > 0 else "down", values))
+        approach: np.atleast_2d(_take_numbers("up" if approach > 0 else "down", values))
         for approach, values in found.items()
         if values is not None
     }
@@ -391,7 +394,7 @@ def of_arrays(
     return Readings(collect(readings, of, Provenance("arrays"), place=place))
 
 
-def _numbers(name: str, values: ArrayLike) -> FloatArray:
+def _take_numbers(name: str, values: ArrayLike) -> FloatArray:
     """Return an array of numbers; raise `InputError` if it holds other things, or rows of unlike lengths."""
     try:
         return np.asarray(values, dtype=np.float64)
@@ -428,4 +431,4 @@ def simulate(specification: str | Path | Mapping[str, Any] | None = None, **keys
         given = {"schema": "zlmreport/simulation/1", "seed": 1, **(specification or {}), **keys}
         content = json.dumps(given, default=plain_value).encode()
     file = load_simulation(Path(name), registry(), content)
-    return Readings(simulate_test(description_of(file, registry().effect)).measurements)
+    return Readings(simulate_test(read_description_of(file, registry().effect)).measurements)

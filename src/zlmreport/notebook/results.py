@@ -14,10 +14,10 @@ from zlmreport.errors import InputError, Place, Problem
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate as evaluate_by
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
-from zlmreport.evaluation.report import position_columns, report_evaluation
+from zlmreport.evaluation.report import collect_position_columns, report_evaluation
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
-from zlmreport.job.loading import standard_choices, tolerances_in_si
+from zlmreport.job.loading import choose_standards, convert_tolerances_to_si
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.notebook.frames import Library, as_html, frame_of
@@ -179,7 +179,7 @@ class Result:
         unit = self.data.measurements.axis.deviation_unit
         columns = {
             symbol: read_only_floats(unit.from_si(values))
-            for symbol, values in position_columns(self.evaluation).items()
+            for symbol, values in collect_position_columns(self.evaluation).items()
             if not np.all(np.isnan(values))
         }
         return frame_of({"target": self.data.targets, **columns}, library or self.data.library)
@@ -292,7 +292,7 @@ def evaluate(
     if decision_rule != "simple":
         checked(DecisionRuleKeys, {"rule": decision_rule}, _NAME)
     result = Result(
-        data, chosen, options, tolerances_in_si(limits, chosen, data.measurements.axis), decision_rule
+        data, chosen, options, convert_tolerances_to_si(limits, chosen, data.measurements.axis), decision_rule
     )
     _ = result.arithmetic  # what cannot be evaluated fails here, and not when it is looked at
     return result
@@ -302,20 +302,20 @@ def _standard(
     identifier: str, limits: tuple[tuple[str, float], ...], keys: tuple[tuple[str, Any], ...]
 ) -> tuple[Standard, Any]:
     try:
-        return _known_standard(identifier, limits, keys)
+        return _find_known_standard(identifier, limits, keys)
     except TypeError:  # a key whose value has no hash
-        return _known_standard.__wrapped__(identifier, limits, keys)
+        return _find_known_standard.__wrapped__(identifier, limits, keys)
 
 
 @cache
-def _known_standard(
+def _find_known_standard(
     identifier: str, limits: tuple[tuple[str, float], ...], keys: tuple[tuple[str, Any], ...]
 ) -> tuple[Standard, Any]:
     """Return a standard with its keys checked; asked for again, the same."""
     asked = {"standard": identifier, "tolerances": dict(limits), **dict(keys)}
     checked(StandardKeys, asked, _NAME)
     problems: list[Problem] = []
-    found = list(standard_choices(tree_of({"evaluate": [asked]}, _NAME), registry(), problems))
+    found = list(choose_standards(tree_of({"evaluate": [asked]}, _NAME), registry(), problems))
     if problems:
         raise InputError(Problem(Place(_NAME), each.message) for each in problems)
     return registry().standard(identifier), found[0].options
@@ -325,6 +325,6 @@ def drawn(figure: Figure, ax: Axes | None) -> list[Axes]:
     """Return axes with the panels of a figure on them: those given, or axes of a new figure of matplotlib."""
     from zlmreport.document.figures import on_axes  # noqa: PLC0415 - it brings matplotlib
 
-    axes = on_axes.new_axes(figure) if ax is None else [ax]
+    axes = on_axes.make_axes(figure) if ax is None else [ax]
     on_axes.put(figure, axes)
     return axes

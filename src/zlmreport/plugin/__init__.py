@@ -46,9 +46,9 @@ from zlmreport.language import (
 from zlmreport.language.formatting import (
     MINUS as MINUS_SIGN,
     DecimalSign,
-    fixed_number,
-    general_number,
-    held as held_together,
+    hold_units as held_together,
+    write_fixed_number as fixed_number,
+    write_general_number as general_number,
 )
 from zlmreport.measurement.approach import (
     Approach,
@@ -62,14 +62,14 @@ from zlmreport.measurement.arrays import (
 from zlmreport.measurement.axis import (
     Axis,
     AxisKind,
-    position_units,
+    list_position_units as position_units,
 )
 from zlmreport.measurement.circle import (
     NominalCircle,
 )
 from zlmreport.measurement.error_symbol import (
     ErrorSymbol,
-    error_named,
+    find_error_named as error_named,
 )
 from zlmreport.measurement.measurand import (
     ANGLE,
@@ -81,7 +81,7 @@ from zlmreport.measurement.measurand import (
     STRAIGHTNESS,
     Coordinate,
     Measurand,
-    measurands_of,
+    list_measurands_of as measurands_of,
 )
 from zlmreport.measurement.measurement_set import (
     CONDITION_NAMES,
@@ -111,8 +111,8 @@ from zlmreport.measurement.units import (
     TIME_UNITS,
     Scale as ReadingScale,
     Unit,
-    above_reference as above_reference_temperature,
-    unit_named,
+    compute_above_reference as above_reference_temperature,
+    find_unit_named as unit_named,
 )
 from zlmreport.plugin.hooks import (
     hookimpl,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from zlmreport.language.numbers import (
-    pair_words,
+    write_pair as pair_words,
 )
 from zlmreport.model.effects.circle_design import (
     AXES,

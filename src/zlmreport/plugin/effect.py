@@ -8,8 +8,8 @@ from zlmreport.model.diagnosis.report import (
     report_precision,
 )
 from zlmreport.model.effects.catalogue import (
-    effects_of_catalogue,
-    measurements_of_catalogue,
+    read_effects_of_catalogue as effects_of_catalogue,
+    read_measurements_of_catalogue as measurements_of_catalogue,
 )
 from zlmreport.model.effects.design import (
     Design,
@@ -31,8 +31,8 @@ from zlmreport.model.effects.effect import (
     needs_whole_period,
 )
 from zlmreport.model.effects.harmonic import (
-    harmonic_columns,
-    harmonic_parameters,
+    make_harmonic_columns as harmonic_columns,
+    make_harmonic_parameters as harmonic_parameters,
 )
 from zlmreport.model.effects.searching import (
     search_grid,

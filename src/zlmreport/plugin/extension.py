@@ -8,18 +8,18 @@ from zlmreport.evaluation.uncertainty.budget import (
     Distribution,
 )
 from zlmreport.evaluation.uncertainty.expanded import (
-    with_uncertainty,
+    add_uncertainty as with_uncertainty,
 )
 from zlmreport.evaluation.uncertainty.wording import (
     STATED as STATED_IN_THE_JOB,
     USUAL as USUAL_CONTRIBUTIONS,
-    calibration as calibration_in_words,
-    expanded as expanded_uncertainty_in_words,
+    say_calibration as calibration_in_words,
+    say_expanded_uncertainty as expanded_uncertainty_in_words,
 )
 from zlmreport.files import (
     JournalFile,
+    make_unwritable as unwritable,
     take_names,
-    unwritable,
 )
 from zlmreport.job.evaluation_keys import (
     ProgramKeys,

@@ -42,9 +42,9 @@ from zlmreport.live.ports.dialogue import (
     Patience,
     WrongDeviceError,
     ask as ask_instrument,
-    at_rate as readings_at_rate,
-    streamed as streamed_readings,
-    unreadable as unreadable_reading,
+    ask_at_rate as readings_at_rate,
+    make_unreadable as unreadable_reading,
+    stream as streamed_readings,
 )
 from zlmreport.live.ports.port import (
     Framing,

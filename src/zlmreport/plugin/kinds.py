@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Offered_co = TypeVar("Offered_co", covariant=True)
 
 
-def _nothing_more(offered: Any) -> str:  # noqa: ARG001 - what a kind asks beyond its interface
+def _say_nothing_more(offered: Any) -> str:  # noqa: ARG001 - what a kind asks beyond its interface
     return ""
 
 
@@ -48,7 +48,7 @@ class Kind(Generic[Offered_co]):
     suffix: str = ""  #: Such as its files have; empty for what writes no file.
     has_keys: bool = True  #: Whether a job can give it keys of its own.
     #: Returns what is wrong with one beyond a missing member; empty if nothing is.
-    lacks: Callable[[Any], str] = _nothing_more
+    lacks: Callable[[Any], str] = _say_nothing_more
 
     @property
     def hook(self) -> str:
@@ -77,12 +77,12 @@ class Kind(Generic[Offered_co]):
         return self.name
 
 
-def _meaning_two_things(effect: Any) -> str:
+def _say_meaning_two_things(effect: Any) -> str:
     """Tell of a job key of an effect that means two things, names of parameters among them."""
-    from zlmreport.job.types import keys_in  # noqa: PLC0415 - brings pydantic
+    from zlmreport.job.types import list_keys_in  # noqa: PLC0415 - brings pydantic
 
     names = [parameter.name for parameter in (*effect.linear, *effect.searched)]
-    names.extend(keys_in(effect.options))
+    names.extend(list_keys_in(effect.options))
     twice = sorted(name for name, times in Counter(names).items() if times > 1)
     return f"has two parameters or keys called {twice[0]!r}" if twice else ""
 
@@ -114,7 +114,7 @@ EFFECT: Kind[Effect] = Kind(
     label="effect",
     door="effect",
     interface="Effect",
-    lacks=_meaning_two_things,
+    lacks=_say_meaning_two_things,
 )
 CIRCLE_EFFECT: Kind[CircleEffect] = Kind(
     name="circle_effect",

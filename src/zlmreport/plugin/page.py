@@ -12,7 +12,7 @@ from zlmreport.document.figures.canvas import (
     Stroke,
     SvgCanvas,
     TypeFace as FontFace,
-    hexadecimal as hexadecimal_colour,
+    write_hexadecimal as hexadecimal_colour,
 )
 from zlmreport.document.figures.draw import (
     draw as draw_figure,
@@ -20,13 +20,13 @@ from zlmreport.document.figures.draw import (
 )
 from zlmreport.document.figures.layout import (
     WIDTH as GRAPH_WIDTH,
-    figure_size,
+    measure_figure as figure_size,
 )
 from zlmreport.document.figures.metrics import (
-    advance as text_advance,
     has_letter,
+    make_plain_label as plain_label,
     mark_offset,
-    plain_label,
+    measure_advance as text_advance,
 )
 from zlmreport.document.figures.scale import (
     round_ticks,
@@ -38,13 +38,13 @@ from zlmreport.document.figures.shapes import (
 )
 from zlmreport.document.typesetting.resources import (
     FACES as FONT_FACES,
-    fingerprint as script_fingerprint,
-    font as font_file,
-    font_faces as font_face_rules,
-    linked_script,
-    linked_style,
-    own_style,
+    digest_script as script_fingerprint,
+    read_font as font_file,
+    read_linked_script as linked_script,
+    read_linked_style as linked_style,
     style_sheet,
+    write_font_faces as font_face_rules,
+    write_own_style as own_style,
 )
 
 __all__ = [

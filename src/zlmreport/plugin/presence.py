@@ -54,7 +54,7 @@ class Presence:
 
     def begin(self, asked: str) -> Before:
         """Note that a plugin is asked something; return how it was before, for `end`."""
-        before = Before(self._called, os.getpid(), _identities())
+        before = Before(self._called, os.getpid(), _find_identities())
         self._called = asked.encode("utf-8", "backslashreplace")[:_ROOM]
         self._write(_CALLED, self._called)
         return before
@@ -72,7 +72,7 @@ class Presence:
             os._exit(2)
         self._write(_LAST, called)
         self._write(_CALLED, before.called)
-        wrong = _lost_streams(before.streams) or self._came_back()
+        wrong = _find_lost_streams(before.streams) or self._came_back()
         if wrong:
             self._write(_WRONG, called + b" " + wrong.encode())
         return wrong
@@ -133,7 +133,7 @@ class Presence:
         return found
 
 
-def _identities() -> _Streams:
+def _find_identities() -> _Streams:
     """Return what each standard stream is, by its number; None for one that is closed."""
     found: dict[int, tuple[int, int] | None] = {}
     for number, name in _STREAMS.items():
@@ -148,9 +148,9 @@ def _identities() -> _Streams:
     return found
 
 
-def _lost_streams(before: _Streams) -> str:
+def _find_lost_streams(before: _Streams) -> str:
     """Return which standard streams are not what they were; what is written to them goes nowhere then."""
-    now = _identities()
+    now = _find_identities()
     lost = [number for number in _STREAMS if now[number] != before[number]]
     for number in lost:
         sink = os.open(os.devnull, os.O_WRONLY)

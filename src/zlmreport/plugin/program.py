@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from zlmreport.model.planning.circle_path import CirclePath, PathBlock, PlannedTurn, circle_heading
+from zlmreport.model.planning.circle_path import (
+    CirclePath,
+    PathBlock,
+    PlannedTurn,
+    write_circle_heading as circle_heading,
+)
 from zlmreport.model.planning.programs import (
     Motion,
     ProgramOptions,
-    axis_address,
-    heading as program_heading,
-    program_number,
-    remark as reading_remark,
+    write_axis_address as axis_address,
+    write_heading as program_heading,
+    write_program_number as program_number,
+    write_remark as reading_remark,
 )
 from zlmreport.plugin.protocols import (
     PartProgram,

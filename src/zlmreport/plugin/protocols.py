@@ -92,12 +92,12 @@ class Standard(Protocol):
         """Return the standard's prescribed graphs."""
 
 
-def information_asked_by(standard: Standard) -> tuple[Information, ...]:
+def find_information_asked_by(standard: Standard) -> tuple[Information, ...]:
     """Return what a standard wants reported of a test beside its results."""
     return getattr(standard, "information", ())
 
 
-def contributions_of(
+def find_contributions_of(
     standard: Standard, measurements: MeasurementSet, options: Any
 ) -> Mapping[str, Sequence[Contribution]]:
     """Return what a standard knows of errors of single lines of several; nothing for most."""
@@ -210,7 +210,7 @@ class Renderer(Protocol):
         """Return the file's bytes; the same certificate gives the same bytes."""
 
 
-def relationship_of(renderer: Renderer) -> Relationship | None:
+def find_relationship_of(renderer: Renderer) -> Relationship | None:
     """Return how a renderer's file relates to a document that carries it; None if none carries it."""
     return getattr(renderer, "relationship", None)
 
@@ -220,7 +220,7 @@ def carries_attachments(renderer: Renderer) -> bool:
     return getattr(renderer, "carries_attachments", False)
 
 
-def made(renderer: Renderer, creator: str) -> bool:
+def is_made_by(renderer: Renderer, creator: str) -> bool:
     """Return whether a file that names this creator is told by it to be the renderer's."""
     own: str | None = getattr(renderer, "creator", None)
     return own is not None and creator.startswith(own)
@@ -260,7 +260,7 @@ class PartProgram(Protocol):
         """
 
 
-def taken_by(program: PartProgram) -> type:
+def find_taken_by(program: PartProgram) -> type:
     """Return the type of what a writer of part programs writes."""
     from zlmreport.model.planning.programs import Motion  # noqa: PLC0415 (a type alone loads no room)
 
@@ -268,7 +268,7 @@ def taken_by(program: PartProgram) -> type:
     return takes
 
 
-def circle_writer(program: PartProgram) -> Callable[[CirclePath, Any], str] | None:
+def find_circle_writer(program: PartProgram) -> Callable[[CirclePath, Any], str] | None:
     """Return how a writer of part programs writes circles; None where it writes none."""
     found: Callable[[CirclePath, Any], str] | None = getattr(program, "write_circle", None)
     return found

@@ -19,7 +19,7 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
     Verdict,
-    with_symbols,
+    split_at_symbols as with_symbols,
 )
 from zlmreport.document.certificate.attachments import (
     Attachment,
@@ -31,10 +31,10 @@ from zlmreport.document.certificate.circumstances import (
 )
 from zlmreport.document.certificate.columns import (
     NumberedBlock,
-    decimal_padding,
-    numbered as numbered_blocks,
-    side_by_side as facts_side_by_side,
-    table_layout,
+    balance_facts as facts_side_by_side,
+    lay_out_table as table_layout,
+    number_blocks as numbered_blocks,
+    pad_decimals as decimal_padding,
 )
 from zlmreport.document.certificate.conditions import (
     Described,
@@ -43,12 +43,12 @@ from zlmreport.document.certificate.conformity import (
     STATEMENTS as CONFORMITY_STATEMENTS,
 )
 from zlmreport.document.certificate.cover import (
-    lines as address_lines,
     place_of_work,
+    split_address as address_lines,
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords
-from zlmreport.document.certificate.endings import Ending, endings
+from zlmreport.document.certificate.endings import Ending, find_endings as endings
 from zlmreport.document.certificate.statements import (
     TRACEABLE,
 )
@@ -58,7 +58,7 @@ from zlmreport.document.writer import (
 from zlmreport.evaluation.evaluation import (
     Decision,
     Parameter as EvaluatedParameter,
-    changes,
+    compare_parameters as changes,
 )
 from zlmreport.evaluation.report import (
     report_changes,
@@ -74,7 +74,7 @@ from zlmreport.job.document_keys import (
     Laboratory,
 )
 from zlmreport.language.formatting import (
-    spans as notation_spans,
+    split_spans as notation_spans,
 )
 from zlmreport.plugin.protocols import (
     Renderer,

@@ -9,7 +9,7 @@ from zlmreport.measurement.collect import (
     Reading,
     collect as collect_readings,
     is_run as is_run_number,
-    no_run as no_run_number,
+    say_no_run as no_run_number,
 )
 from zlmreport.measurement.provenance import (
     Averaging,
@@ -20,11 +20,11 @@ from zlmreport.measurement.provenance import (
 from zlmreport.measurement.text_file import (
     TextCell,
     TextFile,
-    known_encoding,
-    likely_encodings,
+    list_likely_encodings as likely_encodings,
+    list_sheets_of as sheets_of,
     parse_number,
     read_text,
-    sheets_of,
+    require_known_encoding as known_encoding,
 )
 from zlmreport.plugin.protocols import (
     DataSource,

@@ -10,14 +10,14 @@ from zlmreport.measurement.columns import (
     Cells,
     Heading,
     TextColumn,
-    column_with_unit,
-    decimal_sign,
+    find_column_with_unit as column_with_unit,
+    find_decimal_sign as decimal_sign,
     find_heading,
-    folded,
-    heading_of,
-    missing_column,
+    fold as folded,
+    read_heading as heading_of,
     read_headings,
-    without_thousands,
+    report_missing_column as missing_column,
+    take_thousands_off as without_thousands,
 )
 from zlmreport.measurement.table import (
     BLANKS as PARTED_BY_BLANKS,
@@ -27,17 +27,17 @@ from zlmreport.measurement.table import (
     EnclosureError,
     Row as TextRow,
     TextTable,
-    first_cell,
+    find_first_cell as first_cell,
     is_units as holds_units,
-    joined_header,
-    parted as parted_line,
+    join_header as joined_header,
+    join_whole_lines as whole_lines,
+    part_line as parted_line,
     read_table,
     states_delimiter,
-    whole_lines,
 )
 from zlmreport.measurement.times import (
-    moment,
-    time_reader,
+    make_time_reader as time_reader,
+    read_moment as moment,
 )
 
 __all__ = [

@@ -19,7 +19,11 @@ expected. The kit needs no test framework.
 """
 
 from zlmreport.testing.certificates import sample_certificate
-from zlmreport.testing.circle_effects import CIRCLE_EFFECT_CHECKS, check_circle_effect, circle_designs
+from zlmreport.testing.circle_effects import (
+    CIRCLE_EFFECT_CHECKS,
+    check_circle_effect,
+    make_circle_designs as circle_designs,
+)
 from zlmreport.testing.circle_programs import (
     CIRCLE_PROGRAM_CHECKS,
     CircleMove,

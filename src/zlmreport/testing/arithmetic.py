@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.evaluation.evaluate import is_negative, reach
+from zlmreport.evaluation.evaluate import is_negative, measure_reach
 from zlmreport.evaluation.evaluation import Arithmetic
-from zlmreport.evaluation.statistics import PositionStatistics, joined_statistics, position_statistics
+from zlmreport.evaluation.statistics import PositionStatistics, join_statistics, position_statistics
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.plugin.protocols import Standard
-from zlmreport.testing.expectations import check, expect, same_value
+from zlmreport.testing.expectations import check, expect, is_same_value
 from zlmreport.testing.measurements import is_of_circles, names_of_lines
 
 _POSITIONS, _RUNS = 7, 5
@@ -33,7 +33,7 @@ _RELATIVE, _ABSOLUTE = 1e-9, 1e-9 * _SPREAD
 @check
 def gives_every_quantity(standard: Standard, options: Options, *_: Any) -> None:
     """Check that there is one value for each parameter, and one at each position for each own column."""
-    arithmetic = _arithmetic(standard, options, _readings(3))
+    arithmetic = _find_arithmetic(standard, options, _sample_readings(3))
     for owner, given, declared, shape in (
         ("quantities", arithmetic.parameters, standard.quantities, (3,)),
         ("position_quantities", arithmetic.positions, standard.position_quantities, (3, _POSITIONS)),
@@ -57,15 +57,15 @@ def gives_every_quantity(standard: Standard, options: Options, *_: Any) -> None:
 @check
 def stack_equals_loop(standard: Standard, options: Options, *_: Any) -> None:
     """Check that a stack of tests, complete or not, gives what each test gives alone: batch first."""
-    stack = _readings(2, 4)
+    stack = _sample_readings(2, 4)
     stack[0, 1, Approach.NEGATIVE.index, 3, 2] = np.nan
     stack[0, 2, Approach.NEGATIVE.index] = np.nan
     stack[1, 0, Approach.POSITIVE.index] = np.nan
     stack[1, 1, ..., 1:] = np.nan
     stack[1, 2] = np.nan
-    together = _values(_arithmetic(standard, options, stack))
+    together = _collect_values(_find_arithmetic(standard, options, stack))
     for place in np.ndindex(2, 4):
-        alone = _values(_arithmetic(standard, options, stack[place]))
+        alone = _collect_values(_find_arithmetic(standard, options, stack[place]))
         for symbol, value in alone.items():
             _expect_close(
                 together[symbol][place],
@@ -77,9 +77,9 @@ def stack_equals_loop(standard: Standard, options: Options, *_: Any) -> None:
 @check
 def order_of_runs_is_irrelevant(standard: Standard, options: Options, *_: Any) -> None:
     """Check that numbering the runs another way changes nothing."""
-    readings = _readings()
-    before = _values(_arithmetic(standard, options, readings))
-    after = _values(_arithmetic(standard, options, readings[..., [3, 0, 4, 1, 2]]))
+    readings = _sample_readings()
+    before = _collect_values(_find_arithmetic(standard, options, readings))
+    after = _collect_values(_find_arithmetic(standard, options, readings[..., [3, 0, 4, 1, 2]]))
     for symbol, value in before.items():
         _expect_close(
             after[symbol], value, f"{standard.identifier}: {symbol} depends on the order of the runs"
@@ -89,9 +89,9 @@ def order_of_runs_is_irrelevant(standard: Standard, options: Options, *_: Any) -
 @check
 def scales_with_the_readings(standard: Standard, options: Options, *_: Any) -> None:
     """Check that deviations twice as large give parameters twice as large: they are lengths or angles."""
-    readings = _readings()
-    before = _values(_arithmetic(standard, options, readings))
-    after = _values(_arithmetic(standard, options, 2 * readings))
+    readings = _sample_readings()
+    before = _collect_values(_find_arithmetic(standard, options, readings))
+    after = _collect_values(_find_arithmetic(standard, options, 2 * readings))
     for symbol, value in before.items():
         _expect_close(
             after[symbol], 2 * value, f"{standard.identifier}: {symbol} does not double with the readings"
@@ -101,9 +101,9 @@ def scales_with_the_readings(standard: Standard, options: Options, *_: Any) -> N
 @check
 def moves_no_more_than_an_offset(standard: Standard, options: Options, *_: Any) -> None:
     """Check that an offset of all readings moves no parameter by more than itself."""
-    readings, offset = _readings(), 2 * _SPREAD
-    before = _values(_arithmetic(standard, options, readings))
-    after = _values(_arithmetic(standard, options, readings + offset))
+    readings, offset = _sample_readings(), 2 * _SPREAD
+    before = _collect_values(_find_arithmetic(standard, options, readings))
+    after = _collect_values(_find_arithmetic(standard, options, readings + offset))
     for symbol, value in before.items():
         moved = np.max(np.abs(after[symbol] - value), initial=0.0, where=~np.isnan(value))
         expect(
@@ -115,10 +115,10 @@ def moves_no_more_than_an_offset(standard: Standard, options: Options, *_: Any) 
 @check
 def one_missing_reading_takes_nothing_away(standard: Standard, options: Options, *_: Any) -> None:
     """Check that one missing reading leaves every parameter defined that the complete test defines."""
-    readings = _readings()
-    complete = _arithmetic(standard, options, readings)
+    readings = _sample_readings()
+    complete = _find_arithmetic(standard, options, readings)
     readings[Approach.NEGATIVE.index, 2, 3] = np.nan
-    for symbol, value in _arithmetic(standard, options, readings).parameters.items():
+    for symbol, value in _find_arithmetic(standard, options, readings).parameters.items():
         expect(
             np.isfinite(value) or np.isnan(complete.parameters[symbol]),
             f"{standard.identifier}: {symbol} is {value} when one of {_RUNS} readings at a target is missing",
@@ -132,14 +132,15 @@ def undefined_is_nan(standard: Standard, options: Options, *_: Any) -> None:
     What is zero of the complete test too is so by definition, as both ends of a line that goes through them.
     """
     by_definition = {
-        symbol: value == 0.0 for symbol, value in _values(_arithmetic(standard, options, _readings())).items()
+        symbol: value == 0.0
+        for symbol, value in _collect_values(_find_arithmetic(standard, options, _sample_readings())).items()
     }
-    for kind, readings in _incomplete().items():
+    for kind, readings in _make_incomplete().items():
         where = f"{standard.identifier}: arithmetic of {kind}"
         with warnings.catch_warnings():
             warnings.simplefilter("error")
-            arithmetic = _arithmetic(standard, options, readings)
-        for symbol, value in _values(arithmetic).items():
+            arithmetic = _find_arithmetic(standard, options, readings)
+        for symbol, value in _collect_values(arithmetic).items():
             expect(not np.any(np.isinf(value)), f"{where}: {symbol} is infinite; expected NaN")
             expect(
                 not np.any((value == 0.0) & ~by_definition[symbol]),
@@ -150,8 +151,8 @@ def undefined_is_nan(standard: Standard, options: Options, *_: Any) -> None:
 @check
 def nothing_gives_nothing(standard: Standard, options: Options, *_: Any) -> None:
     """Check that a test without a reading defines no parameter."""
-    readings = np.full_like(_readings(), np.nan)
-    for symbol, value in _values(_arithmetic(standard, options, readings)).items():
+    readings = np.full_like(_sample_readings(), np.nan)
+    for symbol, value in _collect_values(_find_arithmetic(standard, options, readings)).items():
         expect(
             np.all(np.isnan(value)),
             f"{standard.identifier}: {symbol} of a test without readings is {value}; expected NaN",
@@ -161,8 +162,8 @@ def nothing_gives_nothing(standard: Standard, options: Options, *_: Any) -> None
 @check
 def defines_what_it_declares(standard: Standard, options: Options, *_: Any) -> None:
     """Check that each parameter is defined by a complete test, or at least by some test."""
-    tests = [_readings(), *_incomplete().values(), _readings()[..., :1]]
-    found = [_values(_arithmetic(standard, options, readings)) for readings in tests]
+    tests = [_sample_readings(), *_make_incomplete().values(), _sample_readings()[..., :1]]
+    found = [_collect_values(_find_arithmetic(standard, options, readings)) for readings in tests]
     for symbol in found[0]:
         expect(
             any(not np.all(np.isnan(values[symbol])) for values in found),
@@ -173,10 +174,10 @@ def defines_what_it_declares(standard: Standard, options: Options, *_: Any) -> N
 @check
 def values_are_lengths_that_readings_have(standard: Standard, options: Options, *_: Any) -> None:
     """Check that values are of the size of the readings, in metres, and that no spread is negative."""
-    readings = _readings()
-    arithmetic = _arithmetic(standard, options, readings)
-    largest, farthest = float(np.abs(readings).max()), reach(position_statistics(readings))
-    for symbol, value in _values(arithmetic).items():
+    readings = _sample_readings()
+    arithmetic = _find_arithmetic(standard, options, readings)
+    largest, farthest = float(np.abs(readings).max()), measure_reach(position_statistics(readings))
+    for symbol, value in _collect_values(arithmetic).items():
         size = float(np.max(np.abs(value), initial=0.0, where=~np.isnan(value)))
         where = f"{standard.identifier}: {symbol} of readings up to {largest:.3g} m is {size:.3g}"
         expect(size <= _LARGEST * largest, f"{where}; values are metres (radians), not micrometres")
@@ -195,12 +196,12 @@ def values_are_lengths_that_readings_have(standard: Standard, options: Options, 
 @check
 def directions_are_not_swapped(standard: Standard, options: Options, *_: Any) -> None:
     """Check that symbols with ``_fwd`` follow readings taken upwards, and those with ``_bwd`` the others."""
-    readings = _readings()
-    before = _values(_arithmetic(standard, options, readings))
+    readings = _sample_readings()
+    before = _collect_values(_find_arithmetic(standard, options, readings))
     for ending, other in (("_fwd", Approach.NEGATIVE), ("_bwd", Approach.POSITIVE)):
         moved = readings.copy()
         moved[other.index] *= 3.0
-        after = _values(_arithmetic(standard, options, moved))
+        after = _collect_values(_find_arithmetic(standard, options, moved))
         for symbol, value in before.items():
             if symbol.partition(" ")[0].endswith(ending):
                 _expect_close(
@@ -213,48 +214,49 @@ def directions_are_not_swapped(standard: Standard, options: Options, *_: Any) ->
 @check
 def alters_no_input(standard: Standard, options: Options, *_: Any) -> None:
     """Check that the statistics are as they were after the arithmetic has used them."""
-    statistics, kept = (_statistics(standard, _readings(3)) for _ in range(2))
-    _of(standard, options, statistics)
+    statistics, kept = (_make_statistics(standard, _sample_readings(3)) for _ in range(2))
+    _evaluate_statistics(standard, options, statistics)
     expect(
-        same_value(statistics, kept), f"{standard.identifier}: arithmetic alters the statistics it is given"
+        is_same_value(statistics, kept),
+        f"{standard.identifier}: arithmetic alters the statistics it is given",
     )
 
 
 @check
 def gives_the_same_again(standard: Standard, options: Options, *_: Any) -> None:
     """Check that the same readings give the same bits."""
-    first, second = (_arithmetic(standard, options, _readings()) for _ in range(2))
+    first, second = (_find_arithmetic(standard, options, _sample_readings()) for _ in range(2))
     expect(
-        same_value(_values(first), _values(second)),
+        is_same_value(_collect_values(first), _collect_values(second)),
         f"{standard.identifier}: arithmetic gives other values the second time",
     )
 
 
-def _places(standard: Standard) -> FloatArray:
+def _lay_places(standard: Standard) -> FloatArray:
     """Return where the positions of a standard stand: along a length, or round a circle, rad."""
     return read_only_floats(_ROUND * _PLACES) if is_of_circles(standard) else _PLACES
 
 
-def _statistics(standard: Standard, readings: FloatArray) -> PositionStatistics:
+def _make_statistics(standard: Standard, readings: FloatArray) -> PositionStatistics:
     """Return the statistics of readings, or of lines on which these stand in another order of positions."""
-    places = _places(standard)
+    places = _lay_places(standard)
     lines = {
         name: position_statistics(np.roll(readings, shift, axis=-2), places)
         for shift, name in enumerate(names_of_lines(standard))
     }
-    return joined_statistics(lines) if lines else position_statistics(readings, places)
+    return join_statistics(lines) if lines else position_statistics(readings, places)
 
 
-def _readings(*batch: int) -> FloatArray:
+def _sample_readings(*batch: int) -> FloatArray:
     """Return deviations of shape (*batch, approach, position, run), m."""
     random = np.random.default_rng(20)
     means = random.normal(0.0, 2 * _SPREAD, (*batch, 2, _POSITIONS, 1))
     return means + random.normal(0.0, _SPREAD, (*batch, 2, _POSITIONS, _RUNS))
 
 
-def _incomplete() -> Mapping[str, FloatArray]:
+def _make_incomplete() -> Mapping[str, FloatArray]:
     tests = {
-        kind: _readings()
+        kind: _sample_readings()
         for kind in (
             "the positive direction only",
             "the negative direction only",
@@ -275,11 +277,11 @@ def _incomplete() -> Mapping[str, FloatArray]:
     return tests
 
 
-def _arithmetic(standard: Standard, options: Options, readings: FloatArray) -> Arithmetic:
-    return _of(standard, options, _statistics(standard, readings))
+def _find_arithmetic(standard: Standard, options: Options, readings: FloatArray) -> Arithmetic:
+    return _evaluate_statistics(standard, options, _make_statistics(standard, readings))
 
 
-def _of(standard: Standard, options: Options, statistics: PositionStatistics) -> Arithmetic:
+def _evaluate_statistics(standard: Standard, options: Options, statistics: PositionStatistics) -> Arithmetic:
     try:
         return standard.arithmetic(statistics, options)
     except Exception as error:
@@ -289,7 +291,7 @@ def _of(standard: Standard, options: Options, statistics: PositionStatistics) ->
         raise AssertionError(message) from error
 
 
-def _values(arithmetic: Arithmetic) -> dict[str, FloatArray]:
+def _collect_values(arithmetic: Arithmetic) -> dict[str, FloatArray]:
     """Return all values by symbol; own columns under ``symbol by position``."""
     columns = {f"{symbol} by position": values for symbol, values in arithmetic.positions.items()}
     return {

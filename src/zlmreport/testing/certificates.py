@@ -89,7 +89,7 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
         Stands wherever a user's own words can stand.
     """
     measurements = simulated_test()
-    evaluation = _evaluation(measurements, text)
+    evaluation = _make_evaluation(measurements, text)
     return Certificate(
         number=NUMBER,
         title=text,
@@ -100,7 +100,7 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
         letterhead=Letterhead(Party(text, (text,)), accreditation=text),
         cover=(Facts((("Machine", text),), heading=text), Paragraph(text)),
         sections=(
-            Section("results", text, _blocks(evaluation, text), new_page=True),
+            Section("results", text, _make_blocks(evaluation, text), new_page=True),
             Section("nothing", text, ()),
         ),
         page_words=PageWords.said(language, f"Kit {NUMBER}"),
@@ -110,11 +110,11 @@ def sample_certificate(language: Language = Language.ENGLISH, text: str = "Examp
         generator="zlmreport",
         keywords=(text,),
         plugins={"kit": "1"},
-        job=_job(measurements, text),
+        job=_make_job(measurements, text),
     )
 
 
-def worded_certificate() -> tuple[Certificate, Mapping[str, str]]:
+def make_worded_certificate() -> tuple[Certificate, Mapping[str, str]]:
     """Return a certificate with a word of its own in each place, and the words by what they are.
 
     A renderer of documents prints each of them: in the title, the letterhead and the cover, in the headings,
@@ -147,7 +147,7 @@ def worded_certificate() -> tuple[Certificate, Mapping[str, str]]:
     return replace(plain, **printed), words
 
 
-def ordered_certificate() -> tuple[Certificate, tuple[str, ...], tuple[tuple[float, float], ...]]:
+def make_ordered_certificate() -> tuple[Certificate, tuple[str, ...], tuple[tuple[float, float], ...]]:
     """Return a certificate whose order can be seen: its words, and its values in SI and in users' units.
 
     The words stand in sections, one block after the other. The parameters are in no order of symbols or
@@ -182,7 +182,7 @@ def ordered_certificate() -> tuple[Certificate, tuple[str, ...], tuple[tuple[flo
     return replace(plain, sections=sections, evaluations=evaluations), words, values
 
 
-def _job(measurements: MeasurementSet, text: str) -> Job:
+def _make_job(measurements: MeasurementSet, text: str) -> Job:
     """Return a job that states whatever a renderer of data may need."""
     day = date(2026, 11, 18)
     keys = JobKeys(
@@ -212,7 +212,7 @@ def _job(measurements: MeasurementSet, text: str) -> Job:
     )
 
 
-def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
+def _make_blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
     return (
         Notice(text, (text,)),
         Table(
@@ -228,7 +228,7 @@ def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
         ),
         Table(text, (Column(text),), (), dense=True),
         Table(text, (Column(text), Column(text)), (RowGroup(()), RowGroup((), text))),
-        Graph(_figure(evaluation, text)),
+        Graph(_make_figure(evaluation, text)),
         Formulas(text, ((Symbol("D"), Symbol("max(x̄_{i}) − min(x̄_{i})"), text),)),
     )
 
@@ -236,7 +236,7 @@ def _blocks(evaluation: Evaluation, text: str) -> tuple[Block, ...]:
 _DECISION = Decision(Conformity.FAILED, 1e-5, 1e-5, None)
 
 
-def _evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
+def _make_evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
     statistics = position_statistics(measurements.deviations(), measurements.target_positions)
     mean = statistics.mean_bidirectional
     words = same(text)
@@ -255,7 +255,7 @@ def _evaluation(measurements: MeasurementSet, text: str) -> Evaluation:
     )
 
 
-def _figure(evaluation: Evaluation, text: str) -> Figure:
+def _make_figure(evaluation: Evaluation, text: str) -> Figure:
     measurements, statistics = evaluation.measurements, evaluation.statistics
     axis = measurements.axis
     x = axis.position_unit.from_si(measurements.target_positions)

@@ -12,7 +12,7 @@ import numpy as np
 
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.circle import PLANES, NominalCircle
-from zlmreport.model.effects.circle_design import CircleDesign, CircleTest, axes_of
+from zlmreport.model.effects.circle_design import CircleDesign, CircleTest, find_axes_of
 from zlmreport.model.effects.circle_effect import (
     CircleEffect,
     CircleTerm,
@@ -31,16 +31,16 @@ _FEED, _RADIUS, _OF_A_TURN = 1.0 / 60.0, 0.15, 72
 Designs = Mapping[str, CircleDesign]
 
 
-def circle_designs() -> Designs:
+def make_circle_designs() -> Designs:
     """Return circles on which an effect may be tried: one plane, two feeds and radii, three planes."""
     return {
-        "one plane": circle_design(),
-        "two feeds and radii": circle_design(runs=((1.0, 1.0), (4.0, 1.0), (1.0, 2.0))),
-        "three planes": circle_design(planes=tuple(PLANES)),
+        "one plane": make_circle_design(),
+        "two feeds and radii": make_circle_design(runs=((1.0, 1.0), (4.0, 1.0), (1.0, 2.0))),
+        "three planes": make_circle_design(planes=tuple(PLANES)),
     }
 
 
-def circle_design(
+def make_circle_design(
     planes: tuple[str, ...] = ("XY",), runs: tuple[tuple[float, float], ...] = ((1.0, 1.0),)
 ) -> CircleDesign:
     """Return a turn in each sense for each plane and run.
@@ -65,8 +65,8 @@ def circle_design(
                 "time": turn * 100.0 + (way - way[0]) / speed,
                 "radius": larger * _RADIUS * one,
                 "feed": faster * _FEED * one,
-                "first": axes_of(plane)[0] * one,
-                "second": axes_of(plane)[1] * one,
+                "first": find_axes_of(plane)[0] * one,
+                "second": find_axes_of(plane)[1] * one,
             }
             for name, values in columns.items():
                 parts.setdefault(name, []).append(values)
@@ -101,7 +101,7 @@ def is_described(effect: CircleEffect, _: Designs) -> None:
 def has_columns(effect: CircleEffect, designs: Designs) -> None:
     """Check that its terms are columns of numbers, with names, units and ranges that are some."""
     for name, design in designs.items():
-        for searched in _grid(effect, design):
+        for searched in _make_grid(effect, design):
             where = f"{effect.identifier} on {name}, searched {searched}"
             terms = effect.terms(design, searched)
             expect(terms, f"{where}: has no terms; an effect has a size at least")
@@ -131,18 +131,18 @@ def keeps_its_parity(effect: CircleEffect, _: Designs) -> None:
     wanted = {Parity.EVEN: 1.0, Parity.ODD: -1.0}.get(effect.law.parity)
     if wanted is None:
         return
-    design = circle_design()
+    design = make_circle_design()
     forward, back = design.sense > 0, design.sense < 0
-    for searched in _grid(effect, design):
-        for group, column in _by_group(effect, design, searched).items():
-            there, here = _in_order(design, column, forward), _in_order(design, column, back)
+    for searched in _make_grid(effect, design):
+        for group, column in _group_columns(effect, design, searched).items():
+            there, here = _put_in_order(design, column, forward), _put_in_order(design, column, back)
             expect(
                 np.allclose(here, wanted * there, atol=1e-9 * np.abs(column).max()),
                 f"{effect.identifier}: {group} is not {effect.law.parity.value} in the two senses",
             )
 
 
-def _in_order(design: CircleDesign, column: FloatArray, own: BoolArray) -> FloatArray:
+def _put_in_order(design: CircleDesign, column: FloatArray, own: BoolArray) -> FloatArray:
     chosen = np.flatnonzero(own)
     return np.asarray(column[chosen][np.argsort(design.angle[chosen])])
 
@@ -150,22 +150,22 @@ def _in_order(design: CircleDesign, column: FloatArray, own: BoolArray) -> Float
 @check
 def keeps_its_law(effect: CircleEffect, _: Designs) -> None:
     """Check that it grows with feed and radius as it says."""
-    plain = circle_design()
+    plain = make_circle_design()
     for what, power, run in (
         ("feed", effect.law.feed, (2.0, 1.0)), ("radius", effect.law.radius, (1.0, 2.0)),
     ):  # fmt: skip
         if power is None or effect.law.parity is Parity.IN_TIME:
             continue
-        other = circle_design(runs=(run,))
-        for searched in _grid(effect, plain):
-            before, after = (list(_by_group(effect, each, searched).values()) for each in (plain, other))
+        other = make_circle_design(runs=(run,))
+        for searched in _make_grid(effect, plain):
+            before, after = (list(_group_columns(effect, each, searched).values()) for each in (plain, other))
             expect(
                 all(np.allclose(b, 2.0**power * a) for a, b in zip(before, after, strict=True)),
                 f"{effect.identifier}: does not grow with the {what} to the power {power:g}",
             )
 
 
-def _by_group(effect: CircleEffect, design: CircleDesign, searched: Searched) -> dict[str, FloatArray]:
+def _group_columns(effect: CircleEffect, design: CircleDesign, searched: Searched) -> dict[str, FloatArray]:
     found: dict[str, FloatArray] = {}
     for term in effect.terms(design, searched):
         group = term.group or term.name
@@ -182,7 +182,7 @@ def knows_each_reading_by_itself(effect: CircleEffect, designs: Designs) -> None
             design,
             **{each: getattr(design, each)[kept] for each in design.__dataclass_fields__ if each != "tests"},
         )
-        for searched in _grid(effect, design)[:3]:
+        for searched in _make_grid(effect, design)[:3]:
             whole = {term.name: term.column[kept] for term in effect.terms(design, searched)}
             for term in effect.terms(fewer, searched):
                 shift = term.column - whole.get(term.name, term.column)
@@ -198,7 +198,7 @@ def knows_each_reading_by_itself(effect: CircleEffect, designs: Designs) -> None
 def says_what_it_found(effect: CircleEffect, designs: Designs) -> None:
     """Check that what it says of estimates can be read in every language."""
     for design in designs.values():
-        for searched in _grid(effect, design)[:1]:
+        for searched in _make_grid(effect, design)[:1]:
             for way in (-1.0, 1.0):
                 estimates = [
                     Estimate(term.name, term.unit, way * (term.usual or 1e-6), 0.3 * (term.usual or 1e-6))
@@ -208,7 +208,7 @@ def says_what_it_found(effect: CircleEffect, designs: Designs) -> None:
                     expect_words(sentence, f"{effect.identifier}: what it says")
 
 
-def _grid(effect: CircleEffect, design: CircleDesign) -> list[Searched]:
+def _make_grid(effect: CircleEffect, design: CircleDesign) -> list[Searched]:
     grid = [tuple(each) for each in effect.grid(design)]
     for each in grid:
         expect(
@@ -231,4 +231,4 @@ CIRCLE_EFFECT_CHECKS = (
 
 def check_circle_effect(effect: CircleEffect) -> None:
     """Run every check on an effect of circles; raise one `AssertionError` with all that fails."""
-    run_all(CIRCLE_EFFECT_CHECKS, effect, circle_designs())
+    run_all(CIRCLE_EFFECT_CHECKS, effect, make_circle_designs())

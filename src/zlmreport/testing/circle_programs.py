@@ -15,7 +15,7 @@ from zlmreport.errors import InputError
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.circle import PLANES, NominalCircle
 from zlmreport.model.planning.circle_path import CirclePath, PlannedTurn
-from zlmreport.plugin.protocols import PartProgram, circle_writer
+from zlmreport.plugin.protocols import PartProgram, find_circle_writer
 from zlmreport.testing.expectations import check, expect, expect_members, run_all
 from zlmreport.testing.part_programs import NUMBER, PLACE, expect_plain_text
 
@@ -60,13 +60,13 @@ def runs_every_turn_in_its_sense(
     for plane in PLANES:
         for path in (sample_circle_path(plane), sample_circle_path(plane, extent=270.0, arc=90.0, runs=1)):
             where = f"{program.identifier}, plane {plane}"
-            first, *moves = interpreter(_written(program, path, keys))
+            first, *moves = interpreter(_write_program(program, path, keys))
             expect(
                 abs(math.hypot(*first.end) - path.radius - path.run_up) < _NEAR,
                 f"{where}: the first move ends at {first.end}; expected {path.run_up:g} mm outside the "
                 "circle",
             )
-            found, planned = list(_turns(first, moves, where)), list(path.turns)
+            found, planned = list(_measure_turns(first, moves, where)), list(path.turns)
             expect(len(found) == len(planned), f"{where}: {len(found)} turns; expected {len(planned)}")
             for number, (is_run, turn) in enumerate(zip(found, planned, strict=True), start=1):
                 expect(
@@ -82,7 +82,7 @@ def keeps_to_circle_and_feed(
 ) -> None:
     """Check that arcs lie on the nominal circle about the zero, and that all motion has the planned feed."""
     path = sample_circle_path("ZX", first=90.0)
-    for move in interpreter(_written(program, path, keys)):
+    for move in interpreter(_write_program(program, path, keys)):
         expect(
             move.feed == path.feed,
             f"{program.identifier}: a move at {move.feed:g} mm/min; expected {path.feed:g}",
@@ -101,16 +101,16 @@ def writes_circles_as_plain_text(
 ) -> None:
     """Check that the program is ASCII, names its job, is the same again, and takes no name for a command."""
     path = sample_circle_path()
-    text = _written(program, path, keys)
+    text = _write_program(program, path, keys)
     expect_plain_text(text, program.identifier)
     expect(NUMBER in text.upper(), f"{program.identifier}: the program does not name the job, {NUMBER}")
     expect(
-        text == _written(program, path, keys),
+        text == _write_program(program, path, keys),
         f"{program.identifier}: writing the same circle again gives another program",
     )
     plain = list(interpreter(text))
     for name in _HOSTILE:
-        moves = list(interpreter(_written(program, replace(path, number=name), keys)))
+        moves = list(interpreter(_write_program(program, replace(path, number=name), keys)))
         expect(moves == plain, f"{program.identifier}: a job called {name[:20]!r} moves otherwise")
 
 
@@ -122,7 +122,7 @@ def refuses_points_off_the_circle(
     if "decimals" not in program.options.model_fields:
         return
     try:
-        _written(program, sample_circle_path(first=30.0), {**keys, "decimals": 2})
+        _write_program(program, sample_circle_path(first=30.0), {**keys, "decimals": 2})
     except InputError as error:
         expect(
             [problem.place for problem in error.problems] == [PLACE],
@@ -133,12 +133,12 @@ def refuses_points_off_the_circle(
         raise AssertionError(message)
 
 
-def _turns(first: CircleMove, moves: Sequence[CircleMove], where: str) -> Iterator[float]:
+def _measure_turns(first: CircleMove, moves: Sequence[CircleMove], where: str) -> Iterator[float]:
     """Yield the angle over which each turn goes, °, rising counter-clockwise: what lies between two lines."""
     at, turned, is_on = first.end, 0.0, False
     for move in moves:
         if move.sense:
-            turned, is_on = turned + _angle(at, move), True
+            turned, is_on = turned + _measure_angle(at, move), True
         elif is_on:
             yield turned
             turned, is_on = 0.0, False
@@ -146,7 +146,7 @@ def _turns(first: CircleMove, moves: Sequence[CircleMove], where: str) -> Iterat
     expect(not is_on, f"{where}: the last turn does not leave the circle")
 
 
-def _angle(start: tuple[float, float], move: CircleMove) -> float:
+def _measure_angle(start: tuple[float, float], move: CircleMove) -> float:
     before, behind = (
         math.degrees(math.atan2(point[1] - move.centre[1], point[0] - move.centre[0]))
         for point in (start, move.end)
@@ -155,8 +155,8 @@ def _angle(start: tuple[float, float], move: CircleMove) -> float:
     return move.sense * (way if 1e-6 < way < 360.0 - 1e-6 else 360.0)
 
 
-def _written(program: PartProgram, path: CirclePath, keys: Mapping[str, Any]) -> str:
-    write = circle_writer(program)
+def _write_program(program: PartProgram, path: CirclePath, keys: Mapping[str, Any]) -> str:
+    write = find_circle_writer(program)
     assert write is not None  # noqa: S101 - the function below has seen to it
     return write(path, program.options.model_validate(dict(keys)))
 
@@ -190,5 +190,5 @@ def check_circle_program(
         With a line for every check that fails.
     """
     expect_members(program, PartProgram)
-    expect(circle_writer(program), f"{program.identifier}: has no write_circle")
+    expect(find_circle_writer(program), f"{program.identifier}: has no write_circle")
     run_all(CIRCLE_PROGRAM_CHECKS, program, interpreter, keys or {})

@@ -12,13 +12,13 @@ import numpy as np
 from zlmreport.errors import did_you_mean
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_parts import Formula
-from zlmreport.job.types import keys_in
-from zlmreport.language.formatting import plain
+from zlmreport.job.types import list_keys_in
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Confusion, Dimension, Effect, Parameter, Shape
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 from zlmreport.plugin.kinds import EFFECT
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing.expectations import (
@@ -27,8 +27,8 @@ from zlmreport.testing.expectations import (
     expect_identifier,
     expect_options,
     expect_words,
+    is_same_value,
     run_all,
-    same_value,
 )
 from zlmreport.testing.measurements import full_designs, poor_designs
 
@@ -77,7 +77,7 @@ def is_described(effect: Effect, *_more: Any) -> None:
     """Check that it has a name that can be typed, and says in every language what it is and looks like."""
     expect_identifier(effect.identifier, repr(effect))
     expect_words(effect.title, f"{effect.identifier}: title")
-    expect(plain(effect.equation).strip(), f"{effect.identifier}: equation must be what is printed")
+    expect(write_plain(effect.equation).strip(), f"{effect.identifier}: equation must be what is printed")
     expect(isinstance(effect.shape, Shape), f"{effect.identifier}: shape must be a Shape")
     expect_words(effect.look, f"{effect.identifier}: look")
     if effect.physics is not None:
@@ -132,7 +132,7 @@ def keys_are_described(effect: Effect, *_more: Any) -> None:
         f"{effect.identifier}: settings must be the options of this form, {effect.options.__name__}(…)",
     )
     names = {parameter.name for parameter in (*effect.linear, *effect.searched)}
-    clashes = sorted(names & keys_in(effect.options).keys())
+    clashes = sorted(names & list_keys_in(effect.options).keys())
     expect(not clashes, f"{effect.identifier}: {', '.join(clashes)} is a key and a parameter")
 
 
@@ -177,13 +177,13 @@ def cannot_be_tested_where_it_is_not_seen(effect: Effect, *_more: Any) -> None:
     for form in effect.forms():
         complete = [each for each in full_designs().values() if form.untestable(each) is None]
         has_constant = any(
-            _independent(form, each, beside_constant=True) <= len(form.linear) for each in complete
+            _count_independent(form, each, beside_constant=True) <= len(form.linear) for each in complete
         )
         for kind, design in poor_designs().items():
             if form.untestable(design) is not None:
                 continue
             beside = not has_constant and len(design.target_positions) > 1
-            found = _independent(form, design, beside_constant=beside)
+            found = _count_independent(form, design, beside_constant=beside)
             wanted = len(form.linear) + beside + (len(form.grid(design)) > 1)
             expect(
                 found >= wanted,
@@ -193,7 +193,7 @@ def cannot_be_tested_where_it_is_not_seen(effect: Effect, *_more: Any) -> None:
             )
 
 
-def _independent(form: Effect, design: Design, *, beside_constant: bool) -> int:
+def _count_independent(form: Effect, design: Design, *, beside_constant: bool) -> int:
     """Return how many courses of deviations its columns make over a test, for all that is searched."""
     columns = [form.columns(design, theta) for theta in _spread(form.grid(design))]
     if beside_constant:
@@ -213,7 +213,7 @@ def _spread(grid: FloatArray) -> FloatArray:
 def shape_is_what_it_follows(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that the columns change along what the shape says: position, direction, time (a log), run."""
     for form in effect.forms():
-        followed = _followed(form, designs)
+        followed = _find_followed(form, designs)
         shape, wanted = form.shape, _FOLLOWED[form.shape]
         found = ", ".join(sorted(followed)) or "nothing"
         expect(
@@ -227,21 +227,21 @@ def shape_is_what_it_follows(effect: Effect, designs: Designs, *_more: Any) -> N
         )
 
 
-def _followed(form: Effect, designs: Designs) -> set[str]:
+def _find_followed(form: Effect, designs: Designs) -> set[str]:
     """Return along what columns change: what must be altered of a test to alter them."""
     found: set[str] = set()
     for design in designs.values():
         if form.untestable(design) is None:
-            for theta in _some(form.grid(design)):
+            for theta in _select_some(form.grid(design)):
                 columns = form.columns(design, theta)
-                for name, altered in _altered(design).items():
+                for name, altered in _alter_test(design).items():
                     other = form.columns(altered, theta)
                     if not np.allclose(other, columns, rtol=1e-9, atol=1e-12):
                         found.add(name)
     return found
 
 
-def _altered(design: Design) -> Mapping[str, Design]:
+def _alter_test(design: Design) -> Mapping[str, Design]:
     """Return the same test but for one thing each."""
     shift = 0.05 * design.length * (1 + design.target % 3)
     logs = {name: read_only_floats(1.0 - log) for name, log in design.conditions.items()}
@@ -284,7 +284,7 @@ def grid_stays_in_range(effect: Effect, designs: Designs, *_more: Any) -> None:
 @check
 def grid_is_one(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that the grid has a finite row for each start, and a column for each searched parameter."""
-    for form, kind, design in _tested(effect, designs):
+    for form, kind, design in _list_tested(effect, designs):
         grid = form.grid(design)
         where = f"{effect.identifier}: grid on {kind}"
         wanted = len(form.searched)
@@ -298,8 +298,8 @@ def grid_is_one(effect: Effect, designs: Designs, *_more: Any) -> None:
 @check
 def columns_are_readings_by_parameters(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check the columns' shape, that they are finite, and that the same question has the same answer."""
-    for form, kind, design in _tested(effect, designs):
-        for theta in _some(form.grid(design)):
+    for form, kind, design in _list_tested(effect, designs):
+        for theta in _select_some(form.grid(design)):
             where = f"{effect.identifier}: columns on {kind} for θ = {theta}"
             columns = form.columns(design, theta)
             wanted = (len(design.position), len(form.linear))
@@ -307,17 +307,17 @@ def columns_are_readings_by_parameters(effect: Effect, designs: Designs, *_more:
             expect(columns.dtype == np.float64, f"{where} must be doubles, not {columns.dtype}")
             expect(np.all(np.isfinite(columns)), f"{where} must be finite")
             again = form.columns(design, theta)
-            expect(same_value(columns, again), f"{where}: the second answer differs from the first")
+            expect(is_same_value(columns, again), f"{where}: the second answer differs from the first")
 
 
 @check
 def rows_stand_alone(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that a row depends on its own reading, the axis and the span, and on no other reading."""
-    for form, kind, design in _tested(effect, designs):
-        for theta in _some(form.grid(design)):
+    for form, kind, design in _list_tested(effect, designs):
+        for theta in _select_some(form.grid(design)):
             columns = form.columns(design, theta)
-            for which, kept in _parts(design).items():
-                alone = form.columns(of_readings(design, kept), theta)
+            for which, kept in _cut_parts(design).items():
+                alone = form.columns(select_readings(design, kept), theta)
                 expect(
                     np.allclose(alone, columns[kept], rtol=1e-12, atol=0.0),
                     f"{effect.identifier}: columns on {kind} change when other readings are left out "
@@ -325,7 +325,7 @@ def rows_stand_alone(effect: Effect, designs: Designs, *_more: Any) -> None:
                 )
 
 
-def _parts(design: Design) -> Mapping[str, Any]:
+def _cut_parts(design: Design) -> Mapping[str, Any]:
     """Return the numbers of some of a test's readings, of which the lowest, the first, the last are not."""
     every = np.arange(len(design.position))
     parts = {
@@ -343,9 +343,9 @@ def _parts(design: Design) -> Mapping[str, Any]:
 @check
 def plausible_sizes_are_metres(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that the largest plausible parameters make deviations in metres (radians), not micrometres."""
-    for form, kind, design in _tested(effect, designs):
-        bounds = [_largest(parameter) for parameter in form.linear]
-        for theta in _some(form.grid(design)):
+    for form, kind, design in _list_tested(effect, designs):
+        bounds = [_find_largest(parameter) for parameter in form.linear]
+        for theta in _select_some(form.grid(design)):
             reach = np.abs(form.columns(design, theta)) * np.array(bounds)
             expect(
                 np.all(reach < _NO_DEVIATION),
@@ -357,8 +357,8 @@ def plausible_sizes_are_metres(effect: Effect, designs: Designs, *_more: Any) ->
 @check
 def is_seen_somewhere(effect: Effect, designs: Designs, *_more: Any) -> None:
     """Check that on some test the columns are neither zero nor alike."""
-    for form, _, design in _tested(effect, designs):
-        for theta in _some(form.grid(design)):
+    for form, _, design in _list_tested(effect, designs):
+        for theta in _select_some(form.grid(design)):
             columns = form.columns(design, theta)
             lengths = np.linalg.norm(columns, axis=0)
             if np.all(lengths > 0) and np.linalg.matrix_rank(columns / lengths) == len(form.linear):
@@ -373,16 +373,16 @@ def every_parameter_matters(effect: Effect, designs: Designs, *_more: Any) -> No
         for number, parameter in enumerate(form.searched):
             expect(
                 any(
-                    _changes_with(tested, design, number)
-                    for tested, _, design in _tested(effect, designs)
+                    _is_changing_with(tested, design, number)
+                    for tested, _, design in _list_tested(effect, designs)
                     if tested is form or tested.settings == form.settings
                 ),
                 f"{effect.identifier}: parameter {parameter.name!r} changes no column on any test",
             )
 
 
-def _changes_with(form: Effect, design: Design, number: int) -> bool:
-    for theta in _some(form.grid(design)):
+def _is_changing_with(form: Effect, design: Design, number: int) -> bool:
+    for theta in _select_some(form.grid(design)):
         other = np.array(theta)
         other[number] = 1.25 * theta[number] if theta[number] else 1.0
         if not np.array_equal(form.columns(design, read_only_floats(other)), form.columns(design, theta)):
@@ -416,19 +416,19 @@ def expected_values_are_of_parameters(effect: Effect, designs: Designs, *_more: 
 def _expect_parameter(parameter: Parameter, where: str) -> None:
     expect(isinstance(parameter, Parameter), f"{where} must be a Parameter")
     expect(parameter.name.isascii() and parameter.name.isidentifier(), f"{where} must be an ASCII name")
-    expect(plain(parameter.notation).strip(), f"{where}: notation must be what is printed")
+    expect(write_plain(parameter.notation).strip(), f"{where}: notation must be what is printed")
     expect(isinstance(parameter.dimension, Dimension), f"{where}: dimension must be a Dimension")
     expect_words(parameter.description, f"{where}: description")
     if parameter.smallest is not None and parameter.largest is not None:
         expect(parameter.smallest < parameter.largest, f"{where}: smallest must be less than largest")
 
 
-def _largest(parameter: Parameter) -> float:
+def _find_largest(parameter: Parameter) -> float:
     bounds = [abs(bound) for bound in (parameter.smallest, parameter.largest) if bound is not None]
     return max(bounds, default=0.0)
 
 
-def _tested(effect: Effect, designs: Designs) -> Iterator[tuple[Effect, str, Design]]:
+def _list_tested(effect: Effect, designs: Designs) -> Iterator[tuple[Effect, str, Design]]:
     """Yield each form of the effect with every test on which it can be tested."""
     for form in effect.forms():
         for kind, design in {**designs, **poor_designs()}.items():
@@ -436,7 +436,7 @@ def _tested(effect: Effect, designs: Designs) -> Iterator[tuple[Effect, str, Des
                 yield form, kind, design
 
 
-def _some(grid: FloatArray) -> FloatArray:
+def _select_some(grid: FloatArray) -> FloatArray:
     """Return the first, the middle and the last row, which no effect may alter."""
     return read_only_floats(grid[np.unique([0, len(grid) // 2, len(grid) - 1])])
 

@@ -16,14 +16,14 @@ from pydantic import ValidationError
 
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Group
-from zlmreport.evaluation.statistics import statistics_of
+from zlmreport.evaluation.statistics import compute_statistics_of
 from zlmreport.job.types import Options
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.error_symbol import for_error
+from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import Standard
-from zlmreport.testing.expectations import check, expect, same_value
+from zlmreport.testing.expectations import check, expect, is_same_value
 from zlmreport.testing.measurements import good_tests, poor_tests
 
 #: Of the largest standard deviation: by such a reversal the spread of both directions together is wider
@@ -67,8 +67,8 @@ def gives_the_worked_values(
     _expect_telling(standard, options, examples)
     for number, example in enumerate(examples, start=1):
         where = f"{standard.identifier}: worked example {number}"
-        one = _for(standard, example.measurements)
-        found = evaluate(one, example.measurements, _with(options, example.keys), {})
+        one = _make_for(standard, example.measurements)
+        found = evaluate(one, example.measurements, _replace_keys(options, example.keys), {})
         usual = example.measurements.axis.deviation_unit
         known = {quantity.symbol: quantity for quantity in one.quantities}
         for symbol, stated in example.values.items():
@@ -98,7 +98,9 @@ def _expect_telling(standard: Standard, options: Options, examples: Sequence[Wor
     )
     stated = {symbol for each in telling for symbol, value in each.values.items() if value}
     missing = [
-        each.symbol for each in standard.quantities if each.symbol not in stated | _zero(standard, options)
+        each.symbol
+        for each in standard.quantities
+        if each.symbol not in stated | _find_zero(standard, options)
     ]
     expect(
         not missing,
@@ -107,17 +109,17 @@ def _expect_telling(standard: Standard, options: Options, examples: Sequence[Wor
     )
     if any(quantity.group is Group.RANDOM for quantity in standard.quantities):
         expect(
-            any(scatter > 0 for each in telling for _, scatter in _spreads(each.measurements)),
+            any(scatter > 0 for each in telling for _, scatter in _measure_spreads(each.measurements)),
             f"{where}: in one of them readings must scatter, so that a wrong factor of s shows",
         )
 
 
-def _zero(standard: Standard, options: Options) -> set[str]:
+def _find_zero(standard: Standard, options: Options) -> set[str]:
     """Return the symbols of what is zero by definition, as both ends of a line that goes through them."""
     return {
         symbol
         for each in good_tests(standard).values()
-        for symbol, value in standard.arithmetic(statistics_of(each), options).parameters.items()
+        for symbol, value in standard.arithmetic(compute_statistics_of(each), options).parameters.items()
         if np.all(np.equal(value, 0.0))
     }
 
@@ -128,22 +130,22 @@ def _is_over_time(measurements: MeasurementSet) -> bool:
 
 
 def _has_wide_reversal(measurements: MeasurementSet) -> bool:
-    return any(0 < reversal >= _WIDER_THAN_THE_SPREAD * s for reversal, s in _spreads(measurements))
+    return any(0 < reversal >= _WIDER_THAN_THE_SPREAD * s for reversal, s in _measure_spreads(measurements))
 
 
-def _spreads(measurements: MeasurementSet) -> Iterator[tuple[float, float]]:
+def _measure_spreads(measurements: MeasurementSet) -> Iterator[tuple[float, float]]:
     """Yield the widest reversal and the largest standard deviation of each line, m or rad."""
     for line in measurements.lines:
-        statistics = statistics_of(line)
+        statistics = compute_statistics_of(line)
         up, down = statistics.mean_positive, statistics.mean_negative
         reversal = np.abs(up - down)
         if np.all(np.isnan(reversal)) and not (np.all(np.isnan(up)) or np.all(np.isnan(down))):
             reversal = np.abs(np.atleast_1d(np.nanmean(up) - np.nanmean(down)))  # at other targets each
         scatter = np.stack([statistics.s_positive, statistics.s_negative])
-        yield _largest(reversal), _largest(scatter)
+        yield _find_largest(reversal), _find_largest(scatter)
 
 
-def _largest(values: FloatArray) -> float:
+def _find_largest(values: FloatArray) -> float:
     return float(np.max(values, initial=0.0, where=~np.isnan(values)))
 
 
@@ -163,8 +165,8 @@ def every_key_matters(
     ]
     for key in type(options).model_fields:
         where = f"{standard.identifier}: job key '{key}'"
-        values = [stated[key]] if key in stated else list(_others(options, key))
-        others = [other for value in values if (other := _changed(options, key, value)) is not None]
+        values = [stated[key]] if key in stated else list(_list_others(options, key))
+        others = [other for value in values if (other := _change_options(options, key, value)) is not None]
         expect(
             others,
             f"{where}: the kit finds no other value for it; state one that changes a result: "
@@ -172,7 +174,9 @@ def every_key_matters(
         )
         expect(
             any(
-                not same_value(_outcome(standard, test, options), _outcome(standard, test, other))
+                not is_same_value(
+                    _collect_outcome(standard, test, options), _collect_outcome(standard, test, other)
+                )
                 for test in tests
                 for other in others
             ),
@@ -181,20 +185,20 @@ def every_key_matters(
         )
 
 
-def _outcome(standard: Standard, measurements: MeasurementSet, options: Options) -> tuple[Any, ...]:
+def _collect_outcome(standard: Standard, measurements: MeasurementSet, options: Options) -> tuple[Any, ...]:
     """Return all that a standard says of a test."""
-    one = _for(standard, measurements)
+    one = _make_for(standard, measurements)
     found = evaluate(one, measurements, options, {})
     values = [(each.quantity.symbol, each.value) for each in found.parameters]
     return values, [each.values for each in found.columns], found.findings, list(one.figures(found, options))
 
 
-def _for(standard: Standard, measurements: MeasurementSet) -> Standard:
+def _make_for(standard: Standard, measurements: MeasurementSet) -> Standard:
     axis = measurements.axis
-    return for_error(standard, axis.error or (axis.quantity.identifier if axis.quantity else ""))
+    return evaluate_for_error(standard, axis.error or (axis.quantity.identifier if axis.quantity else ""))
 
 
-def _others(options: Options, key: str) -> Iterator[Any]:
+def _list_others(options: Options, key: str) -> Iterator[Any]:
     """Yield other values of a key, as far as its type tells some."""
     value = getattr(options, key)
     annotation = type(options).model_fields[key].annotation
@@ -211,15 +215,15 @@ def _others(options: Options, key: str) -> Iterator[Any]:
             yield from (2 * size + 1, size + 1, size - 1, *([size / 2] if kind is float else []))
 
 
-def _with(options: Options, keys: Mapping[str, Any]) -> Options:
+def _replace_keys(options: Options, keys: Mapping[str, Any]) -> Options:
     stated = {key: getattr(options, key) for key in options.model_fields_set}
     return type(options).model_validate({**stated, **keys})
 
 
-def _changed(options: Options, key: str, value: Any) -> Options | None:
+def _change_options(options: Options, key: str, value: Any) -> Options | None:
     """Return options with another value of a key; None where the standard does not take it."""
     try:
-        return _with(options, {key: value})
+        return _replace_keys(options, {key: value})
     except ValidationError:
         return None
 

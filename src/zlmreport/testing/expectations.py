@@ -14,7 +14,7 @@ import numpy as np
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
-from zlmreport.plugin.boundary import told
+from zlmreport.plugin.boundary import tell_failure
 
 #: How long a check may take, s: on a busy computer a renderer of pages needs some of them.
 PATIENCE = 120.0
@@ -53,7 +53,7 @@ def check(body: Callable[..., None]) -> Callable[..., None]:
         for error in raised:
             if isinstance(error, AssertionError):
                 raise error
-            sentence = str(error) if isinstance(error, ZlmreportError) else told(error, subject[0])
+            sentence = str(error) if isinstance(error, ZlmreportError) else tell_failure(error, subject[0])
             raise AssertionError(f"{name}: {sentence}") from error
 
     return checked
@@ -120,16 +120,16 @@ def expect_options(plugin: Any, taken: frozenset[str] = frozenset()) -> None:
     expect(not clashes, f"{owner}: job keys {', '.join(clashes)} belong to the core; choose other names")
 
 
-def same_value(one: Any, other: Any) -> bool:
+def is_same_value(one: Any, other: Any) -> bool:
     """Return whether two results are alike to the last bit, arrays and NaN included."""
     if is_dataclass(one):
         return type(one) is type(other) and all(
-            same_value(getattr(one, field.name), getattr(other, field.name)) for field in fields(one)
+            is_same_value(getattr(one, field.name), getattr(other, field.name)) for field in fields(one)
         )
     if isinstance(one, tuple | list):
-        return len(one) == len(other) and all(map(same_value, one, other))
+        return len(one) == len(other) and all(map(is_same_value, one, other))
     if isinstance(one, dict):
-        return one.keys() == other.keys() and all(same_value(one[key], other[key]) for key in one)
+        return one.keys() == other.keys() and all(is_same_value(one[key], other[key]) for key in one)
     if isinstance(one, float | np.ndarray):
         return bool(np.array_equal(one, other, equal_nan=np.asarray(one).dtype.kind == "f"))
     return bool(one == other)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from zlmreport.job.choices import group_model
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.tree import Step
-from zlmreport.job.types import keys_in, model_at
+from zlmreport.job.types import find_model_at, list_keys_in
 from zlmreport.plugin.extending import Extension
 from zlmreport.testing.expectations import (
     check,
@@ -26,7 +26,7 @@ def is_named(extension: Extension) -> None:
         name.isidentifier() and name.islower(),
         f"extension {name!r}: the identifier is a job key: lower-case ASCII letters, digits and '_'",
     )
-    expect(name not in keys_in(JobKeys), f"extension {name!r}: the job has this key itself")
+    expect(name not in list_keys_in(JobKeys), f"extension {name!r}: the job has this key itself")
     expect_words(extension.title, f"{name}: title")
     expect(extension.description.strip(), f"{name}: description says nothing")
 
@@ -35,7 +35,7 @@ def is_named(extension: Extension) -> None:
 def keys_are_described(extension: Extension) -> None:
     """Check that its keys are described, and that its example uses no others."""
     expect_options(extension)
-    unknown = sorted(extension.example.keys() - keys_in(extension.options).keys())
+    unknown = sorted(extension.example.keys() - list_keys_in(extension.options).keys())
     expect(not unknown, f"{extension.identifier}: the example has the unknown keys {', '.join(unknown)}")
 
 
@@ -46,8 +46,8 @@ def lists_part_programs_where_it_says(extension: Extension) -> None:
         return
     path: tuple[Step, ...] = (extension.identifier, *extension.programs, 0)
     where = f"{extension.identifier}: {'.'.join(extension.programs)}"
-    item = model_at(group_model(extension), path)
-    expect(item and "program" in keys_in(item), f"{where} is no list of part programs")
+    item = find_model_at(group_model(extension), path)
+    expect(item and "program" in list_keys_in(item), f"{where} is no list of part programs")
     expect(extension.takes, f"{where} lists part programs, and takes says not what they are written of")
 
 

@@ -83,8 +83,8 @@ def options_are_described(instrument: Instrument, *_: Any) -> None:
 def follows_the_axis(instrument: Instrument, *_: Any) -> None:
     """Check that readings go where the axis goes, and are sound, in order and stamped with their arrival."""
     name = instrument.identifier
-    with _emulated(instrument) as port:
-        readings = _watched(instrument, port)
+    with _run_emulated(instrument) as port:
+        readings = _watch(instrument, port)
     faulty = [reading for reading in readings if not reading.is_usable]
     expect(readings, f"{name}: there were no readings")
     expect(not faulty, f"{name}: nothing is wrong, and yet: {faulty[:1]}")
@@ -105,8 +105,8 @@ def sign_turns_it_round(instrument: Instrument, *_: Any) -> None:
     if "sign" not in instrument.options.model_fields:
         return
     for sign, direction in (("+", 1), ("-", -1)):
-        with _emulated(instrument, MovingAxis(drift=_STEP)) as port:
-            readings = _watched(instrument, port, sign=sign)
+        with _run_emulated(instrument, MovingAxis(drift=_STEP)) as port:
+            readings = _watch(instrument, port, sign=sign)
         moved = readings[-1].value - readings[0].value
         expect(
             moved * direction > 0,
@@ -119,8 +119,8 @@ def no_wrong_reading_is_usable(instrument: Instrument, *_: Any) -> None:
     """Check that whatever goes wrong, what is called usable is right until the zero is called lost."""
     for trouble in ((Trouble.SKIPPED, Trouble.ERROR), (Trouble.LOST_BEAM,)):
         where = f"{instrument.identifier}: {', '.join(trouble)}"
-        with _emulated(instrument, MovingAxis(), *trouble) as port:
-            for reading in _watched(instrument, port):
+        with _run_emulated(instrument, MovingAxis(), *trouble) as port:
+            for reading in _watch(instrument, port):
                 if reading.loses_zero:
                     break
                 if reading.is_usable:
@@ -157,8 +157,8 @@ def tells_of_a_lost_beam(instrument: Instrument, traits: InstrumentTraits | None
     if traits and not traits.tells_lost_beam:
         return
     name = instrument.identifier
-    with _emulated(instrument, MovingAxis(), Trouble.LOST_BEAM) as port:
-        readings = _watched(instrument, port)
+    with _run_emulated(instrument, MovingAxis(), Trouble.LOST_BEAM) as port:
+        readings = _watch(instrument, port)
     expect(
         any(reading.loses_zero for reading in readings),
         f"{name}: the beam was lost, and no reading says so (a Fault that loses the zero, as "
@@ -180,8 +180,8 @@ def _expect_none_usable(instrument: Instrument, damaging: type[_Damaging], what:
     troubles = Troubles()
     damaged = damaging(instrument.emulator(Scene(axis, troubles)))
     try:
-        with _served(damaged, troubles) as port:
-            readings = _watched(instrument, port)
+        with _serve(damaged, troubles) as port:
+            readings = _watch(instrument, port)
     except AccessError:
         return  # it gave up, and said so
     for reading in readings:
@@ -196,7 +196,7 @@ def _expect_none_usable(instrument: Instrument, damaging: type[_Damaging], what:
 @check
 def notices_the_cable(instrument: Instrument, *_: Any) -> None:
     """Check that readings end with an `AccessError` when the instrument is unplugged."""
-    with _emulated(instrument, None, Trouble.UNPLUGGED) as port:
+    with _run_emulated(instrument, None, Trouble.UNPLUGGED) as port:
         _expect_end(instrument, port, "it was unplugged")
 
 
@@ -210,7 +210,7 @@ def refuses_silence(instrument: Instrument, *_: Any) -> None:
 @check
 def refuses_another_device(instrument: Instrument, *_: Any) -> None:
     """Check that what another device sends ends with an `AccessError`."""
-    with _served(_Babble(), Troubles()) as port:
+    with _serve(_Babble(), Troubles()) as port:
         _expect_end(instrument, port, "another device speaks")
 
 
@@ -241,7 +241,7 @@ def _expect_end(instrument: Instrument, port: str, why: str) -> None:
         raise AssertionError(message) from error
 
 
-def _watched(instrument: Instrument, port: str, **keys: Any) -> list[LiveReading]:
+def _watch(instrument: Instrument, port: str, **keys: Any) -> list[LiveReading]:
     """Return the readings of some time; the time to begin comes on top."""
     options = instrument.options.model_validate({"port": port, **keys})
     with instrument.open(options) as connection:
@@ -288,7 +288,7 @@ class _Unreadable(_Damaging):
     """A digit in the middle of the longest number is no digit."""
 
     def _damaged(self, sending: bytes) -> bytes:
-        at = _middle_digit(sending)
+        at = _find_middle_digit(sending)
         return sending if at is None else sending[:at] + b"?" + sending[at + 1 :]
 
 
@@ -296,7 +296,7 @@ class _WrongDigit(_Damaging):
     """A digit in the middle of the longest number is another."""
 
     def _damaged(self, sending: bytes) -> bytes:
-        at = _middle_digit(sending)
+        at = _find_middle_digit(sending)
         return (
             sending
             if at is None
@@ -304,7 +304,7 @@ class _WrongDigit(_Damaging):
         )
 
 
-def _middle_digit(sending: bytes) -> int | None:
+def _find_middle_digit(sending: bytes) -> int | None:
     """Return where the middle digit of the longest number stands; None where there is no number."""
     found = max(re.finditer(rb"\d+", sending), key=lambda each: len(each[0]), default=None)
     return None if found is None else (found.start() + found.end() - 1) // 2
@@ -321,16 +321,16 @@ class _Babble:
 
 
 @contextmanager
-def _emulated(instrument: Instrument, axis: MovingAxis | None = None, *trouble: Trouble) -> Iterator[str]:
+def _run_emulated(instrument: Instrument, axis: MovingAxis | None = None, *trouble: Trouble) -> Iterator[str]:
     """Put its emulator on a socket; yield the port."""
     troubles = Troubles([Planned(each, _TROUBLE_AT + after) for after, each in enumerate(trouble)])
     moving = axis or MovingAxis((0.0, _STEP), feed=_STEP, dwell=_DWELL)
-    with _served(instrument.emulator(Scene(moving, troubles)), troubles) as port:
+    with _serve(instrument.emulator(Scene(moving, troubles)), troubles) as port:
         yield port
 
 
 @contextmanager
-def _served(emulator: Any, troubles: Troubles) -> Iterator[str]:
+def _serve(emulator: Any, troubles: Troubles) -> Iterator[str]:
     ended = threading.Event()
     channel = LocalSocket()
 

@@ -14,13 +14,13 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind, PositionTable
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, Coordinate, Measurand, measurands_of
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.measurand import CIRCLE, DISPLACEMENT, Coordinate, Measurand, list_measurands_of
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.measurement.units import HOUR, REFERENCE_TEMPERATURE
 from zlmreport.model.effects.design import Design
-from zlmreport.model.planning.methods import Method, path, planned_design, visits
-from zlmreport.model.planning.targets import target_positions
+from zlmreport.model.planning.methods import Method, list_visits, make_planned_design, plan_path
+from zlmreport.model.planning.targets import compute_target_positions
 from zlmreport.plugin.protocols import Standard
 
 _NOISE = {AxisKind.LINEAR: 0.8, AxisKind.ROTARY: 0.5}  # µm, ″
@@ -75,7 +75,7 @@ def bidirectional_test(
     """
     axis = axis or Axis("X")
     deviations = np.stack([np.asarray(positive, dtype=float), np.asarray(negative, dtype=float)])
-    return _in_linear_cycles(
+    return _order_in_linear_cycles(
         axis,
         axis.position_unit.to_si(np.asarray(target_positions, dtype=float)),
         axis.deviation_unit.to_si(deviations),
@@ -114,7 +114,7 @@ def simulated_test(
     deviations = means[:, np.newaxis] + scatter
     deviations[Approach.POSITIVE.index] += _BACKLASH / 2
     deviations[Approach.NEGATIVE.index] -= _BACKLASH / 2
-    return _in_linear_cycles(
+    return _order_in_linear_cycles(
         axis, axis.position_unit.to_si(positions), axis.deviation_unit.to_si(deviations), approaches
     )
 
@@ -126,9 +126,9 @@ def good_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]
     evaluates nothing but lines that have names: along lengths, or over time.
     """
     if standard and is_of_circles(standard):
-        return {"a complete circle": _circle(), "an arc of a circle": _circle(length=200.0)}
-    if standard and (of := _joining(standard)):
-        return {"all lines": _on_lines(of, of.test_names, _of_lines(of)())}
+        return {"a complete circle": _simulate_circle(), "an arc of a circle": _simulate_circle(length=200.0)}
+    if standard and (of := _find_joining(standard)):
+        return {"all lines": _simulate_on_lines(of, of.test_names, _simulate_lines(of)())}
     return {
         "a complete linear test": simulated_test(),
         "a complete rotary test": simulated_test(13, axis=Axis("C", AxisKind.ROTARY), length=360.0),
@@ -140,28 +140,28 @@ def good_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]
 
 def is_of_circles(standard: Standard) -> bool:
     """Return whether a standard evaluates what is measured round a circle."""
-    return any(each.is_closed for each in measurands_of(standard))
+    return any(each.is_closed for each in list_measurands_of(standard))
 
 
 def names_of_lines(standard: Standard) -> tuple[str, ...]:
     """Return the names of the lines of which alone a standard makes anything; empty where it needs none."""
-    of = _joining(standard)
+    of = _find_joining(standard)
     return of.test_names if of else ()
 
 
-def _joining(standard: Standard) -> Measurand | None:
+def _find_joining(standard: Standard) -> Measurand | None:
     """Return what a standard evaluates from named lines, where it evaluates nothing else."""
-    found = measurands_of(standard)
+    found = list_measurands_of(standard)
     return found[0] if all(each.joins_tests and each.test_names for each in found) else None
 
 
-def _of_lines(of: Measurand) -> Callable[..., MeasurementSet]:
+def _simulate_lines(of: Measurand) -> Callable[..., MeasurementSet]:
     """Return what simulates one of the lines that are evaluated together."""
     is_over_time = of.of_lines is not None and of.of_lines.coordinate is Coordinate.TIME
-    return _over_time if is_over_time else simulated_test
+    return _simulate_over_time if is_over_time else simulated_test
 
 
-def _over_time(
+def _simulate_over_time(
     targets: int = 49,
     runs: int = 1,
     *,
@@ -184,7 +184,7 @@ def _over_time(
     )
 
 
-def _on_lines(of: Measurand, names: Sequence[str], line: MeasurementSet) -> MeasurementSet:
+def _simulate_on_lines(of: Measurand, names: Sequence[str], line: MeasurementSet) -> MeasurementSet:
     """Return lines that were measured alike and differ in their readings, together."""
     lines = {
         name: replace(
@@ -194,10 +194,10 @@ def _on_lines(of: Measurand, names: Sequence[str], line: MeasurementSet) -> Meas
         )
         for name in names
     }
-    return joined(Axis(" ".join(names), quantity=of), lines)
+    return join_lines(Axis(" ".join(names), quantity=of), lines)
 
 
-def _circle(
+def _simulate_circle(
     targets: int = 36,
     runs: int = 2,
     *,
@@ -213,16 +213,19 @@ def poor_tests(standard: Standard | None = None) -> Mapping[str, MeasurementSet]
 
     `standard`: What they are tests for, as of `good_tests`.
     """
-    if standard and (of := _joining(standard)):
-        first, line = of.test_names[0], _of_lines(of)
-        everywhere = _poor_lines(line, is_along_a_length=line is simulated_test)
-        one = {f"{first} alone": _on_lines(of, (first,), line())}
-        return {**one, **{kind: _on_lines(of, of.test_names, test) for kind, test in everywhere.items()}}
+    if standard and (of := _find_joining(standard)):
+        first, line = of.test_names[0], _simulate_lines(of)
+        everywhere = _simulate_poor_lines(line, is_along_a_length=line is simulated_test)
+        one = {f"{first} alone": _simulate_on_lines(of, (first,), line())}
+        return {
+            **one,
+            **{kind: _simulate_on_lines(of, of.test_names, test) for kind, test in everywhere.items()},
+        }
     closed = standard is not None and is_of_circles(standard)
-    return _poor_lines(_circle if closed else simulated_test, is_along_a_length=not closed)
+    return _simulate_poor_lines(_simulate_circle if closed else simulated_test, is_along_a_length=not closed)
 
 
-def _poor_lines(
+def _simulate_poor_lines(
     simulated: Callable[..., MeasurementSet], *, is_along_a_length: bool
 ) -> Mapping[str, MeasurementSet]:
     """Return tests of one line that fall short in one way each; `simulated` makes complete ones."""
@@ -248,20 +251,22 @@ def _poor_lines(
         "the positive direction only": simulated(approaches=[Approach.POSITIVE]),
         "the negative direction only": simulated(approaches=[Approach.NEGATIVE]),
         "a single run in one direction": simulated(runs=1, approaches=[Approach.POSITIVE]),
-        "a missing reading": _with_deviations(full, gap),
-        "a target without positive approach": _with_deviations(full, hole),
-        "no target approached from both sides": _with_deviations(full, half),
-        "no reading at all": _with_deviations(full, np.full_like(grid, np.nan)),
-        "no deviation anywhere": _with_deviations(full, np.zeros_like(grid)),
+        "a missing reading": _replace_deviations(full, gap),
+        "a target without positive approach": _replace_deviations(full, hole),
+        "no target approached from both sides": _replace_deviations(full, half),
+        "no reading at all": _replace_deviations(full, np.full_like(grid, np.nan)),
+        "no deviation anywhere": _replace_deviations(full, np.zeros_like(grid)),
         **(of_lengths if is_along_a_length else {}),
     }
 
 
-def _with_deviations(measurements: MeasurementSet, grid: FloatArray) -> MeasurementSet:
-    return _in_linear_cycles(measurements.axis, measurements.target_positions, grid, measurements.approaches)
+def _replace_deviations(measurements: MeasurementSet, grid: FloatArray) -> MeasurementSet:
+    return _order_in_linear_cycles(
+        measurements.axis, measurements.target_positions, grid, measurements.approaches
+    )
 
 
-def _in_linear_cycles(
+def _order_in_linear_cycles(
     axis: Axis, target_positions: FloatArray, grid: FloatArray, approaches: Sequence[Approach]
 ) -> MeasurementSet:
     """Return readings in the order of the linear method: in each run all targets upwards, then downwards."""
@@ -292,7 +297,7 @@ def full_designs() -> Mapping[str, Design]:
         "a complete pendulum test": _complete(_LINEAR, Method.PENDULUM),
         "a complete quasi-pilgrim test": _complete(_LINEAR, Method.QUASI_PILGRIM),
         "a complete rotary test": _complete(_ROTARY, Method.LINEAR),
-        "a complete test with a pause": _with_pause(_complete(_LINEAR, Method.LINEAR)),
+        "a complete test with a pause": _add_pause(_complete(_LINEAR, Method.LINEAR)),
     }
 
 
@@ -302,20 +307,20 @@ def poor_designs() -> Mapping[str, Design]:
     bare, turn = Axis("X"), Axis("C", AxisKind.ROTARY)
     five = np.linspace(0.0, 0.4, 5)
     return {
-        "a test without logs and times": _counted(_planned(bare, Method.LINEAR, five, 5)),
-        "a test in one direction": _planned(bare, Method.UNIDIRECTIONAL, five, 5),
-        "a test of one run": _planned(bare, Method.LINEAR, five, 1),
-        "a test of two targets": _planned(bare, Method.LINEAR, five[:2], 3),
-        "a test of one target": _planned(bare, Method.LINEAR, five[1:2], 3),
-        "a single reading": _planned(bare, Method.UNIDIRECTIONAL, five[1:2], 1),
-        "a rotary axis without logs": _planned(turn, Method.LINEAR, np.linspace(0.0, 0.7, 8), 3),
+        "a test without logs and times": _number_design(_plan_design(bare, Method.LINEAR, five, 5)),
+        "a test in one direction": _plan_design(bare, Method.UNIDIRECTIONAL, five, 5),
+        "a test of one run": _plan_design(bare, Method.LINEAR, five, 1),
+        "a test of two targets": _plan_design(bare, Method.LINEAR, five[:2], 3),
+        "a test of one target": _plan_design(bare, Method.LINEAR, five[1:2], 3),
+        "a single reading": _plan_design(bare, Method.UNIDIRECTIONAL, five[1:2], 1),
+        "a rotary axis without logs": _plan_design(turn, Method.LINEAR, np.linspace(0.0, 0.7, 8), 3),
     }
 
 
 def _complete(axis: Axis, method: Method) -> Design:
     random = np.random.default_rng(20)
-    targets = target_positions(axis.travel or (0.0, 1.0), 21, axis.screw_pitch or 0.0, random)
-    design = _planned(axis, method, targets, 5)
+    targets = compute_target_positions(axis.travel or (0.0, 1.0), 21, axis.screw_pitch or 0.0, random)
+    design = _plan_design(axis, method, targets, 5)
     share = design.time / design.duration
     conditions = {
         "axis_temperature": REFERENCE_TEMPERATURE + 0.4 + 1.5 * share**0.7,
@@ -329,17 +334,19 @@ def _complete(axis: Axis, method: Method) -> Design:
     return replace(design, conditions={name: read_only_floats(log) for name, log in conditions.items()})
 
 
-def _with_pause(design: Design) -> Design:
+def _add_pause(design: Design) -> Design:
     """Return a test that stood still for half its time in the middle."""
     half = design.duration / 2
     later = np.where(design.time > float(design.time.min()) + half, half, 0.0)
     return replace(design, time=read_only_floats(design.time + later))
 
 
-def _planned(axis: Axis, method: Method, targets: FloatArray, runs: int) -> Design:
-    return planned_design(axis, targets, visits(path(method, targets.tolist(), runs, 5e-3)), 0.05, 4.0)
+def _plan_design(axis: Axis, method: Method, targets: FloatArray, runs: int) -> Design:
+    return make_planned_design(
+        axis, targets, list_visits(plan_path(method, targets.tolist(), runs, 5e-3)), 0.05, 4.0
+    )
 
 
-def _counted(design: Design) -> Design:
+def _number_design(design: Design) -> Design:
     count = read_only_floats(np.arange(len(design.time)))
     return replace(design, time=count, time_is_counted=True)

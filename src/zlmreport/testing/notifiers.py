@@ -56,7 +56,7 @@ class NotifierTrial:
     to_another: Mapping[str, Any] | None = None
 
 
-def _options(notifier: Notifier, keys: Mapping[str, Any]) -> Any:
+def _make_options(notifier: Notifier, keys: Mapping[str, Any]) -> Any:
     return notifier.options.model_validate(dict(keys))
 
 
@@ -75,20 +75,20 @@ def options_are_described(notifier: Notifier, _trial: NotifierTrial) -> None:
 @check
 def names_who_is_told(notifier: Notifier, trial: NotifierTrial) -> None:
     """Check that the receiver is one line, always the same, and no secret."""
-    named = [notifier.receiver(_options(notifier, trial.keys)) for _ in range(2)]
+    named = [notifier.receiver(_make_options(notifier, trial.keys)) for _ in range(2)]
     expect(
         isinstance(named[0], str) and named[0].strip() and len(named[0].splitlines()) == 1,
         f"{notifier.identifier}: receiver must return a text of one line, not {named[0]!r}",
     )
     expect(named[0] == named[1], f"{notifier.identifier}: receiver gives another name each time: {named}")
-    _shows_no_secret(notifier, named[0], trial)
+    _check_shows_no_secret(notifier, named[0], trial)
 
 
 @check
 def tells_all_of_it_once(notifier: Notifier, trial: NotifierTrial) -> None:
     """Check that title and text arrive letter by letter, one time."""
     before = trial.taken()
-    notifier.tell(SAMPLE, _options(notifier, trial.keys))
+    notifier.tell(SAMPLE, _make_options(notifier, trial.keys))
     taken = trial.taken().removeprefix(before)
     expect(taken, f"{notifier.identifier}: nothing arrived, and tell raised nothing")
     lines = [line for line in (SAMPLE.title, *SAMPLE.text.splitlines()) if line]
@@ -113,7 +113,7 @@ def tells_whom_its_keys_name(notifier: Notifier, trial: NotifierTrial) -> None:
         f"{name}: say by which keys somebody else is told: NotifierTrial(…, to_another={{…}}); nobody else "
         "can see a notifier that tells always the same",
     )
-    one, another = _options(notifier, trial.keys), _options(notifier, trial.to_another or {})
+    one, another = _make_options(notifier, trial.keys), _make_options(notifier, trial.to_another or {})
     expect(
         notifier.receiver(one) != notifier.receiver(another),
         f"{name}: receiver is {notifier.receiver(one)!r} for other keys too; what was told to one receiver "
@@ -130,15 +130,15 @@ def tells_whom_its_keys_name(notifier: Notifier, trial: NotifierTrial) -> None:
 def says_when_nobody_takes_it(notifier: Notifier, trial: NotifierTrial) -> None:
     """Check that what nobody took is an `AccessError` whose message shows no secret."""
     try:
-        notifier.tell(SAMPLE, _options(notifier, trial.to_nobody))
+        notifier.tell(SAMPLE, _make_options(notifier, trial.to_nobody))
     except AccessError as error:
-        _shows_no_secret(notifier, str(error), trial)
+        _check_shows_no_secret(notifier, str(error), trial)
     else:
         message = f"{notifier.identifier}: nobody took the message, and tell did not raise AccessError"
         raise AssertionError(message)
 
 
-def _shows_no_secret(notifier: Notifier, text: str, trial: NotifierTrial) -> None:
+def _check_shows_no_secret(notifier: Notifier, text: str, trial: NotifierTrial) -> None:
     shown = any(secret in text for secret in trial.secrets)
     expect(not shown, f"{notifier.identifier}: what it says for others to read shows a secret")
 

@@ -16,7 +16,7 @@ from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
-from zlmreport.model.planning.programs import Motion, motion_of
+from zlmreport.model.planning.programs import Motion, plan_motion_of
 from zlmreport.plugin.protocols import PartProgram
 from zlmreport.testing.expectations import (
     check,
@@ -131,7 +131,7 @@ def sample_motion(
         feed=to_si(1500.0) / 60,
         dwell=3.5,
     )
-    return motion_of(NUMBER, axis, plan, PLACE)
+    return plan_motion_of(NUMBER, axis, plan, PLACE)
 
 
 #: From the text of a program to the stops: the position, mm or °, the time at rest there, s, and the feed
@@ -161,13 +161,13 @@ def leads_to_every_reading_from_its_side(
     """Check by each method that the axis stops and rests as it was planned, turning points included."""
     for method in Method:
         motion = sample_motion(method)
-        run = list(interpreter(_written(program, motion, keys)))
+        run = list(interpreter(_write_program(program, motion, keys)))
         planned = [(stop.position, motion.dwell if stop.reading else 0.0) for stop in motion.stops]
         where = f"{program.identifier}, {method.value} method"
         expect(len(run) == len(planned), f"{where}: {len(run)} stops; expected {len(planned)}")
         for number, (is_at, should) in enumerate(zip(run, planned, strict=True), start=1):
             expect(
-                _near(is_at[:2], should),
+                _is_near(is_at[:2], should),
                 f"{where}: stop {number} is at {is_at[0]:g} for {is_at[1]:g} s; expected {should[0]:g} for "
                 f"{should[1]:g} s",
             )
@@ -179,7 +179,7 @@ def moves_at_the_planned_feed(
 ) -> None:
     """Check that a feed is stated before the first motion, and holds for all of them."""
     motion = sample_motion()
-    run = list(interpreter(_written(program, motion, keys)))
+    run = list(interpreter(_write_program(program, motion, keys)))
     expect(
         all(len(stop) == 3 for stop in run),
         f"{program.identifier}: let the interpreter return (position, seconds, feed) of each stop, with NaN "
@@ -196,14 +196,14 @@ def moves_at_the_planned_feed(
 @check
 def is_plain_text(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the program is ASCII in lines that a control can hold, and ends with a line."""
-    expect_plain_text(_written(program, sample_motion(), keys), program.identifier)
+    expect_plain_text(_write_program(program, sample_motion(), keys), program.identifier)
 
 
 @check
 def names_the_job(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the number of the job stands in the program."""
     expect(
-        NUMBER in _written(program, sample_motion(), keys).upper(),
+        NUMBER in _write_program(program, sample_motion(), keys).upper(),
         f"{program.identifier}: the program does not name the job, {NUMBER}",
     )
 
@@ -211,7 +211,7 @@ def names_the_job(program: PartProgram, _interpreter: Interpreter, keys: Mapping
 @check
 def writes_the_same_again(program: PartProgram, _interpreter: Interpreter, keys: Mapping[str, Any]) -> None:
     """Check that the same motion gives the same program."""
-    first, second = (_written(program, sample_motion(Method.PENDULUM), keys) for _ in range(2))
+    first, second = (_write_program(program, sample_motion(Method.PENDULUM), keys) for _ in range(2))
     expect(first == second, f"{program.identifier}: writing the same motion again gives another program")
 
 
@@ -221,11 +221,11 @@ def takes_no_name_for_a_command(
 ) -> None:
     """Check that a user's name of an axis changes nothing of what the program does, or is refused."""
     motion = sample_motion()
-    plain = list(interpreter(_written(program, motion, keys)))
+    plain = list(interpreter(_write_program(program, motion, keys)))
     for name in _HOSTILE:
         named = replace(motion, axis=replace(motion.axis, name=name))
         try:
-            text = _written(
+            text = _write_program(
                 program, named, {**keys, "axis": "X"} if "axis" in program.options.model_fields else keys
             )
         except InputError:
@@ -245,7 +245,7 @@ def refuses_what_it_cannot_program(
     }
     for what, motion in cases.items():
         try:
-            _written(program, motion, keys)
+            _write_program(program, motion, keys)
         except InputError as error:
             expect(
                 [problem.place for problem in error.problems] == [PLACE],
@@ -261,7 +261,7 @@ def writes_rotary_axes(program: PartProgram, interpreter: Interpreter, keys: Map
     """Check that an axis C is led over its angles, in degrees, or refused by a control that has none."""
     motion = sample_motion(axis=Axis("C", AxisKind.ROTARY), targets=(0.0, 90.0, 180.0, 270.0))
     try:
-        text = _written(program, motion, keys)
+        text = _write_program(program, motion, keys)
     except InputError:
         return
     run = list(interpreter(text))
@@ -271,11 +271,11 @@ def writes_rotary_axes(program: PartProgram, interpreter: Interpreter, keys: Map
     )
 
 
-def _written(program: PartProgram, motion: Motion, keys: Mapping[str, Any]) -> str:
+def _write_program(program: PartProgram, motion: Motion, keys: Mapping[str, Any]) -> str:
     return program.write(motion, program.options.model_validate(dict(keys)))
 
 
-def _near(one: Sequence[float], other: Sequence[float]) -> bool:
+def _is_near(one: Sequence[float], other: Sequence[float]) -> bool:
     """Return whether two stops agree: no control takes more digits than these."""
     return all(abs(mine - its) < 5e-7 for mine, its in zip(one, other, strict=True))
 

@@ -23,9 +23,9 @@ from zlmreport.testing.certificates import (
     LETTERS,
     MARKUP,
     NUMBER,
-    ordered_certificate,
+    make_ordered_certificate,
+    make_worded_certificate,
     sample_certificate,
-    worded_certificate,
 )
 from zlmreport.testing.expectations import check, expect, expect_members, expect_named, run_all
 
@@ -62,15 +62,15 @@ def writes_every_block(renderer: Renderer, _read: Reader | None = None) -> None:
 def reads_no_clock(renderer: Renderer, _read: Reader | None = None) -> None:
     """Check that the same certificate gives the same bytes, in the next second and on another date."""
     certificate = sample_certificate()
-    with _time_zone(_ZONES[0]):
+    with _set_time_zone(_ZONES[0]):
         first = renderer.render(certificate)
     time.sleep(1.001)
-    with _time_zone(_ZONES[1]):
+    with _set_time_zone(_ZONES[1]):
         second = renderer.render(certificate)
     expect(
         first == second,
         f"{renderer.identifier}: the same certificate gave other bytes on another date and in another second "
-        f"({_difference(first, second)}); dates come from the certificate",
+        f"({_find_difference(first, second)}); dates come from the certificate",
     )
 
 
@@ -80,7 +80,7 @@ def names_the_certificate(renderer: Renderer, read: Reader | None = None) -> Non
     if renderer.suffix in _TABLES:
         return
     expect(
-        NUMBER in _text(renderer, sample_certificate(), read),
+        NUMBER in _read_text(renderer, sample_certificate(), read),
         f"{renderer.identifier}: the file does not carry the certificate's number, {NUMBER}",
     )
 
@@ -88,8 +88,8 @@ def names_the_certificate(renderer: Renderer, read: Reader | None = None) -> Non
 @check
 def prints_what_the_document_says(renderer: Renderer, read: Reader | None = None) -> None:
     """Check that nothing is dropped: no word of a document, and no value where the format is one of data."""
-    certificate, words = worded_certificate()
-    text = _text(renderer, certificate, read)
+    certificate, words = make_worded_certificate()
+    text = _read_text(renderer, certificate, read)
     if renderer.suffix in _DATA:
         (parameter,) = certificate.evaluations[0].parameters
         wanted = [certificate.measurements.axis.deviation_unit.from_si(parameter.value), parameter.value]
@@ -100,7 +100,7 @@ def prints_what_the_document_says(renderer: Renderer, read: Reader | None = None
             f"{parameter.quantity.symbol}, {wanted[0]:.6g}",
         )
         return
-    missing = [f"{word} ({what})" for what, word in words.items() if word not in _unspaced(text)]
+    missing = [f"{word} ({what})" for what, word in words.items() if word not in _remove_spaces(text)]
     expect(not missing, f"{renderer.identifier}: the file does not print {', '.join(missing)}")
 
 
@@ -109,7 +109,8 @@ def sets_markup_as_text(renderer: Renderer, read: Reader | None = None) -> None:
     """Check that tags, entities and template expressions in a user's words come out as they were typed."""
     if _has_users_words(renderer, read):
         expect(
-            _unspaced(MARKUP) in _unspaced(_text(renderer, sample_certificate(text=MARKUP), read)),
+            _remove_spaces(MARKUP)
+            in _remove_spaces(_read_text(renderer, sample_certificate(text=MARKUP), read)),
             f"{renderer.identifier}: a user's text {MARKUP!r} does not come out as it was typed",
         )
 
@@ -118,16 +119,16 @@ def sets_markup_as_text(renderer: Renderer, read: Reader | None = None) -> None:
 def keeps_letters_and_signs(renderer: Renderer, read: Reader | None = None) -> None:
     """Check that letters and signs of all Europe come out as they were typed: a file is UTF-8."""
     if _has_users_words(renderer, read):
-        text = _unspaced(_text(renderer, sample_certificate(text=LETTERS), read))
-        lost = sorted(letter for letter in set(_unspaced(LETTERS)) if letter not in text)
+        text = _remove_spaces(_read_text(renderer, sample_certificate(text=LETTERS), read))
+        lost = sorted(letter for letter in set(_remove_spaces(LETTERS)) if letter not in text)
         expect(not lost, f"{renderer.identifier}: {''.join(lost)} do not come out as they were typed")
 
 
 @check
 def keeps_the_order(renderer: Renderer, read: Reader | None = None) -> None:
     """Check that sections, blocks and parameters come in the order of the certificate, each in its unit."""
-    certificate, words, values = ordered_certificate()
-    text = _text(renderer, certificate, read)
+    certificate, words, values = make_ordered_certificate()
+    text = _read_text(renderer, certificate, read)
     if renderer.suffix in _DATA:
         numbers = [float(number) for number in _NUMBER.findall(text)]
         places = [
@@ -155,10 +156,10 @@ def _is_one_of(number: float, values: tuple[float, float]) -> bool:
 
 def _has_users_words(renderer: Renderer, read: Reader | None) -> bool:
     """Return whether a user's own words stand in the file: of a document they do, some data have none."""
-    return renderer.suffix not in _DATA or _WORD in _text(renderer, sample_certificate(text=_WORD), read)
+    return renderer.suffix not in _DATA or _WORD in _read_text(renderer, sample_certificate(text=_WORD), read)
 
 
-def _text(renderer: Renderer, certificate: Certificate, read: Reader | None) -> str:
+def _read_text(renderer: Renderer, certificate: Certificate, read: Reader | None) -> str:
     """Return the text of a file, as its author reads it, or as the kit knows the format."""
     content = renderer.render(certificate)
     reader = read or _READERS.get(renderer.suffix)
@@ -176,7 +177,7 @@ def _text(renderer: Renderer, certificate: Certificate, read: Reader | None) -> 
 
 
 @contextlib.contextmanager
-def _time_zone(zone: str) -> Iterator[None]:
+def _set_time_zone(zone: str) -> Iterator[None]:
     if not hasattr(time, "tzset"):  # there, no process can be told that it is elsewhere
         yield
         return
@@ -193,13 +194,13 @@ def _time_zone(zone: str) -> Iterator[None]:
         time.tzset()
 
 
-def _difference(first: bytes, second: bytes) -> str:
+def _find_difference(first: bytes, second: bytes) -> str:
     pairs = enumerate(zip(first, second, strict=False))
     place = next((place for place, (one, other) in pairs if one != other), min(len(first), len(second)))
     return f"from byte {place}: {first[place : place + 20]!r}, then {second[place : place + 20]!r}"
 
 
-def _unspaced(text: str) -> str:
+def _remove_spaces(text: str) -> str:
     """Return the text without what setting it in lines adds: spaces, line breaks, hyphenation points."""
     return re.sub(r"[\s\u00ad\u200b]+", "", text)
 
@@ -225,11 +226,11 @@ def _html_text(content: bytes) -> str:
     return "".join(parser.parts)
 
 
-def _json_text(content: bytes) -> str:
+def _read_json(content: bytes) -> str:
     return json.dumps(json.loads(content), ensure_ascii=False).replace('\\"', '"')
 
 
-def _pdf_text(content: bytes) -> str:
+def _read_pdf(content: bytes) -> str:
     try:
         from pypdf import PdfReader  # noqa: PLC0415 - an author of a standard needs no PDF library
     except ImportError as error:
@@ -238,18 +239,18 @@ def _pdf_text(content: bytes) -> str:
     return "\n".join(page.extract_text() for page in PdfReader(io.BytesIO(content)).pages)
 
 
-def _xml_text(content: bytes) -> str:
+def _read_xml(content: bytes) -> str:
     return "".join(ET.fromstring(content).itertext())  # noqa: S314 - written by the renderer just now
 
 
-def _workbook_text(content: bytes) -> str:
+def _read_workbook(content: bytes) -> str:
     """Return the text of a file that is an archive of XML, as workbooks and text documents are."""
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         parts = [archive.read(name) for name in archive.namelist() if name.endswith(".xml")]
     return " ".join(" ".join(ET.fromstring(part).itertext()) for part in parts)  # noqa: S314 - as above
 
 
-def _csv_text(content: bytes) -> str:
+def _read_csv(content: bytes) -> str:
     """Return the cells of a table, one a line; fails on a row that has more or fewer than the first."""
     rows = list(csv.reader(io.StringIO(content.decode(), newline=""), strict=True))
     for number, row in enumerate(rows, start=1):
@@ -261,19 +262,19 @@ def _csv_text(content: bytes) -> str:
     return "\n".join(cell for row in rows for cell in row)
 
 
-def _plain_text(content: bytes) -> str:
+def _read_plain(content: bytes) -> str:
     return content.decode()
 
 
 #: How to read the text of a file again, where the kit knows.
 _READERS: Mapping[str, Reader] = {
-    ".csv": _csv_text,
+    ".csv": _read_csv,
     ".html": _html_text,
-    ".json": _json_text,
-    ".pdf": _pdf_text,
-    ".xml": _xml_text,
-    ".txt": _plain_text,
-    ".xlsx": _workbook_text,
+    ".json": _read_json,
+    ".pdf": _read_pdf,
+    ".xml": _read_xml,
+    ".txt": _read_plain,
+    ".xlsx": _read_workbook,
 }
 #: Stands for a user's words.
 _WORD = "Kitword"

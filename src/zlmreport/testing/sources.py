@@ -24,8 +24,8 @@ from zlmreport.testing.expectations import (
     expect_named,
     expect_options,
     expect_words,
+    is_same_value,
     run_all,
-    same_value,
 )
 
 _CORE_KEYS = frozenset({"plugin"})
@@ -151,7 +151,7 @@ def _expect_telling(read: MeasurementSet, holds: FileContents, where: str) -> No
 @check
 def keeps_the_axis(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that the measurement set is of the axis that the job describes."""
-    read, stated = _read(source, keys, axis).axis, _context(axis).axis
+    read, stated = _read(source, keys, axis).axis, _make_context(axis).axis
     expect(read == stated, f"{source.identifier}: the axis read is {read}; expected the job's, {stated}")
 
 
@@ -175,7 +175,9 @@ def values_are_read_only(source: DataSource, keys: Mapping[str, Any], axis: OfAx
 def reads_the_same_again(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that the same file gives the same measurement set."""
     first, second = (_read(source, keys, axis) for _ in range(2))
-    expect(same_value(first, second), f"{source.identifier}: reading the same data again gives another set")
+    expect(
+        is_same_value(first, second), f"{source.identifier}: reading the same data again gives another set"
+    )
 
 
 @check
@@ -187,7 +189,7 @@ def names_its_files(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *
         f"{source.identifier}: provenance.source is {provenance.source!r}; expected the identifier",
     )
     named = {file.name: file for file in provenance.files}
-    for key, path in _files(source, keys):
+    for key, path in _list_files(source, keys):
         where = f"{source.identifier}: provenance of '{key}'"
         expect(path.name in named, f"{where}: files do not name {path.name!r} (they name {sorted(named)})")
         content = path.read_bytes()
@@ -212,8 +214,8 @@ def remarks_are_worded(source: DataSource, keys: Mapping[str, Any], axis: OfAxis
 @check
 def damaged_files_are_refused(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that a file that is no such file is refused by name: no other exception, no measurement set."""
-    for key, path in _files(source, keys):
-        for damage, content in _damaged(path.read_bytes()).items():
+    for key, path in _list_files(source, keys):
+        for damage, content in _damage(path.read_bytes()).items():
             with tempfile.TemporaryDirectory() as folder:
                 copy = Path(folder, path.name)
                 if content is not None:
@@ -247,7 +249,7 @@ _GARBLE = b"x"
 def no_number_is_guessed(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that a number that is none (``1x25``) is refused with its place, or was no reading at all."""
     before = _read(source, keys, axis)
-    for key, path in _files(source, keys):
+    for key, path in _list_files(source, keys):
         content = path.read_bytes()
         for found in _spread(list(_NUMBER_IN_TEXT.finditer(content))):
             middle = (found.start() + found.end() + 1) // 2
@@ -256,9 +258,10 @@ def no_number_is_guessed(source: DataSource, keys: Mapping[str, Any], axis: OfAx
             line = content.count(b"\n", 0, middle) + 1
             read = _read_damaged(source, {**keys, key: path}, key, damaged, axis)
             expect(
-                read is None or _same_readings(read, before),
+                read is None or _has_same_readings(read, before),
                 f"{source.identifier}: line {line} of '{key}' holds {word!r}, and "
-                f"that makes {_instead(read, before)}; a number that is none is an InputError with its place",
+                f"that makes {_read_instead(read, before)}; "
+                "a number that is none is an InputError with its place",
             )
 
 
@@ -266,8 +269,8 @@ def no_number_is_guessed(source: DataSource, keys: Mapping[str, Any], axis: OfAx
 def no_short_line_is_dropped(source: DataSource, keys: Mapping[str, Any], axis: OfAxis, *_: Any) -> None:
     """Check that a line whose last word is lost is refused, or counts as one missing reading and no more."""
     before = _read(source, keys, axis)
-    known = _found(before) + len(before.missing())
-    for key, path in _files(source, keys):
+    known = _count_found(before) + len(before.missing())
+    for key, path in _list_files(source, keys):
         lines = path.read_bytes().splitlines(keepends=True)
         for number in _spread(range(len(lines))):
             shorter = re.sub(rb"[^\s,;]+(\s*)\Z", rb"\1", lines[number])
@@ -275,13 +278,16 @@ def no_short_line_is_dropped(source: DataSource, keys: Mapping[str, Any], axis: 
                 continue
             damaged = b"".join([*lines[:number], shorter, *lines[number + 1 :]])
             read = _read_damaged(source, {**keys, key: path}, key, damaged, axis)
-            if read is None or _same_readings(read, before):
+            if read is None or _has_same_readings(read, before):
                 continue
-            is_told = _found(read) >= _found(before) - 1 and _found(read) + len(read.missing()) >= known
+            is_told = (
+                _count_found(read) >= _count_found(before) - 1
+                and _count_found(read) + len(read.missing()) >= known
+            )
             expect(
                 is_told,
                 f"{source.identifier}: line {number + 1} of '{key}' lost its last word, and that makes "
-                f"{_instead(read, before)}; a line that is too short is an InputError with its place",
+                f"{_read_instead(read, before)}; a line that is too short is an InputError with its place",
             )
 
 
@@ -291,7 +297,7 @@ def follows_the_kind_of_axis(source: DataSource, keys: Mapping[str, Any], axis: 
 
     Of a source that needs more of the job than its axis, that part of the job says which axes go with it.
     """
-    context = _context(axis)
+    context = _make_context(axis)
     if context.axis.quantity is not None or context.set_ups:
         return
     was_linear = context.axis.kind is AxisKind.LINEAR
@@ -338,28 +344,28 @@ def _read_damaged(
             return None
 
 
-def _found(read: MeasurementSet) -> int:
+def _count_found(read: MeasurementSet) -> int:
     return int(np.isfinite(read.deviation).sum())
 
 
-def _same_readings(one: MeasurementSet, other: MeasurementSet) -> bool:
+def _has_same_readings(one: MeasurementSet, other: MeasurementSet) -> bool:
     return all(
         np.array_equal(getattr(one, name), getattr(other, name), equal_nan=name == "deviation")
         for name in ("target_positions", "target", "approach", "run", "deviation")
     )
 
 
-def _instead(read: MeasurementSet | None, before: MeasurementSet) -> str:
+def _read_instead(read: MeasurementSet | None, before: MeasurementSet) -> str:
     if read is None:
         return "nothing"
-    lost = _found(before) - _found(read)
+    lost = _count_found(before) - _count_found(read)
     return f"{lost} readings fewer without a word" if lost else "other readings without a word"
 
 
 _CUT = "a file cut off in the middle"
 
 
-def _damaged(content: bytes) -> Mapping[str, bytes | None]:
+def _damage(content: bytes) -> Mapping[str, bytes | None]:
     return {
         "a file that is not there": None,
         "an empty file": b"",
@@ -370,7 +376,7 @@ def _damaged(content: bytes) -> Mapping[str, bytes | None]:
     }
 
 
-def _files(source: DataSource, keys: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
+def _list_files(source: DataSource, keys: Mapping[str, Any]) -> Iterator[tuple[str, Path]]:
     """Yield the keys whose values are existing files."""
     options = source.options.model_validate(dict(keys))
     for key in type(options).model_fields:
@@ -381,10 +387,10 @@ def _files(source: DataSource, keys: Mapping[str, Any]) -> Iterator[tuple[str, P
 
 def _read(source: DataSource, keys: Mapping[str, Any], axis: OfAxis) -> MeasurementSet:
     options = source.options.model_validate(dict(keys))
-    return source.read(options, _context(axis))
+    return source.read(options, _make_context(axis))
 
 
-def _context(axis: OfAxis) -> SourceContext:
+def _make_context(axis: OfAxis) -> SourceContext:
     return axis if isinstance(axis, SourceContext) else SourceContext(axis, Place("job.yaml", 1, 1))
 
 

@@ -13,7 +13,7 @@ from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Basis, Evaluation, Finding, Group, PositionQuantity, Quantity
 from zlmreport.job.types import Options
 from zlmreport.language import Language
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import CONDITIONS
 from zlmreport.measurement.units import ANGLES, LENGTHS, TIMES, Unit
@@ -27,8 +27,8 @@ from zlmreport.testing.expectations import (
     expect_members,
     expect_options,
     expect_words,
+    is_same_value,
     run_all,
-    same_value,
 )
 from zlmreport.testing.measurements import good_tests, poor_tests
 
@@ -96,12 +96,12 @@ def quantities_are_worded(standard: Standard, *_more: Any) -> None:
     described: Iterable[Quantity | PositionQuantity] = (*standard.quantities, *standard.position_quantities)
     for quantity in described:
         where = f"{standard.identifier}: {quantity.symbol}"
-        expect(plain(quantity.notation).strip(), f"{where}: notation must be what is printed")
+        expect(write_plain(quantity.notation).strip(), f"{where}: notation must be what is printed")
         expect_words(quantity.name, f"{where}: name")
     for parameter in standard.quantities:
         where = f"{standard.identifier}: {parameter.symbol}"
         expect(isinstance(parameter.group, Group), f"{where}: group must be a Group, not {parameter.group!r}")
-        expect(plain(parameter.formula).strip(), f"{where}: formula must be the definition as printed")
+        expect(write_plain(parameter.formula).strip(), f"{where}: formula must be the definition as printed")
         expect_words(parameter.meaning, f"{where}: meaning")
 
 
@@ -118,7 +118,7 @@ def requirements_never_refuse(standard: Standard, options: Options, *_more: Any)
             raise AssertionError(message) from error
         for number, finding in enumerate(findings, 1):
             _expect_finding(finding, f"{where}: finding {number}")
-        expect(same_value(findings, again), f"{where}: the second answer differs from the first")
+        expect(is_same_value(findings, again), f"{where}: the second answer differs from the first")
 
 
 def _expect_finding(finding: object, where: str) -> None:
@@ -148,7 +148,7 @@ def figures_of_any_test(standard: Standard, options: Options, *_more: Any) -> No
         expect(figures or kind in poor, f"{where}: there is none")
         for key, times in Counter(figure.key for figure in figures).items():
             expect(times == 1, f"{where}: key {key!r} is there {times} times; keys are unique")
-        expect(same_value(figures, again), f"{where}: the second time they differ from the first")
+        expect(is_same_value(figures, again), f"{where}: the second time they differ from the first")
 
 
 @check
@@ -190,21 +190,22 @@ def marks_stand_at_targets(standard: Standard, options: Options, *_more: Any) ->
         lines = [line.target_positions for line in evaluation.measurements.lines]
         targets = _UNITS[figure.x_unit].from_si(np.concatenate(lines))
         for panel in (each for each in figure.panels if not each.is_wire):
-            for mark in _marks(panel):
+            for mark in _list_marks(panel):
                 expect(
-                    mark.x.ndim == 1 and _all_among(mark.x, targets),
+                    mark.x.ndim == 1 and _is_all_among(mark.x, targets),
                     f"{where}: {_name(mark)} stands at positions that are no targets: {mark.x}",
                 )
             for arrow in panel.arrows:
                 expect(
-                    _all_among(arrow.x, targets),
-                    f"{where}: arrow {plain(arrow.notation)} stands at {arrow.x}, no target of the test",
+                    _is_all_among(arrow.x, targets),
+                    f"{where}: arrow {write_plain(arrow.notation)} stands at {arrow.x}, "
+                    "no target of the test",
                 )
             for bracket in panel.brackets:
                 for end, position in (("low_at", bracket.low_at), ("high_at", bracket.high_at)):
                     expect(
-                        _all_among(position, targets),
-                        f"{where}: {end} of bracket {plain(bracket.notation)} is {position}, no target",
+                        _is_all_among(position, targets),
+                        f"{where}: {end} of bracket {write_plain(bracket.notation)} is {position}, no target",
                     )
 
 
@@ -213,7 +214,7 @@ def curves_have_a_value_at_each_position(standard: Standard, options: Options, *
     """Check that curves and bands have a value at each position, and a band its limits in order."""
     for where, figure, _ in _figures(standard, options):
         for panel in figure.panels:
-            for mark in _marks(panel):
+            for mark in _list_marks(panel):
                 values = (mark.lower, mark.upper) if isinstance(mark, Band) else (mark.y,)
                 for value in values:
                     expect(
@@ -236,11 +237,11 @@ def marks_have_finite_ends(standard: Standard, options: Options, *_more: Any) ->
             for mark in spans:
                 expect(
                     np.isfinite(mark.low) and np.isfinite(mark.high) and mark.low <= mark.high,
-                    f"{where}: {plain(mark.notation)} spans {mark.low} to {mark.high}; expected finite ends, "
-                    "the lower one first; leave out what the test does not define",
+                    f"{where}: {write_plain(mark.notation)} spans {mark.low} to {mark.high}; "
+                    "expected finite ends, the lower one first; leave out what the test does not define",
                 )
             for level in panel.levels:
-                expect(np.isfinite(level.y), f"{where}: level {plain(level.notation)} is at {level.y}")
+                expect(np.isfinite(level.y), f"{where}: level {write_plain(level.notation)} is at {level.y}")
 
 
 @check
@@ -253,11 +254,11 @@ def brackets_span_what_is_drawn(standard: Standard, options: Options, *_more: An
                     ("low", bracket.low, bracket.low_at),
                     ("high", bracket.high, bracket.high_at),
                 ):
-                    shown = _values_at(panel, position)
+                    shown = _list_values_at(panel, position)
                     expect(
-                        _all_among(value, shown),
-                        f"{where}: {end} end of bracket {plain(bracket.notation)} is {value}; nothing is "
-                        f"drawn there at {position}, but {np.unique(shown)}",
+                        _is_all_among(value, shown),
+                        f"{where}: {end} end of bracket {write_plain(bracket.notation)} is {value}; "
+                        f"nothing is drawn there at {position}, but {np.unique(shown)}",
                     )
 
 
@@ -270,12 +271,12 @@ def brackets_are_as_long_as_their_parameter(standard: Standard, options: Options
             if unit is None:  # of a condition, which no parameter is
                 continue
             for bracket in panel.brackets:
-                for value in _values_of(bracket, evaluation, unit):
+                for value in _list_values_of(bracket, evaluation, unit):
                     scale = max(abs(bracket.low), abs(bracket.high), abs(value))
                     expect(
                         abs((bracket.high - bracket.low) - abs(value)) <= 2 * _RELATIVE * scale,
-                        f"{where}: bracket {plain(bracket.notation)} spans {bracket.high - bracket.low} "
-                        f"{unit.symbol}, but the results table has {value}",
+                        f"{where}: bracket {write_plain(bracket.notation)} spans "
+                        f"{bracket.high - bracket.low} {unit.symbol}, but the results table has {value}",
                     )
 
 
@@ -290,7 +291,7 @@ def _figures(
             yield f"{standard.identifier}: figure '{figure.key}' of {name}", figure, evaluation
 
 
-def _marks(panel: Panel) -> tuple[Curve | Band | Readings, ...]:
+def _list_marks(panel: Panel) -> tuple[Curve | Band | Readings, ...]:
     """Return what has a value at each of many positions."""
     return (*panel.curves, *panel.bands, *panel.readings)
 
@@ -298,17 +299,17 @@ def _marks(panel: Panel) -> tuple[Curve | Band | Readings, ...]:
 def _name(mark: Curve | Band | Readings) -> str:
     if isinstance(mark, Readings):
         return f"the readings {mark.approach.arrow}"
-    return f"{type(mark).__name__.lower()} {plain(mark.notation)}"
+    return f"{type(mark).__name__.lower()} {write_plain(mark.notation)}"
 
 
-def _all_among(values: float | FloatArray, allowed: FloatArray) -> bool:
+def _is_all_among(values: float | FloatArray, allowed: FloatArray) -> bool:
     """Return whether each value is, but for the rounding of a change of unit, among the allowed ones."""
     values = np.atleast_1d(values)
     tolerance = _RELATIVE * max(np.max(np.abs(allowed), initial=0.0), np.max(np.abs(values), initial=0.0))
     return all(np.any(np.abs(allowed - value) <= tolerance) for value in values)
 
 
-def _values_at(panel: Panel, position: float) -> FloatArray:
+def _list_values_at(panel: Panel, position: float) -> FloatArray:
     """Return every value that a panel shows at a position, that of its zero line among them."""
     values = [np.zeros(1), np.array([level.y for level in panel.levels])]
     values += [curve.y[np.isclose(curve.x, position)] for curve in panel.curves]
@@ -324,7 +325,7 @@ def _values_at(panel: Panel, position: float) -> FloatArray:
     return defined
 
 
-def _values_of(bracket: Bracket, evaluation: Evaluation, unit: Unit) -> Iterator[float]:
+def _list_values_of(bracket: Bracket, evaluation: Evaluation, unit: Unit) -> Iterator[float]:
     for parameter in evaluation.parameters:
         if parameter.quantity.notation == bracket.notation:
             yield unit.from_si(parameter.value)

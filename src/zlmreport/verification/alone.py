@@ -19,8 +19,8 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.loading import load
 from zlmreport.language import Words
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.attached import laid_out, stated_by
-from zlmreport.verification.carrier import opened, read_file
+from zlmreport.verification.attached import find_stated_by, lay_out
+from zlmreport.verification.carrier import open_pdf, read_file
 from zlmreport.verification.findings import (
     CheckedStatement,
     Identity,
@@ -90,12 +90,12 @@ def verify_alone(
         return replace(found, files=(unknown,), remarks=tuple(told))
     of_pdf = verify(beside)
     remark = _BESIDE.given(name=beside.name)
-    whole = CheckedStatement(beside.name, _verdict(of_pdf), _first(of_pdf))
+    whole = CheckedStatement(beside.name, _decide_verdict(of_pdf), _find_first(of_pdf))
     if of_pdf.outcome is VerificationOutcome.DOES_NOT_HOLD:
         return replace(found, identity=of_pdf.identity, files=(whole,), remarks=(remark,))
     own = CheckedStatement(path.name, VerificationVerdict.OPEN, _OTHER_PROGRAMS) if of_pdf.remarks else None
     if own is None:
-        again = _made_again(beside, made_by, registry)
+        again = _make_again(beside, made_by, registry)
         own = CheckedStatement.of(
             path.name, "" if again == content else "is not what the PDF beside it gives"
         )
@@ -114,7 +114,7 @@ def _digest(content: bytes) -> str:
     return found.pop() if len(found) == 1 else ""
 
 
-def _verdict(found: Verification) -> VerificationVerdict:
+def _decide_verdict(found: Verification) -> VerificationVerdict:
     return {
         VerificationOutcome.HOLDS: VerificationVerdict.HOLDS,
         VerificationOutcome.DOES_NOT_HOLD: VerificationVerdict.DIFFERS,
@@ -122,20 +122,20 @@ def _verdict(found: Verification) -> VerificationVerdict:
     }[found.outcome]
 
 
-def _first(found: Verification) -> Words | str:
+def _find_first(found: Verification) -> Words | str:
     """Return the first that does not hold of a certificate."""
     findings = (*found.files, *found.pages, *found.document)
     wanted = VerificationVerdict.DIFFERS if found.differences else VerificationVerdict.OPEN
     return next((each.detail for each in findings if each.verdict is wanted), "")
 
 
-def _made_again(pdf: Path, made_by: str, registry: Registry) -> bytes:
+def _make_again(pdf: Path, made_by: str, registry: Registry) -> bytes:
     """Make a file again from what a PDF carries, which holds."""
-    carrier = opened(read_file(pdf), Place(str(pdf)))
-    stated = stated_by(carrier)
+    carrier = open_pdf(read_file(pdf), Place(str(pdf)))
+    stated = find_stated_by(carrier)
     if stated is None:
         raise InputError.at(carrier.place, "carries no results file")
     renderer = registry.renderer(made_by)
-    with laid_out(stated.results.provenance.sources, carrier.carried) as layout:
+    with lay_out(stated.results.provenance.sources, carrier.carried) as layout:
         job = load(layout.job, registry, formats=(made_by,))
         return renderer.render(pipeline.compose(job, registry))

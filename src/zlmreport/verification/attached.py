@@ -23,8 +23,8 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
-from zlmreport.files import confined
-from zlmreport.job.types import Enclosure, enclosed
+from zlmreport.files import confine
+from zlmreport.job.types import Enclosure, enclose
 from zlmreport.language import Language
 from zlmreport.verification.carrier import Carried, Carrier
 from zlmreport.verification.findings import CheckedStatement, VerificationVerdict
@@ -79,7 +79,7 @@ class StatedResults:
     results: Results  #: What is understood of it.
 
 
-def stated_by(carrier: Carrier) -> StatedResults | None:
+def find_stated_by(carrier: Carrier) -> StatedResults | None:
     """Return what the results file of a certificate states; None if it carries none that can be read.
 
     Raises `ValueError` if there is one, and it is no sound results file.
@@ -90,10 +90,10 @@ def stated_by(carrier: Carrier) -> StatedResults | None:
         try:
             tree = json.loads(
                 file.content,
-                object_pairs_hook=_without_doubles,
-                parse_float=_finite,
-                parse_int=_whole,
-                parse_constant=_finite,
+                object_pairs_hook=_refuse_doubles,
+                parse_float=_require_finite,
+                parse_int=_read_whole,
+                parse_constant=_require_finite,
             )
         except (ValueError, RecursionError) as error:
             raise ValueError(f"{file.name}: no JSON: {error}") from error
@@ -107,7 +107,7 @@ def stated_by(carrier: Carrier) -> StatedResults | None:
     return None
 
 
-def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _refuse_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     """Refuse a key that is there twice: one reader takes the first, and another the last."""
     found = dict(pairs)
     if len(found) != len(pairs):
@@ -115,15 +115,15 @@ def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     return found
 
 
-def _finite(text: str) -> float:
+def _require_finite(text: str) -> float:
     """Refuse what no certificate states: such a value has no difference from another, and no JSON."""
     if not math.isfinite(value := float(text)):
         raise ValueError(f"{text[:20]} is no finite number")
     return value
 
 
-def _whole(text: str) -> int:
-    _finite(text)
+def _read_whole(text: str) -> int:
+    _require_finite(text)
     return int(text)
 
 
@@ -155,7 +155,7 @@ class Layout:
 
 
 @contextlib.contextmanager
-def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) -> Iterator[Layout]:
+def lay_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) -> Iterator[Layout]:
     """Write each attached source into a folder of its own; jobs name these files only while it lasts.
 
     `carried`: The attachments, by name: each is a name and no path.
@@ -164,7 +164,7 @@ def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) ->
         files: dict[str, Path] = {}
         names: dict[str, str] = {}
         for number, source in enumerate(sources):
-            path = Path(folder, str(number), _file_name(source))
+            path = Path(folder, str(number), _find_file_name(source))
             path.parent.mkdir()
             names[str(path)] = source.name
             files.setdefault(posixpath.normpath(source.path), path)
@@ -172,11 +172,11 @@ def laid_out(sources: Sequence[StatedSource], carried: Mapping[str, Carried]) ->
                 path.write_bytes(carried[source.name].content)
         nowhere = Path(folder, "not attached")
         names[f"{nowhere}/"] = ""
-        with confined(Path(folder)), enclosed(Enclosure(files, nowhere)):
+        with confine(Path(folder)), enclose(Enclosure(files, nowhere)):
             yield Layout(next(iter(files.values())), names)
 
 
-def _file_name(source: StatedSource) -> str:
+def _find_file_name(source: StatedSource) -> str:
     """Return the name that a file had, for documents print it; another where no file can have that name."""
     name = posixpath.basename(source.path)
     try:
@@ -227,9 +227,9 @@ def compare(  # noqa: PLR0913 - what is stated, found and made again, and how mu
         if file is None:
             findings.append(CheckedStatement(name, VerificationVerdict.DIFFERS, "is not attached"))
             continue
-        faults = [*_digests(file, source)]
+        faults = [*_list_digests(file, source)]
         if again is not None:
-            faults += _described(file, again.get(name))
+            faults += _check_descriptions(file, again.get(name))
         is_derived = again is not None and source is None and name != compared_by_value
         derived = again.get(name) if again and is_derived else None
         verdict = (
@@ -262,7 +262,7 @@ def _are_alike(content: bytes, again: bytes) -> bool:
     )
 
 
-def _digests(file: Carried, source: StatedSource | None) -> Iterator[str]:
+def _list_digests(file: Carried, source: StatedSource | None) -> Iterator[str]:
     digest = hashlib.sha256(file.content).hexdigest()
     if source and (digest, len(file.content)) != (source.sha256, source.size):
         yield (
@@ -275,7 +275,7 @@ def _digests(file: Carried, source: StatedSource | None) -> Iterator[str]:
         yield f"has {len(file.content)} bytes, and the PDF states {file.size[:_SHOWN_DIGITS]}"
 
 
-def _described(file: Carried, again: Carried | None) -> Iterator[str]:
+def _check_descriptions(file: Carried, again: Carried | None) -> Iterator[str]:
     """Yield where the PDF does not say of a file what it says when it is made again."""
     if again is None:
         yield "is no file of this certificate"
@@ -293,7 +293,7 @@ _EXTRA = "checking a digital certificate needs the extra dcc: pip install 'zlmre
 _MOST_DEFECTS = 3
 
 
-def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[CheckedStatement]:
+def check_digital_certificates(carried: Mapping[str, Carried], schema: Path) -> Iterator[CheckedStatement]:
     """Yield what PTB's rules and PTB's schema say of the attached digital certificates.
 
     `schema`: A folder with PTB's ``dcc.xsd`` and what it imports.
@@ -312,12 +312,12 @@ def digital_findings(carried: Mapping[str, Carried], schema: Path) -> Iterator[C
         )
     try:
         for name, content in digital.items():
-            yield from _digital(name, content, schema / _SCHEMA)
+            yield from _check_digital(name, content, schema / _SCHEMA)
     except ImportError as error:
         raise InputError.at(place, _EXTRA) from error
 
 
-def _digital(name: str, content: bytes, schema: Path) -> Iterator[CheckedStatement]:
+def _check_digital(name: str, content: bytes, schema: Path) -> Iterator[CheckedStatement]:
     from lxml import etree  # noqa: PLC0415 - comes with the optional extra
 
     parser = etree.XMLParser(resolve_entities=False, no_network=True)
@@ -333,13 +333,17 @@ def _digital(name: str, content: bytes, schema: Path) -> Iterator[CheckedStateme
             name, VerificationVerdict.DIFFERS, "declares a document type, which no digital certificate does"
         )
         return
-    yield _finding(name, "PTB's rules", _broken_rules(etree.tostring(certificate, encoding="unicode")))
+    yield _make_finding(
+        name, "PTB's rules", _find_broken_rules(etree.tostring(certificate, encoding="unicode"))
+    )
     rules = etree.XMLSchema(etree.parse(str(schema), parser))
     rules.validate(certificate)
-    yield _finding(name, "PTB's schema", [f"line {each.line}: {each.message}" for each in rules.error_log])
+    yield _make_finding(
+        name, "PTB's schema", [f"line {each.line}: {each.message}" for each in rules.error_log]
+    )
 
 
-def _broken_rules(text: str) -> list[str]:
+def _find_broken_rules(text: str) -> list[str]:
     from dcclib.validation.schematron import SchematronValidator  # noqa: PLC0415 - an optional extra
     from saxonche import PySaxonApiError  # noqa: PLC0415 - comes with the extra
 
@@ -351,7 +355,7 @@ def _broken_rules(text: str) -> list[str]:
     return [*(each.text for each in found.failed_assertions), *reports]
 
 
-def _finding(name: str, by: str, broken: list[str]) -> CheckedStatement:
+def _make_finding(name: str, by: str, broken: list[str]) -> CheckedStatement:
     if not broken:
         return CheckedStatement(name, VerificationVerdict.HOLDS, f"valid by {by}")
     shown = "; ".join(" ".join(each.split()) for each in broken[:_MOST_DEFECTS])

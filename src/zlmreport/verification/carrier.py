@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 
 from zlmreport.document.certificate.attachments import LARGEST_TOTAL, MOST_ATTACHMENTS
 from zlmreport.errors import InputError, Place
-from zlmreport.files import demanded
+from zlmreport.files import demand
 
 #: Of a PDF, in bytes; a certificate has some hundred thousand, and its attachments.
 LARGEST = 2 * LARGEST_TOTAL
@@ -79,7 +79,7 @@ def read_file(path: Path) -> bytes:
     Raises `AccessError` if it cannot be read; `InputError` if it is no PDF, or larger than any certificate.
     """
     place = Place(str(path))
-    content = demanded(path, LARGEST)
+    content = demand(path, LARGEST)
     if len(content) > LARGEST:
         raise InputError.at(place, f"is larger than {LARGEST >> 20} MiB; no certificate is")
     if b"%PDF-" not in content[:1024]:
@@ -87,24 +87,24 @@ def read_file(path: Path) -> bytes:
     return content
 
 
-def opened(content: bytes, place: Place) -> Carrier:
+def open_pdf(content: bytes, place: Place) -> Carrier:
     """Open a PDF and take out its attachments.
 
     Raises `InputError` if it is damaged or encrypted, or carries more than any certificate.
     """
-    return guarded(lambda: _opened(content, place), place)
+    return guard(lambda: _open_carrier(content, place), place)
 
 
-def results_in(path: Path) -> bytes | None:
+def find_results_in(path: Path) -> bytes | None:
     """Return the results file that a certificate carries; None if it carries none."""
-    carried = opened(read_file(path), Place(str(path))).carried.values()
+    carried = open_pdf(read_file(path), Place(str(path))).carried.values()
     return next(
         (each.content for each in carried if each.relationship == "Data" and each.name.endswith(".json")),
         None,
     )
 
 
-def guarded(read: Callable[[], Read], place: Place) -> Read:
+def guard(read: Callable[[], Read], place: Place) -> Read:
     """Return what is read from a PDF and what it carries; whatever breaks on the way is said in one line."""
     logger = logging.getLogger("pypdf")
     level = logger.level
@@ -120,7 +120,7 @@ def guarded(read: Callable[[], Read], place: Place) -> Read:
         logger.setLevel(level)
 
 
-def _opened(content: bytes, place: Place) -> Carrier:
+def _open_carrier(content: bytes, place: Place) -> Carrier:
     from pypdf import PdfReader  # noqa: PLC0415 - slow to load
 
     # Strictly: of a key that stands twice, also under another spelling, one viewer takes this and one that.
@@ -131,11 +131,11 @@ def _opened(content: bytes, place: Place) -> Carrier:
         raise InputError.at(place, f"has more than {MOST_PAGES} pages; no certificate has")
     carried: dict[str, Carried] = {}
     room = LARGEST_TOTAL
-    for specification, listed, associated in _specifications(reader, place):
+    for specification, listed, associated in _list_specifications(reader, place):
         if len(carried) == MOST_ATTACHMENTS:
             raise InputError.at(place, f"carries more than {MOST_ATTACHMENTS} files; no certificate does")
         try:
-            each = replace(_carried(specification, room, place), listed=listed, associated=associated)
+            each = replace(_read_carried(specification, room, place), listed=listed, associated=associated)
         except TooLargeError as error:
             raise InputError.at(
                 place, f"carries files of more than {LARGEST_TOTAL >> 20} MiB in all; no certificate does"
@@ -148,7 +148,7 @@ def _opened(content: bytes, place: Place) -> Carrier:
     return Carrier(place, content, reader, carried, metadata)
 
 
-def _specifications(reader: Any, place: Place) -> Iterator[tuple[Any, tuple[str, ...], int]]:
+def _list_specifications(reader: Any, place: Place) -> Iterator[tuple[Any, tuple[str, ...], int]]:
     """Yield each file specification that the document lists by name, or as associated with it.
 
     With it come the names under which it is listed, and how often it is associated with the document.
@@ -171,23 +171,23 @@ def _specifications(reader: Any, place: Place) -> Iterator[tuple[Any, tuple[str,
     associated = list(root.get("/AF", ()))
     seen: set[Any] = set()
     for specification in (*(each for _, each in names), *associated):
-        identity = _identity(specification)
+        identity = _find_identity(specification)
         if identity not in seen:
             seen.add(identity)
             yield (
                 specification.get_object(),
-                tuple(name for name, each in names if _identity(each) == identity),
-                sum(_identity(each) == identity for each in associated),
+                tuple(name for name, each in names if _find_identity(each) == identity),
+                sum(_find_identity(each) == identity for each in associated),
             )
 
 
-def _identity(specification: Any) -> int:
+def _find_identity(specification: Any) -> int:
     """Return what tells a file specification from others: its number, or where it lies in memory."""
     number: int | None = getattr(specification, "idnum", None)
     return id(specification) if number is None else number
 
 
-def _carried(specification: Any, room: int, place: Place) -> Carried:
+def _read_carried(specification: Any, room: int, place: Place) -> Carried:
     name = str(specification.get("/UF") or specification.get("/F") or "")
     if _UNSAFE.search(name) or len(name) > _LONGEST_NAME:
         raise InputError.at(place, f"carries a file whose name is none: {name[:60]!a}")
@@ -202,14 +202,14 @@ def _carried(specification: Any, room: int, place: Place) -> Carried:
             f"carries {name!r} with two names or two contents, one for some viewers; no certificate does",
         )
     parameters = stream["/Params"].get_object() if "/Params" in stream else {}
-    content = unpacked(stream, room)
+    content = unpack(stream, room)
     return Carried(
         name,
         content,
         str(specification.get("/AFRelationship", "")).removeprefix("/"),
         str(specification.get("/Desc", "")),
         str(stream.get("/Subtype", "")).removeprefix("/"),
-        _hexadecimal(parameters.get("/CheckSum")),
+        _write_hexadecimal(parameters.get("/CheckSum")),
         str(parameters.get("/Size", "")),
         tuple(f"{key} {parameters[key]}" for key in ("/CreationDate", "/ModDate") if key in parameters),
         entries=tuple(
@@ -220,7 +220,7 @@ def _carried(specification: Any, room: int, place: Place) -> Carried:
     )
 
 
-def _hexadecimal(checksum: Any) -> str:
+def _write_hexadecimal(checksum: Any) -> str:
     """Return a digest that the reader may have taken for text."""
     original = getattr(checksum, "original_bytes", b"")
     with contextlib.suppress(AttributeError):
@@ -236,7 +236,7 @@ class TooLargeError(ValueError):
     """A stream that unpacks to more than is allowed."""
 
 
-def unpacked(stream: Any, most: int) -> bytes:
+def unpack(stream: Any, most: int) -> bytes:
     """Return the bytes of a stream of pypdf.
 
     `most`: Bytes that it may unpack to.

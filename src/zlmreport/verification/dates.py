@@ -19,34 +19,34 @@ _ELSEWHERE = dt.timedelta(days=1)
 _AHEAD = Words("{date} lies in the future: by the clock of this computer it is {today}")
 
 
-def future_dates(job: Job, today: dt.date) -> tuple[CheckedStatement, ...]:
+def find_future_dates(job: Job, today: dt.date) -> tuple[CheckedStatement, ...]:
     """Return the dates of a job that have not come yet, as not decided."""
     return tuple(
         CheckedStatement(
             key, VerificationVerdict.OPEN, _AHEAD.given(date=date.isoformat(), today=today.isoformat())
         )
-        for key, date in _of_job(job)
+        for key, date in _list_dates_of_job(job)
         if date > today + _ELSEWHERE
     )
 
 
-def _of_job(job: Job, within: str = "") -> Iterator[tuple[str, dt.date]]:
-    yield from ((f"{within}{key}", date) for key, date in _dates(job.keys, ""))
+def _list_dates_of_job(job: Job, within: str = "") -> Iterator[tuple[str, dt.date]]:
+    yield from ((f"{within}{key}", date) for key, date in _list_dates(job.keys, ""))
     for name, part in (*job.measurements.items(), *job.tests.items()):
-        yield from _of_job(part, f"{within}{name}.")
+        yield from _list_dates_of_job(part, f"{within}{name}.")
 
 
-def _dates(value: Any, key: str) -> Iterator[tuple[str, dt.date]]:
+def _list_dates(value: Any, key: str) -> Iterator[tuple[str, dt.date]]:
     match value:
         case dt.date():
             yield key, value
         case BaseModel():
             for name in type(value).model_fields:
                 if name not in _OF_THE_FUTURE:
-                    yield from _dates(getattr(value, name), f"{key}.{name}" if key else name)
+                    yield from _list_dates(getattr(value, name), f"{key}.{name}" if key else name)
         case dict():
             for name, each in value.items():
-                yield from _dates(each, f"{key}.{name}")
+                yield from _list_dates(each, f"{key}.{name}")
         case list() | tuple():
             for number, each in enumerate(value):
-                yield from _dates(each, f"{key}.{number}")
+                yield from _list_dates(each, f"{key}.{number}")

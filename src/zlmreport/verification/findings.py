@@ -46,7 +46,7 @@ class CheckedStatement:
         )
 
 
-def first_of(told: Sequence[str], most: int) -> str:
+def name_first_of(told: Sequence[str], most: int) -> str:
     """Return the first of what is told in a row, and how much more there is."""
     more = len(told) - most
     return "; ".join(told[:most]) + (f"; and {more} more" if more > 0 else "")

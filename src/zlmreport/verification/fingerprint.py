@@ -8,7 +8,7 @@ from itertools import zip_longest
 from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError, Place
-from zlmreport.verification.carrier import TooLargeError, unpacked
+from zlmreport.verification.carrier import TooLargeError, unpack
 from zlmreport.verification.shape import PACKING, is_of_signature
 
 #: An object of pypdf.
@@ -105,7 +105,7 @@ class Fingerprints:
         key = id(stream)
         if key not in self._streams:
             try:
-                content = unpacked(stream, _LARGEST - self._size)
+                content = unpack(stream, _LARGEST - self._size)
             except TooLargeError as error:
                 raise InputError.at(
                     self._place, f"comes to more than {_LARGEST >> 20} MiB; no certificate does"

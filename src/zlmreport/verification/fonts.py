@@ -38,46 +38,46 @@ def show_the_same(font: Any, again: Any, digest: Digest, digest_again: Digest, *
     `completely`: Whether every glyph of the font printed again must be there; otherwise those that both have
         count.
     """
-    parts, parts_again = _parts(font), _parts(again)
+    parts, parts_again = _find_parts(font), _find_parts(again)
     if parts is None or parts_again is None:
         return False
     for part, part_again in zip(parts, parts_again, strict=True):
-        if _entries(part, digest) != _entries(part_again, digest_again):
+        if _list_entries(part, digest) != _list_entries(part_again, digest_again):
             return False
     (_, inner, described), (_, inner_again, described_again) = parts, parts_again
-    program, program_again = _program(described), _program(described_again)
+    program, program_again = _read_program(described), _read_program(described_again)
     if program is None or program_again is None or not _is_packed_alike(program, program_again):
         return False
-    (frame, mapped), (frame_again, mapped_again) = _mapped(font), _mapped(again)
+    (frame, mapped), (frame_again, mapped_again) = _split_mapping(font), _split_mapping(again)
     if frame != frame_again:
         return False
-    widths, widths_again = _widths(inner["/W"]), _widths(inner_again["/W"])
+    widths, widths_again = _list_widths(inner["/W"]), _list_widths(inner_again["/W"])
     codes = mapped_again.keys() | widths_again.keys()
     if not completely:
         codes &= mapped.keys() | widths.keys()
     return all(
         mapped.get(code) == mapped_again.get(code)
         and widths.get(code) == widths_again.get(code)
-        and _outline(program, code) == _outline(program_again, code)
+        and _trace_outline(program, code) == _trace_outline(program_again, code)
         for code in codes
     )
 
 
-def glyphs(font: Any) -> Mapping[int, tuple[str, float, Hashable]]:
+def read_glyphs(font: Any) -> Mapping[int, tuple[str, float, Hashable]]:
     """Return the text, the width and the outline of each glyph that a font says a text of, by its code."""
-    parts = _parts(font)
-    program = _program(parts[2]) if parts else None
+    parts = _find_parts(font)
+    program = _read_program(parts[2]) if parts else None
     if parts is None or program is None:
         raise ValueError("a font that is packed as in no certificate")
-    widths = _widths(parts[1]["/W"])
+    widths = _list_widths(parts[1]["/W"])
     default = float(parts[1].get("/DW", 1000))
     return {
-        code: (text, widths.get(code, default), _outline(program, code))
-        for code, text in _mapped(font)[1].items()
+        code: (text, widths.get(code, default), _trace_outline(program, code))
+        for code, text in _split_mapping(font)[1].items()
     }
 
 
-def _parts(font: Any) -> tuple[Any, Any, Any] | None:
+def _find_parts(font: Any) -> tuple[Any, Any, Any] | None:
     """Return a font, the font of its glyphs, and what describes that; None if it is made otherwise."""
     inner: Any = font.get("/DescendantFonts", ())
     inner = inner.get_object() if hasattr(inner, "get_object") else inner
@@ -89,7 +89,7 @@ def _parts(font: Any) -> tuple[Any, Any, Any] | None:
     return font, inner[0].get_object(), described.get_object()
 
 
-def _entries(part: Any, digest: Digest) -> dict[str, str]:
+def _list_entries(part: Any, digest: Digest) -> dict[str, str]:
     """Return the entries that both must have alike, and the names of those that are compared by glyphs."""
     found = {}
     for key in part:
@@ -100,7 +100,7 @@ def _entries(part: Any, digest: Digest) -> dict[str, str]:
     return found
 
 
-def _program(described: Any) -> Any:
+def _read_program(described: Any) -> Any:
     from fontTools.ttLib import TTFont  # noqa: PLC0415 - slow to load
 
     if "/FontFile2" not in described:
@@ -122,7 +122,7 @@ def _is_packed_alike(program: Any, again: Any) -> bool:
     )
 
 
-def _outline(program: Any, code: int) -> Hashable:
+def _trace_outline(program: Any, code: int) -> Hashable:
     """Return what a glyph draws: its contours, and the instructions that would move them."""
     from fontTools.pens.recordingPen import DecomposingRecordingPen  # noqa: PLC0415 - slow to load
 
@@ -132,20 +132,20 @@ def _outline(program: Any, code: int) -> Hashable:
     shapes = program.getGlyphSet()
     pen = DecomposingRecordingPen(shapes)
     shapes[names[code]].draw(pen)
-    return repr(pen.value), _instructions(program, names[code])
+    return repr(pen.value), _read_instructions(program, names[code])
 
 
-def _instructions(program: Any, name: str) -> bytes:
+def _read_instructions(program: Any, name: str) -> bytes:
     if "glyf" not in program:
         return b""
     glyph = program["glyf"][name]
     glyph.expand(program["glyf"])
     own: bytes = glyph.program.getBytecode() if hasattr(glyph, "program") else b""
     inner = getattr(glyph, "components", ())
-    return own + b"".join(_instructions(program, each.glyphName) for each in inner)
+    return own + b"".join(_read_instructions(program, each.glyphName) for each in inner)
 
 
-def _mapped(font: Any) -> tuple[bytes, dict[int, str]]:
+def _split_mapping(font: Any) -> tuple[bytes, dict[int, str]]:
     """Return what stands around the texts of the codes, and the texts, in hexadecimal.
 
     A code that is there twice leaves its second text in what stands around: one reader takes the first, and
@@ -161,7 +161,7 @@ def _mapped(font: Any) -> tuple[bytes, dict[int, str]]:
     return b" ".join(frame.split()), found
 
 
-def _widths(entries: Any) -> dict[int, float]:
+def _list_widths(entries: Any) -> dict[int, float]:
     """Return the widths of glyphs as a PDF lists them: a code, and the widths from there on; or a range."""
     found: dict[int, float] = {}
     rest = list(entries)

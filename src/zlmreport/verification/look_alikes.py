@@ -10,7 +10,7 @@ import unicodedata
 from collections.abc import Iterator
 from functools import cache
 
-from zlmreport.job.parse import described, invisible
+from zlmreport.job.parse import describe_character, list_invisible
 from zlmreport.language import Words
 
 _WORD = re.compile(r"[^\W\d_]+")
@@ -44,14 +44,14 @@ def read_as(text: str) -> str:
     >>> read_as("\N{CYRILLIC CAPITAL LETTER A} = 1,0"), read_as("l,O \N{MICRO SIGN}m"), read_as("10⁻³")
     ('A = 1,0', '1,0 um', '10-3')
     """
-    seen = "".join(each for each in text if not invisible(each))
+    seen = "".join(each for each in text if not list_invisible(each))
     plain = unicodedata.normalize("NFKC", seen).translate(_DASHES).translate(_MICRO)
-    latin = "".join(map(_latin, plain))
+    latin = "".join(map(_find_latin, plain))
     return _AMONG_DIGITS.sub(lambda found: found[0].translate(_AS_DIGITS), latin)
 
 
 @cache
-def _latin(letter: str) -> str:
+def _find_latin(letter: str) -> str:
     """Return the ASCII letter or digit that a letter looks like; itself where it looks like none."""
     if letter.isascii():
         return letter
@@ -64,12 +64,12 @@ def _latin(letter: str) -> str:
     return next((each for each in alike if len(each) == 1 and each.isascii() and each.isalnum()), letter)
 
 
-def oddities(text: str) -> Iterator[Words]:
+def find_oddities(text: str) -> Iterator[Words]:
     """Yield what nobody can tell by looking: mixed scripts, look-alikes, invisible characters."""
-    for character in dict.fromkeys(invisible(text)):
-        yield _UNSEEN.given(character=described(character))
+    for character in dict.fromkeys(list_invisible(text)):
+        yield _UNSEEN.given(character=describe_character(character))
     for word in dict.fromkeys(_WORD.findall(text)):
-        yield from _of_word(word)
+        yield from _find_in_word(word)
     for number in dict.fromkeys(re.findall(r"[\w.,]+", text)):
         if _AMONG_DIGITS.fullmatch(number):
             yield _DIGITS.given(word=number)
@@ -77,7 +77,7 @@ def oddities(text: str) -> Iterator[Words]:
             yield _OTHER_DIGITS.given(word=number, like=read_as(number))
 
 
-def _of_word(word: str) -> Iterator[Words]:
+def _find_in_word(word: str) -> Iterator[Words]:
     from confusable_homoglyphs import categories  # noqa: PLC0415 - slow to load
 
     if word.translate(_MICRO).isascii():  # a micro sign is written in two ways
@@ -86,5 +86,5 @@ def _of_word(word: str) -> Iterator[Words]:
     named = ", ".join(sorted(each.title() for each in scripts))
     if len(scripts) > 1 and not any(scripts <= allowed for allowed in _TOGETHER):
         yield _MIXED.given(word=word, scripts=named)
-    elif "LATIN" not in scripts and (like := "".join(map(_latin, word))).isascii():
+    elif "LATIN" not in scripts and (like := "".join(map(_find_latin, word))).isascii():
         yield _WHOLLY.given(word=word, scripts=named, like=like)

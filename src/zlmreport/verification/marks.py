@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
-from zlmreport.verification.fonts import glyphs
+from zlmreport.verification.fonts import read_glyphs
 
 #: Points: half of the narrowest character's width, so that no decimal point passes a digit unseen.
 TOLERANCE = 0.7
@@ -105,7 +105,7 @@ class _Pen:
         self.marks.append(DrawnMark(what, scale, place))
 
 
-def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) -> list[DrawnMark]:
+def list_marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) -> list[DrawnMark]:
     """Return what a page of pypdf draws.
 
     `known_fonts`: The glyphs of fonts that were met, by their digests; it is added to.
@@ -130,13 +130,13 @@ def marks(page: Any, digest: Callable[[Any], str], known_fonts: dict[str, Any]) 
     return pen.marks
 
 
-def _times(one: _Matrix, other: _Matrix) -> _Matrix:
+def _multiply(one: _Matrix, other: _Matrix) -> _Matrix:
     a, b, c, d, e, f = one
     g, h, i, j, k, m = other
     return (a * g + b * i, a * h + b * j, c * g + d * i, c * h + d * j, e * g + f * i + k, e * h + f * j + m)
 
 
-def _numbers(values: Any) -> Any:
+def _take_numbers(values: Any) -> Any:
     return tuple(float(each) for each in values)
 
 
@@ -153,7 +153,7 @@ def _restore(pen: _Pen) -> None:
 
 
 def _transform(pen: _Pen, *values: Any) -> None:
-    pen.set(matrix=_times(_numbers(values), pen.state.matrix))
+    pen.set(matrix=_multiply(_take_numbers(values), pen.state.matrix))
 
 
 def _style(name: str) -> Callable[..., None]:
@@ -164,19 +164,19 @@ def _style(name: str) -> Callable[..., None]:
     return draw
 
 
-def _graphics_state(pen: _Pen, name: Any) -> None:
+def _set_graphics_state(pen: _Pen, name: Any) -> None:
     pen.set(alpha=pen.digest(pen.resource("/ExtGState", name)))
 
 
-def _colour(which: str, space: str = "") -> Callable[..., None]:
+def _set_colour(which: str, space: str = "") -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
-        rounded = tuple(round(value, 4) for value in _numbers(values))
+        rounded = tuple(round(value, 4) for value in _take_numbers(values))
         pen.set(**{which: (space or getattr(pen.state, which)[0], rounded)})
 
     return draw
 
 
-def _colour_space(which: str) -> Callable[..., None]:
+def _set_colour_space(which: str) -> Callable[..., None]:
     def draw(pen: _Pen, name: Any) -> None:
         is_device = name in {"/DeviceGray", "/DeviceRGB"}
         space = str(name) if is_device else pen.digest(pen.resource("/ColorSpace", name))
@@ -185,21 +185,21 @@ def _colour_space(which: str) -> Callable[..., None]:
     return draw
 
 
-def _segment(kind: str) -> Callable[..., None]:
+def _add_segment(kind: str) -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
         a, b, c, d, e, f = pen.state.matrix
-        numbers = _numbers(values)
+        numbers = _take_numbers(values)
         pairs = zip(numbers[::2], numbers[1::2], strict=True)
         pen.path.append((kind, tuple(v for x, y in pairs for v in (a * x + c * y + e, b * x + d * y + f))))
 
     return draw
 
 
-def _rectangle(pen: _Pen, *values: Any) -> None:
-    x, y, width, height = _numbers(values)
+def _add_rectangle(pen: _Pen, *values: Any) -> None:
+    x, y, width, height = _take_numbers(values)
     corners = ((x, y), (x + width, y), (x + width, y + height), (x, y + height), ())
     for kind, corner in zip("mlllh", corners, strict=True):
-        _segment(kind)(pen, *corner)
+        _add_segment(kind)(pen, *corner)
 
 
 def _paint(operator: str) -> Callable[..., None]:
@@ -228,19 +228,19 @@ def _clip(rule: str) -> Callable[..., None]:
     return draw
 
 
-def _text_matrix(pen: _Pen, *values: Any) -> None:
-    pen.line = pen.text = _numbers(values)
+def _set_text_matrix(pen: _Pen, *values: Any) -> None:
+    pen.line = pen.text = _take_numbers(values)
 
 
-def _next_line(pen: _Pen, x: Any, y: Any) -> None:
-    pen.line = pen.text = _times((1.0, 0.0, 0.0, 1.0, float(x), float(y)), pen.line)
+def _begin_next_line(pen: _Pen, x: Any, y: Any) -> None:
+    pen.line = pen.text = _multiply((1.0, 0.0, 0.0, 1.0, float(x), float(y)), pen.line)
 
 
-def _font(pen: _Pen, name: Any, size: Any) -> None:
+def _set_font(pen: _Pen, name: Any, size: Any) -> None:
     used = pen.resource("/Font", name)
     digest = pen.digest(used)
     if digest not in pen.known_fonts:
-        pen.known_fonts[digest] = glyphs(used.get_object())
+        pen.known_fonts[digest] = read_glyphs(used.get_object())
     pen.set(font=digest, size=float(size))
 
 
@@ -251,7 +251,7 @@ def _set(which: str) -> Callable[..., None]:
     return draw
 
 
-def _visibly(_: _Pen, mode: Any) -> None:
+def _set_visibility(_: _Pen, mode: Any) -> None:
     if mode != 0:
         raise ForeignError("draws words that nobody sees")
 
@@ -262,27 +262,27 @@ def _show_all(pen: _Pen, items: Any) -> None:
     for item in items:
         if isinstance(item, int | float) or hasattr(item, "as_numeric"):
             moved = -float(item) / 1000 * state.size
-            pen.text = _times((1.0, 0.0, 0.0, 1.0, moved, 0.0), pen.text)
+            pen.text = _multiply((1.0, 0.0, 0.0, 1.0, moved, 0.0), pen.text)
             continue
         codes = getattr(item, "original_bytes", item)
         for high, low in zip(codes[::2], codes[1::2], strict=True):
-            _glyph(pen, table.get(high << 8 | low))
+            _show_glyph(pen, table.get(high << 8 | low))
 
 
-def _glyph(pen: _Pen, known: Any) -> None:
+def _show_glyph(pen: _Pen, known: Any) -> None:
     if known is None:
         raise ForeignError("draws a glyph of which it says no text")
     text, width, outline = known
     state = pen.state
-    a, b, c, d, e, f = _times(
-        (state.size, 0.0, 0.0, state.size, 0.0, state.rise), _times(pen.text, state.matrix)
+    a, b, c, d, e, f = _multiply(
+        (state.size, 0.0, 0.0, state.size, 0.0, state.rise), _multiply(pen.text, state.matrix)
     )
     pen.mark("glyph", text, outline, state.fill, state.alpha, scale=(a, b, c, d), place=(e, f))
     advance = width / 1000 * state.size + state.spacing
-    pen.text = _times((1.0, 0.0, 0.0, 1.0, advance, 0.0), pen.text)
+    pen.text = _multiply((1.0, 0.0, 0.0, 1.0, advance, 0.0), pen.text)
 
 
-def _picture(pen: _Pen, name: Any) -> None:
+def _place_picture(pen: _Pen, name: Any) -> None:
     picture = pen.resource("/XObject", name)
     if picture.get_object().get("/Subtype") != "/Image":
         raise ForeignError("draws by a form, as no certificate does")
@@ -301,30 +301,30 @@ _OPERATORS: dict[bytes, Callable[..., None]] = {
     b"cm": _transform,
     b"w": _set("width"),
     **{name.encode(): _style(name) for name in "JjMd"},
-    b"gs": _graphics_state,
-    b"rg": _colour("fill", "rgb"),
-    b"RG": _colour("stroke", "rgb"),
-    b"g": _colour("fill", "grey"),
-    b"G": _colour("stroke", "grey"),
-    **dict.fromkeys((b"sc", b"scn"), _colour("fill")),
-    **dict.fromkeys((b"SC", b"SCN"), _colour("stroke")),
-    b"cs": _colour_space("fill"),
-    b"CS": _colour_space("stroke"),
-    **{name.encode(): _segment(name) for name in "mlch"},
-    b"re": _rectangle,
+    b"gs": _set_graphics_state,
+    b"rg": _set_colour("fill", "rgb"),
+    b"RG": _set_colour("stroke", "rgb"),
+    b"g": _set_colour("fill", "grey"),
+    b"G": _set_colour("stroke", "grey"),
+    **dict.fromkeys((b"sc", b"scn"), _set_colour("fill")),
+    **dict.fromkeys((b"SC", b"SCN"), _set_colour("stroke")),
+    b"cs": _set_colour_space("fill"),
+    b"CS": _set_colour_space("stroke"),
+    **{name.encode(): _add_segment(name) for name in "mlch"},
+    b"re": _add_rectangle,
     **{name.encode(): _clip(name) for name in ("W", "W*")},
     **{name.encode(): _paint(name) for name in ("n", "S", "f", "f*", "B", "B*")},
-    b"BT": lambda pen: _text_matrix(pen, *_UNIT),
+    b"BT": lambda pen: _set_text_matrix(pen, *_UNIT),
     b"ET": lambda _: None,
-    b"Tm": _text_matrix,
-    b"Td": _next_line,
-    b"Tf": _font,
+    b"Tm": _set_text_matrix,
+    b"Td": _begin_next_line,
+    b"Tf": _set_font,
     b"Ts": _set("rise"),
     b"Tc": _set("spacing"),
-    b"Tr": _visibly,
+    b"Tr": _set_visibility,
     b"Tj": lambda pen, text: _show_all(pen, [text]),
     b"TJ": _show_all,
-    b"Do": _picture,
+    b"Do": _place_picture,
     **dict.fromkeys((b"BMC", b"BDC"), _begin_marked),
     b"EMC": lambda pen: pen.mark("end of tag"),
 }

@@ -12,14 +12,14 @@ from collections.abc import Iterable, Iterator
 from pydantic import BaseModel
 
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.certificate.own_words import filled
+from zlmreport.document.certificate.own_words import fill_in
 from zlmreport.errors import InputError
 from zlmreport.job.choices import Choice, ExtensionChoice
 from zlmreport.job.job import Job
-from zlmreport.job.types import free_texts
+from zlmreport.job.types import list_free_texts
 from zlmreport.language import Words
 from zlmreport.verification.findings import QuotedText
-from zlmreport.verification.look_alikes import oddities, read_as
+from zlmreport.verification.look_alikes import find_oddities, read_as
 
 #: The last steps of keys whose texts name installed things, files and hosts, and say nothing to a reader.
 _NAMES_OF_THINGS = frozenset(
@@ -85,7 +85,7 @@ _NUMBERED = Words(
 )
 
 
-def own_texts(certificate: Certificate, job: Job) -> tuple[QuotedText, ...]:
+def quote_own_texts(certificate: Certificate, job: Job) -> tuple[QuotedText, ...]:
     """Return the words of a job that are printed as they stand, each once.
 
     A text that nobody sees the claim of, for its letters only look like it, makes that claim too.
@@ -95,33 +95,33 @@ def own_texts(certificate: Certificate, job: Job) -> tuple[QuotedText, ...]:
         for evaluation in certificate.evaluations
         for parameter in evaluation.parameters
     }
-    return _quoted(_texts(certificate, job), symbols)
+    return _quote_texts(_list_texts(certificate, job), symbols)
 
 
-def own_texts_of(keys: BaseModel) -> tuple[QuotedText, ...]:
+def quote_own_texts_of(keys: BaseModel) -> tuple[QuotedText, ...]:
     """Return the words of a file's keys, of which no job is made."""
-    return _quoted(_free(keys), set())
+    return _quote_texts(_list_free(keys), set())
 
 
-def _quoted(texts: Iterable[tuple[str, str]], symbols: set[str]) -> tuple[QuotedText, ...]:
+def _quote_texts(texts: Iterable[tuple[str, str]], symbols: set[str]) -> tuple[QuotedText, ...]:
     letters = "|".join(map(re.escape, sorted(symbols | {"U"})))
     result = re.compile(
         rf"(?<![^\W_])(?:{letters})(?:_\w+|[↑↓])?\s*(?:(?:[=:≈<>≤≥]|is|ist)\s*[+±-]?\d|\d+[.,]\d)",
         re.IGNORECASE,
     )
     found = [
-        QuotedText(key, text, tuple(oddities(text)), _claim(key, text, result))
+        QuotedText(key, text, tuple(find_oddities(text)), _find_claim(key, text, result))
         for key, text in dict.fromkeys(texts)
     ]
-    return tuple(each for each in found if each.key not in _OF_FILES or _says_something(each))
+    return tuple(each for each in found if each.key not in _OF_FILES or _is_saying_something(each))
 
 
-def _says_something(text: QuotedText) -> bool:
+def _is_saying_something(text: QuotedText) -> bool:
     """Whether it is what somebody said, or odd: a file has a name, which says nothing else."""
     return bool(text.oddities or text.claim or text.key == "readings")
 
 
-def _claim(key: str, text: str, result: re.Pattern[str]) -> Words | None:
+def _find_claim(key: str, text: str, result: re.Pattern[str]) -> Words | None:
     read, steps = read_as(text), key.split(".")
     amounts = _RANGE.sub("", read) if steps[-1] in _OF_DEVICES else read
     if result.search(read) or (_AMOUNT.search(amounts) and _OF_LENGTHS.isdisjoint(steps)):
@@ -135,9 +135,9 @@ def _claim(key: str, text: str, result: re.Pattern[str]) -> Words | None:
     return claimed.given(text=text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…")
 
 
-def _texts(certificate: Certificate, job: Job) -> Iterator[tuple[str, str]]:
+def _list_texts(certificate: Certificate, job: Job) -> Iterator[tuple[str, str]]:
     """Yield the key of each text, and the text as it is printed: of the job, then of the files it names."""
-    yield from _stated(job)
+    yield from _list_stated(job)
     yield from (("files", source.file.name) for source in certificate.sources)
     sets = {id(each.measurements): each.measurements for each in certificate.evaluations}
     for measurements in sets.values():
@@ -147,10 +147,10 @@ def _texts(certificate: Certificate, job: Job) -> Iterator[tuple[str, str]]:
                 yield "readings", said
 
 
-def _stated(job: Job, within: str = "") -> Iterator[tuple[str, str]]:
+def _list_stated(job: Job, within: str = "") -> Iterator[tuple[str, str]]:
     """Yield the texts of a job, then those of the measurements and lines of which it is made."""
-    for key, text in _free(job.keys):
-        yield f"{within}{key}", _printed(text, job, key)
+    for key, text in _list_free(job.keys):
+        yield f"{within}{key}", _fill_in(text, job, key)
     choices: list[tuple[Choice | ExtensionChoice, str]] = [
         (job.source, "measurement.source"),
         *((each, f"evaluate.{number}") for number, each in enumerate(job.standards)),
@@ -158,24 +158,24 @@ def _stated(job: Job, within: str = "") -> Iterator[tuple[str, str]]:
     ]
     for choice, key in choices:
         if isinstance(choice.options, BaseModel):
-            yield from _free(choice.options, f"{within}{key}.")
+            yield from _list_free(choice.options, f"{within}{key}.")
     for name, part in (*job.measurements.items(), *job.tests.items()):
-        yield from _stated(part, f"{within}{name}.")
+        yield from _list_stated(part, f"{within}{name}.")
 
 
-def _free(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
+def _list_free(keys: BaseModel, within: str = "") -> Iterator[tuple[str, str]]:
     """Yield the texts of keys that say something to a reader."""
-    for key, text in free_texts(keys, within):
+    for key, text in list_free_texts(keys, within):
         name = [step for step in key.split(".") if not step.isdecimal()][-1]
         if not key.endswith(_NUMBER_OF_DOCUMENT) and name not in _NAMES_OF_THINGS:
             yield key, text
 
 
-def _printed(text: str, job: Job, key: str) -> str:
+def _fill_in(text: str, job: Job, key: str) -> str:
     """Return a text with what its keys in braces stand for, where it may have any."""
     if not key.startswith(("certificate.sections.", "certificate.style.", "certificate.title")):
         return text
     try:
-        return filled(text, job, key)
+        return fill_in(text, job, key)
     except InputError:
         return text

@@ -10,11 +10,11 @@ from functools import cached_property
 from typing import Any
 
 from zlmreport.verification import raster, shape
-from zlmreport.verification.carrier import Carrier, guarded
-from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, first_of
+from zlmreport.verification.carrier import Carrier, guard
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 from zlmreport.verification.fingerprint import Fingerprints
 from zlmreport.verification.fonts import show_the_same
-from zlmreport.verification.marks import TOLERANCE, DrawnMark, ForeignError, marks
+from zlmreport.verification.marks import TOLERANCE, DrawnMark, ForeignError, list_marks
 
 #: Words of a page that are compared, and differences of a page that are told.
 _MOST_WORDS = 5000
@@ -62,7 +62,7 @@ def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> ComparedPage
 
     `is_signed` says whether it may have what belongs to a signature.
     """
-    return guarded(lambda: _Comparison(Prints(carrier), again).compared(is_signed=is_signed), carrier.place)
+    return guard(lambda: _Comparison(Prints(carrier), again).compared(is_signed=is_signed), carrier.place)
 
 
 class _Comparison:
@@ -103,10 +103,10 @@ class _Comparison:
                     yield self._altered(number, number_again)
             for number in range(first + common, end):
                 yield CheckedStatement(
-                    _page(number), VerificationVerdict.DIFFERS, "is no page of this certificate"
+                    _say_page(number), VerificationVerdict.DIFFERS, "is no page of this certificate"
                 )
             for number in range(first_again + common, end_again):
-                yield CheckedStatement(_page(number), VerificationVerdict.DIFFERS, "is missing")
+                yield CheckedStatement(_say_page(number), VerificationVerdict.DIFFERS, "is missing")
 
     def _drawn_with(self, number: int, number_again: int) -> CheckedStatement:
         """Return whether a page of the same strokes is drawn with the same fonts and pictures."""
@@ -120,7 +120,7 @@ class _Comparison:
             or not self._is_same_resource(name, used[name], again[name])
         ]
         kinds = [_RESOURCES.get(kind, kind) for kind, _ in differing[:1]]
-        return CheckedStatement.of(_page(number), f"its {kinds[0]} differ" if kinds else "")
+        return CheckedStatement.of(_say_page(number), f"its {kinds[0]} differ" if kinds else "")
 
     def _is_same_resource(self, name: tuple[str, str], used: Any, again: Any) -> bool:
         digests = self._prints.of(used), self._prints_again.of(again)
@@ -140,7 +140,7 @@ class _Comparison:
 
     def _altered(self, number: int, number_again: int) -> CheckedStatement:
         """Return what is to be said of a page that is not the same, stroke for stroke."""
-        subject = _page(number)
+        subject = _say_page(number)
         if not self._prints.is_framed_like(number, self._prints_again, number_again):
             return CheckedStatement(
                 subject, VerificationVerdict.DIFFERS, "its size, its frame or its links differ"
@@ -155,10 +155,10 @@ class _Comparison:
         if is_same and all(map(DrawnMark.is_where, drawn, drawn_again)):
             return CheckedStatement(subject, VerificationVerdict.HOLDS)
         words, words_again = self._prints.words(number), self._prints_again.words(number_again)
-        differences = list(_differences(words, words_again))
+        differences = list(_find_differences(words, words_again))
         if differences:
             return CheckedStatement(
-                subject, VerificationVerdict.DIFFERS, first_of(differences, _MOST_DIFFERENCES)
+                subject, VerificationVerdict.DIFFERS, name_first_of(differences, _MOST_DIFFERENCES)
             )
         if is_same and not self._is_drawn_alike:
             return CheckedStatement(
@@ -184,7 +184,7 @@ class _Comparison:
                 is_same = self._is_same_part(stated[key], again[key])
                 difference = "" if is_same else "is not what is printed again"
             yield CheckedStatement.of(_PARTS.get(key, key), difference)
-        yield from _metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
+        yield from _check_metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
 
     def _is_same_part(self, stated: Any, again: Any) -> bool:
         if self._prints.of(stated) == self._prints_again.of(again):
@@ -232,18 +232,18 @@ class Prints:
             prints._fingerprints.of(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
             for prints, each in ((self, page), (other, page_of_other))
         )
-        links = [_links(each) for each in (page, page_of_other)]
+        links = [_read_links(each) for each in (page, page_of_other)]
         return len(set(digests)) == 1 and self.is_like(links[0], other, links[1])
 
     @cached_property
     def traits(self) -> frozenset[shape.Trait]:
         """How it is built."""
-        return frozenset(shape.traits(self.carrier))
+        return frozenset(shape.list_traits(self.carrier))
 
     def marks(self, number: int) -> list[DrawnMark]:
         """Return what a page draws."""
         if number not in self._marks:
-            self._marks[number] = marks(self._reader.pages[number], self.of, self._fonts)
+            self._marks[number] = list_marks(self._reader.pages[number], self.of, self._fonts)
         return self._marks[number]
 
     def words(self, number: int) -> list[str]:
@@ -274,7 +274,7 @@ class Prints:
         }
 
 
-def _links(page: Any) -> Any:
+def _read_links(page: Any) -> Any:
     from pypdf.generic import ArrayObject  # noqa: PLC0415 - slow to load
 
     listed = page.get("/Annots", ())
@@ -282,14 +282,14 @@ def _links(page: Any) -> Any:
     return ArrayObject(each for each in listed if not shape.is_of_signature(each.get_object()))
 
 
-def _page(number: int) -> str:
+def _say_page(number: int) -> str:
     return f"page {number + 1}"
 
 
-def _differences(stated: list[str], again: list[str]) -> Iterator[str]:
+def _find_differences(stated: list[str], again: list[str]) -> Iterator[str]:
     matched = SequenceMatcher(None, stated, again, autojunk=False)
     for kind, first, end, first_again, end_again in matched.get_opcodes():
-        found, expected = _passage(stated[first:end]), _passage(again[first_again:end_again])
+        found, expected = _quote_passage(stated[first:end]), _quote_passage(again[first_again:end_again])
         if kind == "replace":
             yield f"{found} stands where {expected} is printed again"
         elif kind == "delete":
@@ -298,12 +298,12 @@ def _differences(stated: list[str], again: list[str]) -> Iterator[str]:
             yield f"{expected} is missing"
 
 
-def _passage(found: list[str]) -> str:
+def _quote_passage(found: list[str]) -> str:
     text = " ".join(found)
     return f"'{text if len(text) <= _LONGEST_PASSAGE else text[: _LONGEST_PASSAGE - 1] + '…'}'"
 
 
-def _metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[CheckedStatement]:
+def _check_metadata(stated: Mapping[str, str], again: Mapping[str, str]) -> Iterator[CheckedStatement]:
     """Yield the entries of the information dictionary; a program that saved it again may name itself."""
     for key in sorted({*stated, *again}):
         found, expected = stated.get(key), again.get(key)

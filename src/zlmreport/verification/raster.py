@@ -39,29 +39,32 @@ def compare(content: bytes, again: bytes, is_alike: Sequence[bool]) -> dict[int,
             if number >= len(one):
                 difference = "it is not there"
             else:
-                difference = _difference(one[number], other[number], is_alike=is_same)
+                difference = _find_difference(one[number], other[number], is_alike=is_same)
             if difference:
                 detail = f"PDFium shows it otherwise: {difference}"
                 found[number] = CheckedStatement(f"page {number + 1}", VerificationVerdict.DIFFERS, detail)
     return found
 
 
-def _difference(page: Any, again: Any, *, is_alike: bool) -> str:
+def _find_difference(page: Any, again: Any, *, is_alike: bool) -> str:
     size, size_again = page.get_size(), again.get_size()
     if size != size_again or page.get_rotation() != again.get_rotation():
         return "in another size"
-    text, text_again = _text(page), _text(again)
+    text, text_again = _read_text(page), _read_text(again)
     if text != text_again:
         at = next((i for i, pair in enumerate(zip(text, text_again, strict=False)) if len(set(pair)) > 1), 0)
         return (
             f"{text[at : at + _LONGEST]!r} stands where {text_again[at : at + _LONGEST]!r} is printed again"
         )
-    pixels, pixels_again = _pixels(page), _pixels(again)
+    pixels, pixels_again = _draw_pixels(page), _draw_pixels(again)
     if pixels.shape != pixels_again.shape:
         return "in another size"
     if np.array_equal(pixels, pixels_again):
         return ""
-    on_either = [_off(pixels, pixels_again, is_alike=is_alike), _off(pixels_again, pixels, is_alike=is_alike)]
+    on_either = [
+        _find_pixels_off(pixels, pixels_again, is_alike=is_alike),
+        _find_pixels_off(pixels_again, pixels, is_alike=is_alike),
+    ]
     rows, columns = np.unique(np.vstack(on_either), axis=0).T
     if not len(rows):
         return ""
@@ -69,16 +72,18 @@ def _difference(page: Any, again: Any, *, is_alike: bool) -> str:
     return f"{len(rows)} pixels, the first {across:.0f} mm from the left and {down:.0f} mm from the top"
 
 
-def _text(page: Any) -> str:
+def _read_text(page: Any) -> str:
     return " ".join(page.get_textpage().get_text_bounded().split())
 
 
-def _pixels(page: Any) -> NDArray[np.uint8]:
+def _draw_pixels(page: Any) -> NDArray[np.uint8]:
     pixels: NDArray[np.uint8] = page.render(scale=_RESOLUTION / 72).to_numpy()
     return pixels
 
 
-def _off(pixels: NDArray[np.uint8], again: NDArray[np.uint8], *, is_alike: bool) -> NDArray[np.intp]:
+def _find_pixels_off(
+    pixels: NDArray[np.uint8], again: NDArray[np.uint8], *, is_alike: bool
+) -> NDArray[np.intp]:
     """Return row and column of the pixels that are darker or lighter than all near them on the other page."""
     reach, step = (0, _STEP) if is_alike else (_REACH, _STEP_OFF)
     differing = np.maximum(pixels, again) - np.minimum(pixels, again)

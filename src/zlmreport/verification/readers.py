@@ -24,7 +24,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import CheckedStatement, first_of
+from zlmreport.verification.findings import CheckedStatement, name_first_of
 
 _LEADS = re.compile(rb"(startxref\s+)(\d+)")
 #: Of a program of the system, in seconds and in bytes of what it prints.
@@ -69,33 +69,33 @@ def compare(carrier: Carrier, again: bytes, *, is_drawn_alike: bool) -> CheckedS
     `again`: The document printed again.
     `is_drawn_alike`: Whether it is drawn by the same strokes, so that a reader must see the same pages in it.
     """
-    told = list(differences(carrier.content, attachments_of(carrier), len(carrier.reader.pages)))
+    told = list(find_differences(carrier.content, digest_attachments_of(carrier), len(carrier.reader.pages)))
     if is_drawn_alike and not told:
         told += list(_from_again(carrier.content, again))
-    return CheckedStatement.of(SUBJECT, first_of(told, _MOST_TOLD))
+    return CheckedStatement.of(SUBJECT, name_first_of(told, _MOST_TOLD))
 
 
-def attachments_of(carrier: Carrier) -> tuple[str, ...]:
+def digest_attachments_of(carrier: Carrier) -> tuple[str, ...]:
     """Return the digests of the attachments that were taken out and are compared."""
-    return _digests(each.content for each in carrier.carried.values())
+    return _compute_digests(each.content for each in carrier.carried.values())
 
 
-def absent() -> tuple[str, ...]:
+def name_absent() -> tuple[str, ...]:
     """Return the names of readers that are not installed here."""
     return tuple(each.name for each in READERS if not each.is_here)
 
 
-def differences(content: bytes, files: Sequence[str], pages: int) -> Iterator[str]:
+def find_differences(content: bytes, files: Sequence[str], pages: int) -> Iterator[str]:
     """Yield what a reader sees otherwise than is compared, or otherwise where it has to mend the file.
 
     `files`: Digests of the attachments that are compared.
     `pages`: How many pages are.
     """
-    unled = without_leads(content)
+    unled = remove_leads(content)
     for reader in READERS:
         if not reader.is_here:
             continue
-        seen = seen_by(reader, content)
+        seen = read_as_seen_by(reader, content)
         if seen is None:
             yield f"{reader.name} cannot open it"
             continue
@@ -103,7 +103,9 @@ def differences(content: bytes, files: Sequence[str], pages: int) -> Iterator[st
             yield f"{reader.name} sees {len(seen.pages)} pages, and {pages} are compared"
         if seen.files is not None and seen.files != tuple(files):
             yield f"{reader.name} takes out other attachments than are compared"
-        mended = seen_by(reader, unled)  # nothing is seen where a reader cannot mend it: no other face
+        mended = read_as_seen_by(
+            reader, unled
+        )  # nothing is seen where a reader cannot mend it: no other face
         if mended is not None and mended.pages != seen.pages:
             yield f"{reader.name} sees other pages where it puts the file together anew"
         if mended is not None and set(mended.files or ()) - set(files):  # some are lost on the way
@@ -113,17 +115,17 @@ def differences(content: bytes, files: Sequence[str], pages: int) -> Iterator[st
 def _from_again(content: bytes, again: bytes) -> Iterator[str]:
     for reader in READERS:
         if reader.is_here and reader.draws:
-            one, other = seen_by(reader, content), seen_by(reader, again)
+            one, other = read_as_seen_by(reader, content), read_as_seen_by(reader, again)
             if one is None or other is None or one.pages != other.pages:
                 yield f"{reader.name} sees other pages than are printed again"
 
 
-def without_leads(content: bytes) -> bytes:
+def remove_leads(content: bytes) -> bytes:
     """Return a file in which no number leads to a table: who opens it has to put it together anew."""
     return _LEADS.sub(lambda found: found[1] + b"0" * len(found[2]), content)
 
 
-def seen_by(reader: Reader, content: bytes) -> Seen | None:
+def read_as_seen_by(reader: Reader, content: bytes) -> Seen | None:
     """Return what a reader sees; None if it cannot open the file, or sees no page."""
     logger = logging.getLogger("pypdf")
     level = logger.level
@@ -137,7 +139,7 @@ def seen_by(reader: Reader, content: bytes) -> Seen | None:
     return seen if seen.pages else None
 
 
-def _digests(contents: Iterable[bytes]) -> tuple[str, ...]:
+def _compute_digests(contents: Iterable[bytes]) -> tuple[str, ...]:
     """Return the digests of contents: where data end is a guess for who mends a file, by an end of a line."""
     return tuple(sorted(sha256(each.rstrip(b"\r\n")).hexdigest() for each in contents))
 
@@ -146,21 +148,21 @@ def _digest(*parts: object) -> str:
     return sha256(repr(parts).encode("utf-8", "backslashreplace")).hexdigest()
 
 
-def _by_pypdf(content: bytes) -> Seen:
+def _read_by_pypdf(content: bytes) -> Seen:
     from pypdf import PdfReader  # noqa: PLC0415 - slow to load
 
     reader = PdfReader(BytesIO(content))
-    pages = [_digest(page.mediabox, _drawn(page)) for page in reader.pages]
-    files = _digests(each for contents in reader.attachments.values() for each in contents)
+    pages = [_digest(page.mediabox, _read_drawn(page)) for page in reader.pages]
+    files = _compute_digests(each for contents in reader.attachments.values() for each in contents)
     return Seen(tuple(pages), files)
 
 
-def _drawn(page: Any) -> bytes:
+def _read_drawn(page: Any) -> bytes:
     contents = page.get_contents()
     return contents.get_data() if contents is not None else b""
 
 
-def _by_pdfium(content: bytes) -> Seen:
+def _read_by_pdfium(content: bytes) -> Seen:
     import pypdfium2  # noqa: PLC0415 - slow to load
 
     with pypdfium2.PdfDocument(content) as document:
@@ -170,10 +172,10 @@ def _by_pdfium(content: bytes) -> Seen:
             text = page.get_textpage().get_text_bounded()
             pages.append(_digest(page.get_size(), text, sha256(pixels.tobytes()).hexdigest()))
         attached = (document.get_attachment(number) for number in range(document.count_attachments()))
-        return Seen(tuple(pages), _digests(bytes(each.get_data()) for each in attached))
+        return Seen(tuple(pages), _compute_digests(bytes(each.get_data()) for each in attached))
 
 
-def _by_qpdf(content: bytes) -> Seen:
+def _read_by_qpdf(content: bytes) -> Seen:
     import pikepdf  # noqa: PLC0415 - slow to load
 
     with pikepdf.open(BytesIO(content)) as opened:
@@ -188,33 +190,33 @@ def _by_qpdf(content: bytes) -> Seen:
         )
         whole = sha256(written.getvalue()).hexdigest()
         pages = tuple(_digest(number, whole) for number in range(len(opened.pages)))
-        files = _digests(each.get_file().read_bytes() for each in opened.attachments.values())
+        files = _compute_digests(each.get_file().read_bytes() for each in opened.attachments.values())
         return Seen(pages, files)
 
 
-def _by_poppler(content: bytes) -> Seen:
+def _read_by_poppler(content: bytes) -> Seen:
     with tempfile.TemporaryDirectory(prefix="zlmreport-readers-") as folder:
         path, files = Path(folder, "file.pdf"), Path(folder, "files")
         path.write_bytes(content)
         files.mkdir()
-        pages = _pages(_printed("pdftotext", "-q", "-raw", str(path), "-"))
-        _printed("pdfdetach", "-saveall", "-o", str(files), str(path))
-        return Seen(pages, _digests(each.read_bytes() for each in files.iterdir()))
+        pages = _split_pages(_run_program("pdftotext", "-q", "-raw", str(path), "-"))
+        _run_program("pdfdetach", "-saveall", "-o", str(files), str(path))
+        return Seen(pages, _compute_digests(each.read_bytes() for each in files.iterdir()))
 
 
-def _by_mupdf(content: bytes) -> Seen:
+def _read_by_mupdf(content: bytes) -> Seen:
     with tempfile.TemporaryDirectory(prefix="zlmreport-readers-") as folder:
         path = Path(folder, "file.pdf")
         path.write_bytes(content)
-        return Seen(_pages(_printed("mutool", "draw", "-q", "-F", "text", str(path))), None)
+        return Seen(_split_pages(_run_program("mutool", "draw", "-q", "-F", "text", str(path))), None)
 
 
-def _pages(text: bytes) -> tuple[str, ...]:
+def _split_pages(text: bytes) -> tuple[str, ...]:
     *pages, _ = text.split(b"\f")
     return tuple(_digest(each.split()) for each in pages)
 
 
-def _printed(*command: str) -> bytes:
+def _run_program(*command: str) -> bytes:
     """Return what a program of the system prints; what it has to complain of is not for the terminal."""
     done = subprocess.run(  # noqa: S603 - no text of the file is on its command line
         command, capture_output=True, check=False, timeout=_PATIENCE, stdin=subprocess.DEVNULL
@@ -223,9 +225,9 @@ def _printed(*command: str) -> bytes:
 
 
 READERS: Sequence[Reader] = (
-    Reader("pypdf", _by_pypdf),
-    Reader("PDFium", _by_pdfium),
-    Reader("qpdf", _by_qpdf, draws=False),
-    Reader("Poppler", _by_poppler, "pdftotext"),
-    Reader("MuPDF", _by_mupdf, "mutool"),
+    Reader("pypdf", _read_by_pypdf),
+    Reader("PDFium", _read_by_pdfium),
+    Reader("qpdf", _read_by_qpdf, draws=False),
+    Reader("Poppler", _read_by_poppler, "pdftotext"),
+    Reader("MuPDF", _read_by_mupdf, "mutool"),
 )

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias
 
 from zlmreport.errors import InputError
 from zlmreport.verification.carrier import Carrier
-from zlmreport.verification.findings import CheckedStatement, first_of
+from zlmreport.verification.findings import CheckedStatement, name_first_of
 
 #: Where an entry stands, its key, and what kind of value it has.
 Trait: TypeAlias = tuple[str, str, str]
@@ -48,15 +48,15 @@ _OBJECTS = re.compile(rb"\s*(xref\b|\d+\s+\d+\s+obj\b)")
 def compare(carrier: Carrier, known: Collection[Trait], *, is_signed: bool) -> CheckedStatement:
     """Return whether a document is built of nothing but what the one printed again is built of."""
     told = [
-        *_around(carrier.content),
-        *_trailer(carrier.reader, is_signed=is_signed),
-        *strangers(carrier.reader, is_signed=is_signed),
-        *dict.fromkeys(_said(trait) for trait in traits(carrier) if trait not in known),
+        *_check_around(carrier.content),
+        *_check_trailer(carrier.reader, is_signed=is_signed),
+        *find_strangers(carrier.reader, is_signed=is_signed),
+        *dict.fromkeys(_say(trait) for trait in list_traits(carrier) if trait not in known),
     ]
-    return CheckedStatement.of(_SUBJECT, first_of(told, _MOST_TOLD))
+    return CheckedStatement.of(_SUBJECT, name_first_of(told, _MOST_TOLD))
 
 
-def _around(content: bytes) -> Iterator[str]:
+def _check_around(content: bytes) -> Iterator[str]:
     if not _BEGIN.match(content):
         yield "something stands before the PDF"
     end = _END.search(content, max(0, len(content) - 4096))
@@ -66,19 +66,19 @@ def _around(content: bytes) -> Iterator[str]:
         yield "the table of its objects is not where the file says"
 
 
-def _trailer(reader: Any, *, is_signed: bool) -> Iterator[str]:
+def _check_trailer(reader: Any, *, is_signed: bool) -> Iterator[str]:
     """Yield what the end of the file has besides: viewers may be led to other objects by it."""
     known = _TRAILER | _TRAILER_PACKED | (_TRAILER_SIGNED if is_signed else frozenset())
     for key in sorted(reader.trailer.keys() - known):
         yield f"the end of the file has {key}, which may lead to other objects"
 
 
-def _said(trait: Trait) -> str:
+def _say(trait: Trait) -> str:
     where, key, kind = trait
     return f"{where} has {key} ({kind}), which is not printed again"
 
 
-def traits(carrier: Carrier) -> Iterator[Trait]:
+def list_traits(carrier: Carrier) -> Iterator[Trait]:
     """Yield what each dictionary that the document leads to has, and of what kind.
 
     The objects are walked without recursion: a foreign file may nest them as deep as it likes.
@@ -107,11 +107,11 @@ def traits(carrier: Carrier) -> Iterator[Trait]:
             continue
         yield where, key, _kind(value, key)
         if not is_met:
-            waiting.extend(_inside(value, where, key))
-            yield from _packing(value, key)
+            waiting.extend(_list_inside(value, where, key))
+            yield from _find_packing(value, key)
 
 
-def _inside(value: Any, where: str, key: str) -> Iterator[_Place]:
+def _list_inside(value: Any, where: str, key: str) -> Iterator[_Place]:
     """Yield what stands in a dictionary or a list."""
     if isinstance(value, list):
         yield from ((item, where, f"{key} []") for item in value)
@@ -120,26 +120,26 @@ def _inside(value: Any, where: str, key: str) -> Iterator[_Place]:
         left_out = PACKING | (OF_SIGNATURES if where == "the file" else frozenset())
         for inner in sorted(dictionary):  # so that an object that two lead to is met on the same way
             if inner not in left_out:
-                named = _named(inner, key, is_map=key in _MAPS)
-                yield dictionary.raw_get(inner), _role(dictionary, key), named
+                named = _name_entry(inner, key, is_map=key in _MAPS)
+                yield dictionary.raw_get(inner), _find_role(dictionary, key), named
 
 
-def _named(key: str, holder: str, *, is_map: bool) -> str:
+def _name_entry(key: str, holder: str, *, is_map: bool) -> str:
     """Return the key of an entry, or a mark for a name that a renderer gave; a default colour rules all."""
     return f"{holder}/*" if is_map and not key.startswith("/Default") else key
 
 
-def _role(dictionary: Any, key: str) -> str:
+def _find_role(dictionary: Any, key: str) -> str:
     names = (str(dictionary.get(name, "")) for name in ("/Type", "/Subtype", "/S"))
     stream = "stream " if hasattr(dictionary, "get_data") else ""
     return f"{stream}{key}{''.join(names)}" if "/Type" not in dictionary else f"{stream}{''.join(names)}"
 
 
-def _packing(stream: Any, key: str) -> Iterator[Trait]:
+def _find_packing(stream: Any, key: str) -> Iterator[Trait]:
     """Yield how a stream is packed, unless it is as any program packs."""
     if not hasattr(stream, "get_data"):
         return
-    role = _role(stream, key)
+    role = _find_role(stream, key)
     packing = stream.get("/Filter", [])
     for each in packing if isinstance(packing, list) else [packing]:
         if each not in _PACKED:
@@ -165,7 +165,7 @@ def _has_more(packed: bytes) -> bool:
 
 def _kind(value: Any, key: str) -> str:
     if isinstance(value, dict):
-        return _role(value, key)
+        return _find_role(value, key)
     if isinstance(value, list):
         return "a list"
     from pypdf.generic import NameObject, NullObject, NumberObject  # noqa: PLC0415 - slow to load
@@ -211,18 +211,18 @@ def is_of_signature(item: Any) -> bool:
         kids: Any = item.get("/K", ())
         kids = kids.get_object() if hasattr(kids, "get_object") else kids
         references = kids if isinstance(kids, list) else [kids]
-        return all(_leads_to_field(each.get_object()) for each in references)
+        return all(_is_leading_to_field(each.get_object()) for each in references)
     return False
 
 
-def _leads_to_field(reference: Any) -> bool:
+def _is_leading_to_field(reference: Any) -> bool:
     if not isinstance(reference, dict) or reference.get("/Type") != "/OBJR" or "/Obj" not in reference:
         return False
     field = reference["/Obj"].get_object()
     return bool(isinstance(field, dict) and field.get("/Subtype") == "/Widget" and is_of_signature(field))
 
 
-def strangers(reader: Any, *, is_signed: bool) -> Iterator[str]:
+def find_strangers(reader: Any, *, is_signed: bool) -> Iterator[str]:
     """Yield what stands where a signature would stand, and belongs to none."""
     root = reader.trailer["/Root"].get_object()
     entries = {"/AcroForm": _FORM, "/DSS": _PROOFS, "/Perms": _PERMISSIONS}

@@ -21,10 +21,10 @@ def compare(reader: Any) -> CheckedStatement:
     if root is None:
         return CheckedStatement.of(_SUBJECT, "")
     tree = root.get_object()
-    places = dict(_places(tree))
-    table = dict(_numbers(tree.get("/ParentTree")))
+    places = dict(_list_places(tree))
+    table = dict(_list_numbers(tree.get("/ParentTree")))
     for number, page in enumerate(reader.pages, 1):
-        listed = _found(table.get(page.get("/StructParents")))
+        listed = _find_value(table.get(page.get("/StructParents")))
         own = page.indirect_reference.idnum
         elements = listed if isinstance(listed, list) else []
         by_table = {
@@ -40,21 +40,21 @@ def compare(reader: Any) -> CheckedStatement:
     return CheckedStatement.of(_SUBJECT, "")
 
 
-def _places(tree: Any) -> Iterator[tuple[tuple[int, int], int]]:
+def _list_places(tree: Any) -> Iterator[tuple[tuple[int, int], int]]:
     """Yield each place, by the number of its page's object and its own, with the number of its element."""
-    waiting: list[tuple[Any, Any]] = [(each, None) for each in _kids(tree)]
+    waiting: list[tuple[Any, Any]] = [(each, None) for each in _list_kids(tree)]
     walked = 0
     while waiting:
         reference, page = waiting.pop()
         walked += 1
         if walked > _MOST_NODES:
             raise ValueError("its structure has no end")
-        element = _found(reference)
+        element = _find_value(reference)
         if not isinstance(element, dict) or "/S" not in element:
             continue
         page = element.raw_get("/Pg") if "/Pg" in element else page  # type: ignore[attr-defined]
-        for kid in _kids(element):
-            inner = _found(kid)
+        for kid in _list_kids(element):
+            inner = _find_value(kid)
             if isinstance(inner, int):
                 yield (page.idnum, int(inner)), reference.idnum
             elif isinstance(inner, dict) and inner.get("/Type") == "/MCR":
@@ -64,25 +64,25 @@ def _places(tree: Any) -> Iterator[tuple[tuple[int, int], int]]:
                 waiting.append((kid, page))
 
 
-def _kids(element: Any) -> list[Any]:
+def _list_kids(element: Any) -> list[Any]:
     kids = element.raw_get("/K") if "/K" in element else []
-    found = _found(kids)
+    found = _find_value(kids)
     return list(found) if isinstance(found, list) else [kids]
 
 
-def _numbers(node: Any) -> Iterator[tuple[int, Any]]:
+def _list_numbers(node: Any) -> Iterator[tuple[int, Any]]:
     """Yield the entries of a tree of numbers."""
     waiting, walked = [node], 0
     while waiting:
-        found = _found(waiting.pop())
+        found = _find_value(waiting.pop())
         walked += 1
         if walked > _MOST_NODES:
             raise ValueError("its structure has no end")
         if isinstance(found, dict):
-            pairs = list(_found(found.get("/Nums", [])))
+            pairs = list(_find_value(found.get("/Nums", [])))
             yield from zip(map(int, pairs[::2]), pairs[1::2], strict=True)
-            waiting.extend(_found(found.get("/Kids", [])))
+            waiting.extend(_find_value(found.get("/Kids", [])))
 
 
-def _found(value: Any) -> Any:
+def _find_value(value: Any) -> Any:
     return value.get_object() if hasattr(value, "get_object") else value

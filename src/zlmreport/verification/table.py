@@ -13,7 +13,7 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, first_of
+from zlmreport.verification.findings import CheckedStatement, VerificationVerdict, name_first_of
 from zlmreport.verification.tokens import (
     Indirect,
     OddError,
@@ -78,14 +78,14 @@ class Scanned:
     trailer: dict[bytes, Value]
 
 
-def finding(content: bytes, *, is_signed: bool) -> CheckedStatement:
+def check_table(content: bytes, *, is_signed: bool) -> CheckedStatement:
     """Return whether a file is what its tables say, byte for byte, and all of it leads somewhere."""
     try:
         scanned = scan(content, is_signed=is_signed)
     except OddError as error:
         return CheckedStatement(_SUBJECT, VerificationVerdict.DIFFERS, str(error))
-    lost = [f"nothing leads to object {number}" for number in orphans(scanned)]
-    return CheckedStatement.of(_SUBJECT, first_of(lost, _MOST_TOLD))
+    lost = [f"nothing leads to object {number}" for number in find_orphans(scanned)]
+    return CheckedStatement.of(_SUBJECT, name_first_of(lost, _MOST_TOLD))
 
 
 def scan(content: bytes, *, is_signed: bool) -> Scanned:
@@ -169,7 +169,7 @@ class _Scan:
         value = last.value if last else None
         if last is None or not isinstance(value, dict) or value.get(b"Type") != PdfName(b"XRef"):
             raise OddError(f"what stands at byte {at} is no object and no table")
-        entries = _packed_entries(value, self._data(last))
+        entries = _unpack_entries(value, self._data(last))
         return _Table(entries, value, last.start, self._end(at, last.start))
 
     def _end(self, at: int, start: int) -> int:
@@ -265,7 +265,7 @@ class _Scan:
                 raise OddError(f"object {holder.number} cannot be unpacked") from error
             if not unpacking.eof or unpacking.unused_data:
                 raise OddError(f"object {holder.number} is packed with more behind it, or without an end")
-            data = _predicted(data, entries.get(b"DecodeParms"), holder.number)
+            data = _undo_prediction(data, entries.get(b"DecodeParms"), holder.number)
         elif packing is not None:
             raise OddError(f"object {holder.number} is packed as no certificate is")
         self._unpacked += len(data)
@@ -286,7 +286,7 @@ def _has_type(each: Indirect, name: bytes) -> bool:
     return isinstance(each.value, dict) and each.value.get(b"Type") == PdfName(name)
 
 
-def _packed_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, TableEntry]:
+def _unpack_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, TableEntry]:
     """Return the entries of a packed table."""
     widths, size = trailer.get(b"W"), trailer.get(b"Size")
     sections = trailer.get(b"Index", [0, size])
@@ -319,7 +319,7 @@ def _packed_entries(trailer: dict[bytes, Value], data: bytes) -> dict[int, Table
     return entries
 
 
-def _predicted(data: bytes, parameters: Value, number: int) -> bytes:
+def _undo_prediction(data: bytes, parameters: Value, number: int) -> bytes:
     """Return data that are stated as differences to the row above (PNG); as they are without such rows."""
     if parameters is None:
         return data
@@ -340,7 +340,7 @@ def _predicted(data: bytes, parameters: Value, number: int) -> bytes:
     return bytes(rows)
 
 
-def orphans(scanned: Scanned) -> Iterator[int]:
+def find_orphans(scanned: Scanned) -> Iterator[int]:
     """Yield the numbers of objects that say something and to which nothing leads.
 
     A viewer that puts a file together anew may take such an object for its beginning, or for a page.

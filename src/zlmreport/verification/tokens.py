@@ -81,7 +81,7 @@ def read_value(content: bytes, at: int, depth: int = 0) -> tuple[Value, int]:
     if depth > _DEEPEST:
         raise OddError("objects stand in one another without end")
     if content.startswith(b"<<", at):
-        return _dictionary(content, at + 2, depth)
+        return _read_dictionary(content, at + 2, depth)
     first = content[at : at + 1]
     if first == b"[":
         return _list(content, at + 1, depth)
@@ -89,7 +89,7 @@ def read_value(content: bytes, at: int, depth: int = 0) -> tuple[Value, int]:
         end = _end_of_string(content, at)
         return content[at:end], end
     for kind, made in (
-        (_NAME, lambda found: PdfName(_unescaped(found[1]))),
+        (_NAME, lambda found: PdfName(_unescape(found[1]))),
         (_REFERENCE, lambda found: Reference(int(found[1]), int(found[2]))),
         (_NUMBER, lambda found: float(found[0]) if b"." in found[0] else int(found[0])),
         (_WORD, lambda found: {b"true": True, b"false": False}.get(found[0])),
@@ -100,11 +100,11 @@ def read_value(content: bytes, at: int, depth: int = 0) -> tuple[Value, int]:
     raise OddError(f"what stands at byte {at} is no object")
 
 
-def _unescaped(name: bytes) -> bytes:
+def _unescape(name: bytes) -> bytes:
     return _ESCAPED.sub(lambda found: bytes([int(found[1], 16)]), name)
 
 
-def _dictionary(content: bytes, at: int, depth: int) -> tuple[Value, int]:
+def _read_dictionary(content: bytes, at: int, depth: int) -> tuple[Value, int]:
     found: dict[bytes, Value] = {}
     at = skip_space(content, at)
     while not content.startswith(b">>", at):

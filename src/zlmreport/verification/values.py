@@ -30,11 +30,12 @@ def compare(stated: Any, recomputed: Any, *, same_programs: bool) -> tuple[Compa
         open.
     """
     return tuple(
-        value if same_programs else _of_another_release(value) for value in _walk(stated, recomputed, ())
+        value if same_programs else _compare_with_another_release(value)
+        for value in _walk(stated, recomputed, ())
     )
 
 
-def _of_another_release(value: ComparedValue) -> ComparedValue:
+def _compare_with_another_release(value: ComparedValue) -> ComparedValue:
     path = value.path
     while path[0] in _NAMED and len(path) > _OF_NAME:
         path = path[_OF_NAME:]
@@ -51,26 +52,26 @@ def _walk(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[Compa
         for key in dict.fromkeys((*stated, *recomputed)):
             yield from _walk(stated.get(key), recomputed.get(key), (*path, key))
     elif isinstance(stated, list) and isinstance(recomputed, list):
-        for name, one, other in _paired(stated, recomputed):
+        for name, one, other in _pair_items(stated, recomputed):
             yield from _walk(one, other, (*path, name))
     elif isinstance(stated, dict | list) or isinstance(recomputed, dict | list):
-        yield from _on_one_side(stated, recomputed, path)
+        yield from _list_on_one_side(stated, recomputed, path)
     else:
-        yield ComparedValue(path, stated, recomputed, _verdict(stated, recomputed, path))
+        yield ComparedValue(path, stated, recomputed, _decide_verdict(stated, recomputed, path))
 
 
-def _paired(stated: list[Any], recomputed: list[Any]) -> Iterator[tuple[str, Any, Any]]:
+def _pair_items(stated: list[Any], recomputed: list[Any]) -> Iterator[tuple[str, Any, Any]]:
     """Pair the items of two lists: in their order, or by their names if the lists are not equally long."""
     if len(stated) == len(recomputed):
         for number, (one, other) in enumerate(zip(stated, recomputed, strict=True), 1):
             yield _name(other, number), one, other
         return
-    left, right = _by_name(stated), _by_name(recomputed)
+    left, right = _key_by_name(stated), _key_by_name(recomputed)
     for name in dict.fromkeys((*left, *right)):
         yield name, left.get(name), right.get(name)
 
 
-def _by_name(items: list[Any]) -> dict[str, Any]:
+def _key_by_name(items: list[Any]) -> dict[str, Any]:
     found: dict[str, Any] = {}
     for number, item in enumerate(items, 1):
         name = _name(item, number)
@@ -85,26 +86,26 @@ def _name(item: Any, number: int) -> str:
     return next((f"{keys[key]}" for key in _NAMES if key in keys), str(number))
 
 
-def _on_one_side(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[ComparedValue]:
+def _list_on_one_side(stated: Any, recomputed: Any, path: tuple[str, ...]) -> Iterator[ComparedValue]:
     """Yield the values of a branch that has no counterpart of its kind."""
-    for leaf_path, leaf in _leaves(stated, path):
+    for leaf_path, leaf in _walk_leaves(stated, path):
         yield ComparedValue(leaf_path, leaf, None, VerificationVerdict.DIFFERS)
-    for leaf_path, leaf in _leaves(recomputed, path):
+    for leaf_path, leaf in _walk_leaves(recomputed, path):
         yield ComparedValue(leaf_path, None, leaf, VerificationVerdict.DIFFERS)
 
 
-def _leaves(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
+def _walk_leaves(node: Any, path: tuple[str, ...]) -> Iterator[tuple[tuple[str, ...], Any]]:
     if isinstance(node, dict):
         for key, child in node.items():
-            yield from _leaves(child, (*path, key))
+            yield from _walk_leaves(child, (*path, key))
     elif isinstance(node, list):
         for number, child in enumerate(node, 1):
-            yield from _leaves(child, (*path, _name(child, number)))
+            yield from _walk_leaves(child, (*path, _name(child, number)))
     elif node is not None:
         yield path, node
 
 
-def _verdict(stated: Any, recomputed: Any, path: tuple[str, ...]) -> VerificationVerdict:
+def _decide_verdict(stated: Any, recomputed: Any, path: tuple[str, ...]) -> VerificationVerdict:
     if is_number(stated) and is_number(recomputed):
         tolerance = _TOLERANCE_OF_FITS if path[0] == _FITTED else _TOLERANCE
         agree = math.isclose(stated, recomputed, rel_tol=tolerance, abs_tol=tolerance)

@@ -14,13 +14,13 @@ from typing import Any
 from zlmreport import pipeline
 from zlmreport.document.certificate.build import GENERATOR
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.signing.state import Integrity, Signature, SignatureState, signature_state
+from zlmreport.document.signing.state import Integrity, Signature, SignatureState, read_signature_state
 from zlmreport.errors import InputError, Place, ZlmreportError
-from zlmreport.files import demanded
+from zlmreport.files import demand
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Words, same
-from zlmreport.plugin.protocols import Renderer, made, relationship_of
+from zlmreport.plugin.protocols import Renderer, find_relationship_of, is_made_by
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification import attached, pages, readers, structure, table, values
 from zlmreport.verification.alone import format_of, verify_alone
@@ -28,12 +28,12 @@ from zlmreport.verification.attached import (
     MACHINE_RESULTS,
     Results,
     StatedResults,
-    digital_findings,
-    laid_out,
-    stated_by,
+    check_digital_certificates,
+    find_stated_by,
+    lay_out,
 )
-from zlmreport.verification.carrier import LARGEST, Carrier, guarded, opened, read_file, results_in
-from zlmreport.verification.dates import future_dates
+from zlmreport.verification.carrier import LARGEST, Carrier, find_results_in, guard, open_pdf, read_file
+from zlmreport.verification.dates import find_future_dates
 from zlmreport.verification.findings import (
     CheckedStatement,
     Identity,
@@ -41,7 +41,7 @@ from zlmreport.verification.findings import (
     Verification,
     VerificationVerdict,
 )
-from zlmreport.verification.own_texts import own_texts, own_texts_of
+from zlmreport.verification.own_texts import quote_own_texts, quote_own_texts_of
 
 #: The format of a certificate whose creator is this program.
 PRINTED = "pdf"
@@ -81,7 +81,7 @@ class _Again:
 
     `programs` made it here, in whosever name; `results` is its results file. It may be that another renderer
     than the one that made it had to print it. `own_words` are those of whoever wrote its job, and
-    `future_dates` what it says of days that have not come; `digest` is that of its readings and results.
+    `find_future_dates` what it says of days that have not come; `digest` is that of its readings and results.
     """
 
     programs: pipeline.Programs
@@ -113,7 +113,7 @@ def verify(
     is, and what it carries cannot be evaluated here although none of its sources was changed: because a
     plugin is not installed, for example.
     """
-    content = demanded(path, LARGEST)
+    content = demand(path, LARGEST)
     if made_by := format_of(content):
         return verify_alone(
             path,
@@ -124,17 +124,17 @@ def verify(
                 pdf, registry, dcc_schema, trusted=trusted, require_signature=require_signature
             ),
         )
-    carrier = opened(read_file(path), Place(str(path)))
-    state = signature_state(carrier.content, trusted)
+    carrier = open_pdf(read_file(path), Place(str(path)))
+    state = read_signature_state(carrier.content, trusted)
     found = Verification(
         Identity(generator=carrier.creator),
-        _signature_finding(state, is_required=require_signature),
+        _find_on_signatures(state, is_required=require_signature),
         is_signed=state.integrity is not Integrity.UNSIGNED,
         is_trusted=state.is_trusted,
         is_time_trusted=state.is_time_trusted,
     )
     try:
-        stated = stated_by(carrier)
+        stated = find_stated_by(carrier)
     except ValueError as error:
         return replace(
             found, files=(CheckedStatement("results file", VerificationVerdict.DIFFERS, str(error)),)
@@ -151,13 +151,13 @@ def verify(
     identity, provenance = dict(stated.results.certificate), stated.results.provenance
     found = replace(found, identity=Identity(**identity, generator=provenance.generator))
     sources = provenance.sources
-    with laid_out(sources, carrier.carried) as layout:
+    with lay_out(sources, carrier.carried) as layout:
         try:
             is_machine = stated.tree.get("schema") == MACHINE_RESULTS
-            make_again = _machine_again if is_machine else _again
+            make_again = _make_machine_again if is_machine else _again
             again = make_again(layout.job, carrier, stated.results, registry)
         except Exception as error:  # what anyone sent may break anything that it is handed to
-            ended = error if isinstance(error, ZlmreportError) else _unforeseen(carrier.place, error)
+            ended = error if isinstance(error, ZlmreportError) else _make_unforeseen(carrier.place, error)
             problems = layout.problems(ended)
             compared = attached.compare(sources, carrier.carried, None)
             if all(finding.verdict is not VerificationVerdict.DIFFERS for finding in compared):
@@ -166,14 +166,14 @@ def verify(
             return replace(
                 found, files=(*compared, CheckedStatement("readings", VerificationVerdict.DIFFERS, reason))
             )
-    complete = _compared(found, carrier, stated, again)
+    complete = _compare(found, carrier, stated, again)
     if dcc_schema is None:
         return complete
-    digital = digital_findings(carrier.carried, dcc_schema)
+    digital = check_digital_certificates(carrier.carried, dcc_schema)
     return replace(complete, files=(*complete.files, *digital))
 
 
-def _unforeseen(place: Place, error: Exception) -> ZlmreportError:
+def _make_unforeseen(place: Place, error: Exception) -> ZlmreportError:
     reason = " ".join(f"{type(error).__name__}: {error}".split())[:300]
     return InputError.at(place, f"cannot be evaluated again: {reason}")
 
@@ -184,9 +184,9 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
     It is printed in the name of the releases that it states: where their names are all that differs, another
     release has repeated it.
     """
-    results, printer = registry.renderer(pipeline.RESULTS), _printer(carrier, registry)
-    job, has_own_look = _in_usual_look(load(job_path, registry, formats=(printer.identifier,)))
-    here = pipeline.programs(job, registry)
+    results, printer = registry.renderer(pipeline.RESULTS), _find_printer(carrier, registry)
+    job, has_own_look = _replace_look(load(job_path, registry, formats=(printer.identifier,)))
+    here = pipeline.find_programs(job, registry)
     named = stated.provenance.generator, stated.provenance.plugins
     certificate = pipeline.compose(job, registry, named if _are_releases_of(named, here) else here)
     others = [
@@ -197,38 +197,38 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
     contents = pipeline.render(certificate, [results, *others, printer], registry)
     return _Again(
         here,
-        pages.Prints(opened(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
+        pages.Prints(open_pdf(contents[printer.identifier], Place(f"{carrier.place} (printed again)"))),
         contents[pipeline.RESULTS],
-        made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
+        is_made_by(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
         has_own_look,
-        own_texts(certificate, job),
-        future_dates(job, dt.date.today()),  # noqa: DTZ011 - a day here, as a certificate states one
+        quote_own_texts(certificate, job),
+        find_future_dates(job, dt.date.today()),  # noqa: DTZ011 - a day here, as a certificate states one
         certificate.digest,
     )
 
 
-def _machine_again(path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
+def _make_machine_again(path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
     """Read the attached machine file with all that it names, and print its document again."""
-    from zlmreport.machines.document import machine_document  # noqa: PLC0415 - only for such a document
+    from zlmreport.machines.document import make_machine_document  # noqa: PLC0415 - only for such a document
     from zlmreport.machines.reading import read_machine  # noqa: PLC0415
 
-    printer, here = _printer(carrier, registry), (GENERATOR, dict[str, str]())
+    printer, here = _find_printer(carrier, registry), (GENERATOR, dict[str, str]())
     named = stated.provenance.generator, stated.provenance.plugins
     generator = named[0] if _are_releases_of(named, here) else GENERATOR
-    machine = read_machine(path, registry, results_in)
-    document = machine_document(machine, registry, generator)
+    machine = read_machine(path, registry, find_results_in)
+    document = make_machine_document(machine, registry, generator)
     printed = printer.render(document.certificate)
     return _Again(
         here,
-        pages.Prints(opened(printed, Place(f"{carrier.place} (printed again)"))),
+        pages.Prints(open_pdf(printed, Place(f"{carrier.place} (printed again)"))),
         document.results,
-        made(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
+        is_made_by(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
         has_own_look=False,
-        own_words=own_texts_of(machine.file.keys),
+        own_words=quote_own_texts_of(machine.file.keys),
     )
 
 
-def _in_usual_look(job: Job) -> tuple[Job, bool]:
+def _replace_look(job: Job) -> tuple[Job, bool]:
     """Return a job in the bundled typeface and templates, and whether it asks for others.
 
     Those of whoever sent the document would show what they like, and are not run.
@@ -251,15 +251,15 @@ def _are_releases_of(stated: pipeline.Programs, here: pipeline.Programs) -> bool
     )
 
 
-def _printer(carrier: Carrier, registry: Registry) -> Renderer:
+def _find_printer(carrier: Carrier, registry: Registry) -> Renderer:
     """Return the renderer that made a document, as the document says."""
-    own = (each for each in registry.renderers if made(each, carrier.creator))
+    own = (each for each in registry.renderers if is_made_by(each, carrier.creator))
     return next(own, None) or registry.renderer(PRINTED)
 
 
 def _is_carried(renderer: Renderer, certificate: Certificate, carrier: Carrier) -> bool:
-    (name,) = pipeline.file_names(certificate.number, [renderer])
-    return relationship_of(renderer) is not None and name in carrier.carried
+    (name,) = pipeline.name_files(certificate.number, [renderer])
+    return find_relationship_of(renderer) is not None and name in carrier.carried
 
 
 def _is_made(renderer: Renderer, certificate: Certificate) -> bool:
@@ -271,12 +271,12 @@ def _is_made(renderer: Renderer, certificate: Certificate) -> bool:
     return True
 
 
-def _compared(found: Verification, carrier: Carrier, stated: StatedResults, again: _Again) -> Verification:
+def _compare(found: Verification, carrier: Carrier, stated: StatedResults, again: _Again) -> Verification:
     """Return all that is found of a certificate that could be made again."""
     provenance = stated.results.provenance
     by_same_programs = again.programs == (provenance.generator, provenance.plugins)
-    printed = _printed(carrier, again.prints, is_signed=found.is_signed)
-    compared = guarded(
+    printed = _compare_printed(carrier, again.prints, is_signed=found.is_signed)
+    compared = guard(
         lambda: values.compare(stated.tree, json.loads(again.results), same_programs=by_same_programs),
         carrier.place,
     )
@@ -294,39 +294,39 @@ def _compared(found: Verification, carrier: Carrier, stated: StatedResults, agai
         ),
         values=compared,
         pages=printed.pages,
-        document=(*printed.document, *_claims(again.own_words), *again.future_dates),
+        document=(*printed.document, *_list_claims(again.own_words), *again.future_dates),
         own_words=again.own_words,
     )
     if not by_same_programs:
-        left_open = _left_open(found)
+        left_open = _leave_open(found)
         remark = _OTHER_RELEASES if left_open.undecided else _REPEATED
-        stated_programs = _named(provenance.generator, provenance.plugins)
+        stated_programs = _name_programs(provenance.generator, provenance.plugins)
         return replace(
-            left_open, remarks=(remark.given(stated=stated_programs, here=_named(*again.programs)),)
+            left_open, remarks=(remark.given(stated=stated_programs, here=_name_programs(*again.programs)),)
         )
     if not again.is_by_its_own_renderer:
         remark = _OTHER_RENDERER.given(creator=carrier.creator or "another renderer")
-        return replace(_left_open(found), remarks=(remark,))
+        return replace(_leave_open(found), remarks=(remark,))
     if again.has_own_look:
-        lacking = guarded(lambda: _taken(carrier, again.prints.carrier), carrier.place)
+        lacking = guard(lambda: _count_taken(carrier, again.prints.carrier), carrier.place)
         detail = f"{', '.join(sorted(lacking)[:8])} cannot be read on its pages" if lacking else ""
-        found = replace(_left_open(found), remarks=(_OWN_LOOK,))
+        found = replace(_leave_open(found), remarks=(_OWN_LOOK,))
         return replace(found, document=(*found.document, CheckedStatement.of("printed numbers", detail)))
     remarks = () if printed.is_drawn_alike else (_OTHER_LIBRARIES,)
-    not_asked = readers.absent()
+    not_asked = readers.name_absent()
     if not_asked and any(each.subject == readers.SUBJECT for each in found.document):
         remarks = (*remarks, _NOT_ASKED.given(names=", ".join(not_asked)))
     return replace(found, remarks=remarks)
 
 
-def _claims(own_words: Sequence[QuotedText]) -> tuple[CheckedStatement, ...]:
+def _list_claims(own_words: Sequence[QuotedText]) -> tuple[CheckedStatement, ...]:
     """Return what words that somebody wrote claim, as not decided: nothing computes it."""
     return tuple(
         CheckedStatement(each.key, VerificationVerdict.OPEN, each.claim) for each in own_words if each.claim
     )
 
 
-def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages.ComparedPages:
+def _compare_printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages.ComparedPages:
     """Compare a document with the same one printed again: its bytes first.
 
     Nothing is interpreted where they are the same. What is not byte for byte the same is read strictly, and
@@ -343,22 +343,22 @@ def _printed(carrier: Carrier, again: pages.Prints, *, is_signed: bool) -> pages
             (CheckedStatement("the file, byte for byte", VerificationVerdict.HOLDS),),
             is_drawn_alike=True,
         )
-    objects = table.finding(carrier.content, is_signed=is_signed)
+    objects = table.check_table(carrier.content, is_signed=is_signed)
     printed = pages.compare(carrier, again, is_signed=is_signed)
     document = (
         objects,
-        guarded(lambda: structure.compare(carrier.reader), carrier.place),
+        guard(lambda: structure.compare(carrier.reader), carrier.place),
         *printed.document,
     )
     if all(each.verdict is VerificationVerdict.HOLDS for each in (*printed.pages, *document)):
-        seen = guarded(
+        seen = guard(
             lambda: readers.compare(carrier, expected.content, is_drawn_alike=printed.is_same), carrier.place
         )
         document = (*document, seen)
     return replace(printed, document=document)
 
 
-def _taken(stated: Carrier, again: Carrier) -> Counter[str]:
+def _count_taken(stated: Carrier, again: Carrier) -> Counter[str]:
     """Return the numbers that are printed again, in the usual look, and do not stand on the pages.
 
     A whole number counts as taken only where others stand instead: heads of tables that go over pages are
@@ -367,8 +367,8 @@ def _taken(stated: Carrier, again: Carrier) -> Counter[str]:
     texts, texts_again = (
         [page.extract_text() for page in carrier.reader.pages] for carrier in (stated, again)
     )
-    taken = _numbers(texts_again, _NUMBER) - _numbers(texts, _NUMBER)
-    whole, whole_again = _numbers(texts, _WHOLE_NUMBER), _numbers(texts_again, _WHOLE_NUMBER)
+    taken = _count_numbers(texts_again, _NUMBER) - _count_numbers(texts, _NUMBER)
+    whole, whole_again = _count_numbers(texts, _WHOLE_NUMBER), _count_numbers(texts_again, _WHOLE_NUMBER)
     of_pages = 0 if len(texts) == len(texts_again) else max(len(texts), len(texts_again))
     gone, instead = (
         Counter({each: count for each, count in numbers.items() if int(each) > of_pages})
@@ -377,15 +377,15 @@ def _taken(stated: Carrier, again: Carrier) -> Counter[str]:
     return taken + gone if instead else taken
 
 
-def _numbers(texts: Sequence[str], kind: re.Pattern[str]) -> Counter[str]:
+def _count_numbers(texts: Sequence[str], kind: re.Pattern[str]) -> Counter[str]:
     return Counter(each for text in texts for each in kind.findall(text))
 
 
-def _named(generator: str, plugins: Mapping[str, str]) -> str:
+def _name_programs(generator: str, plugins: Mapping[str, str]) -> str:
     return ", ".join(dict.fromkeys((generator, *sorted(plugins.values()))))
 
 
-def _left_open(found: Verification) -> Verification:
+def _leave_open(found: Verification) -> Verification:
     """Return what is found of pages that cannot be printed here as they were: what differs is not decided."""
 
     def left_open(finding: CheckedStatement) -> CheckedStatement:
@@ -402,13 +402,16 @@ def _left_open(found: Verification) -> Verification:
     )
 
 
-def _signature_finding(state: SignatureState, *, is_required: bool) -> CheckedStatement:
+def _find_on_signatures(state: SignatureState, *, is_required: bool) -> CheckedStatement:
     """Return what is to be said of the signatures of a PDF.
 
     `is_required` says whether it must bear an intact signature that is trusted.
     """
     verdict, detail = {
-        Integrity.INTACT: (VerificationVerdict.HOLDS, _joined([_signed(each) for each in state.signatures])),
+        Integrity.INTACT: (
+            VerificationVerdict.HOLDS,
+            _join_statements([_say_signed(each) for each in state.signatures]),
+        ),
         Integrity.ALTERED: (
             VerificationVerdict.DIFFERS,
             Words("the file is signed, but {reason}").given(reason=state.reason),
@@ -424,36 +427,36 @@ def _signature_finding(state: SignatureState, *, is_required: bool) -> CheckedSt
     }[state.integrity]
     if is_required and not state.is_trusted and state.integrity is not Integrity.UNCHECKED:
         required = Words("a signature that is trusted is required")
-        return CheckedStatement(_SIGNATURE, VerificationVerdict.DIFFERS, _joined([detail, required]))
+        return CheckedStatement(_SIGNATURE, VerificationVerdict.DIFFERS, _join_statements([detail, required]))
     return CheckedStatement(_SIGNATURE, verdict, detail)
 
 
-def _joined(parts: Sequence[Words]) -> Words:
+def _join_statements(parts: Sequence[Words]) -> Words:
     """Return statements in a row."""
     names = [f"part_{number}" for number in range(len(parts))]
     frame = "; ".join(f"{{{name}}}" for name in names)
     return Words(frame, values=dict(zip(names, parts, strict=True)))
 
 
-def _signed(signature: Signature) -> Words:
+def _say_signed(signature: Signature) -> Words:
     when = f"{signature.time:%Y-%m-%d %H:%M %Z}".rstrip() if signature.time else ""
     if signature.is_stamp:
         kept = Words("kept with its proofs since {when}, by {stamper}")
         return kept.given(when=when, stamper=signature.signer)
     by_clock = Words(", {when} by the signer's own clock, which nothing proves")
     by_stamp = Words(", {when} by a time stamp of {stamper}, {trust}").given(
-        stamper=signature.stamped_by, trust=_trust(is_trusted=signature.is_time_trusted)
+        stamper=signature.stamped_by, trust=_say_trust(is_trusted=signature.is_time_trusted)
     )
     said = Words("intact, by {signer} (SHA-256 of the signer's certificate {digest}){time}; {trust}")
     return said.given(
         signer=signature.signer,
         digest=signature.fingerprint,
         time=(by_stamp if signature.stamped_by else by_clock).given(when=when) if when else "",
-        trust=_trust(signature.distrust, is_trusted=signature.is_trusted),
+        trust=_say_trust(signature.distrust, is_trusted=signature.is_trusted),
     )
 
 
-def _trust(distrust: str = "", *, is_trusted: bool) -> Words:
+def _say_trust(distrust: str = "", *, is_trusted: bool) -> Words:
     if is_trusted:
         return Words("trusted")
     return same(distrust) if distrust not in {"", "of unknown trust"} else Words("of unknown trust")

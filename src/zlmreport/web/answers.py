@@ -12,15 +12,15 @@ from starlette.requests import Request as HttpRequest
 from starlette.responses import FileResponse, HTMLResponse, JSONResponse, Response
 from starlette.routing import Route
 
-from zlmreport.document.typesetting.resources import page_file
+from zlmreport.document.typesetting.resources import find_page_file
 from zlmreport.document.typesetting.templates import WorkbenchContext, render
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language, Words, accepted_language
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
 from zlmreport.web.commands import Wanted
 from zlmreport.web.diagnoses import Diagnoses
-from zlmreport.web.making import Making, page_picture
-from zlmreport.web.texts import texts
+from zlmreport.web.making import Making, draw_page
+from zlmreport.web.texts import collect_texts
 
 OTHER_PAGE = "the request is none of a page of this version"
 _TITLE = Words("Workbench")
@@ -94,7 +94,7 @@ class PageAnswers:
 
     def page_texts(self, language: Language) -> dict[str, str]:
         """Return the words of the page."""
-        return texts(language)
+        return collect_texts(language)
 
     def warm_up(self) -> None:
         """Start what the first diagnosis need not wait for."""
@@ -109,7 +109,7 @@ class PageAnswers:
         """Return the addresses that all pages have."""
         return [
             Route("/", self.page),
-            Route("/files/{name}", file),
+            Route("/files/{name}", answer_with_file),
             Route("/documents/{name}", self.document),
             Route("/documents/{name}/{page:int}.png", self.picture),
             Route("/api/texts", self.texts),
@@ -124,7 +124,7 @@ class PageAnswers:
 
     async def page(self, request: HttpRequest) -> Response:
         """Answer with the page of the file, or of a part of it; it fills itself."""
-        return shell(await run_in_threadpool(self.language, request), self.bench.path.name)
+        return answer_with_shell(await run_in_threadpool(self.language, request), self.bench.path.name)
 
     async def document(self, request: HttpRequest) -> Response:
         """Answer with a file that was made from the page, by its name."""
@@ -136,7 +136,7 @@ class PageAnswers:
         path = self.commands.file(request.path_params["name"])
         if path is None or path.suffix != ".pdf":
             return Response(status_code=404)
-        found = await run_in_threadpool(page_picture, path, request.path_params["page"])
+        found = await run_in_threadpool(draw_page, path, request.path_params["page"])
         return Response(status_code=404) if found is None else Response(found, media_type="image/png")
 
     async def texts(self, request: HttpRequest) -> Response:
@@ -215,7 +215,7 @@ class PageAnswers:
 
     def language(self, request: HttpRequest) -> Language:
         """Return the language of the page: that of its address, of the browser, or else of the file."""
-        asked = language_of(request)
+        asked = find_language_of(request)
         if asked is not None:
             return asked
         try:
@@ -224,7 +224,7 @@ class PageAnswers:
             return Language.ENGLISH
 
 
-def shell(language: Language, name: str) -> Response:
+def answer_with_shell(language: Language, name: str) -> Response:
     """Return a page of the workbench, which fills itself; `name` is that of the file or the folder."""
     context = WorkbenchContext(
         language=language.value,
@@ -234,15 +234,15 @@ def shell(language: Language, name: str) -> Response:
     return HTMLResponse(render(context))
 
 
-async def file(request: HttpRequest) -> Response:
+async def answer_with_file(request: HttpRequest) -> Response:
     """Answer with a style sheet, a module, or a face of the typeface: one of a list, by its name."""
-    found = page_file(request.path_params["name"])
+    found = find_page_file(request.path_params["name"])
     if found is None:
         return Response(status_code=404)
     return Response(found.content, media_type=found.media_type)
 
 
-def language_of(request: HttpRequest) -> Language | None:
+def find_language_of(request: HttpRequest) -> Language | None:
     """Return the language that an address or a browser asks for; None where neither does."""
     stated = request.query_params.get("lang", "")
     return accepted_language(stated) or accepted_language(request.headers.get("accept-language", ""))

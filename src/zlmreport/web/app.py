@@ -28,11 +28,11 @@ from zlmreport.web.changes import Request, change
 from zlmreport.web.commands import Commands
 from zlmreport.web.comparison import ComparedTests
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
-from zlmreport.web.effect_page import effect_page
-from zlmreport.web.folded import folded
+from zlmreport.web.effect_page import make_effect_page
+from zlmreport.web.folded import fold
 from zlmreport.web.guard import HOST, Door, DoorKeeper
-from zlmreport.web.stairs import with_stairs
-from zlmreport.web.view import before_and_after, closer, results, view
+from zlmreport.web.stairs import add_stairs
+from zlmreport.web.view import collect_before_and_after, collect_closer, make_results, make_view
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +97,7 @@ class Workbench(PageAnswers):
 
     def viewed(self, language: Language) -> dict[str, Any]:
         """Return the page of the job."""
-        return view(self.bench, self.bench.loaded(), language)
+        return make_view(self.bench, self.bench.loaded(), language)
 
     def changed(self, wanted: Request) -> None:
         """Do what a click asks for."""
@@ -106,7 +106,7 @@ class Workbench(PageAnswers):
     def told(self, state: dict[str, Any], language: Language) -> dict[str, Any]:
         """Return how far something is that is being made, a build with its staircase."""
         bench = self.bench
-        return with_stairs(state, bench.loaded().job, bench.registry, language)
+        return add_stairs(state, bench.loaded().job, bench.registry, language)
 
     async def stamp(self, _: HttpRequest) -> Response:
         """Answer with the state of all files: a page that shows another one asks for what follows anew."""
@@ -116,7 +116,7 @@ class Workbench(PageAnswers):
     async def results(self, request: HttpRequest) -> Response:
         """Answer with the fall of the error and what the standards say."""
         return await self.answered(
-            request, lambda: results(self.bench, self.bench.loaded(), self.language(request))
+            request, lambda: make_results(self.bench, self.bench.loaded(), self.language(request))
         )
 
     async def step(self, request: HttpRequest) -> Response:
@@ -124,7 +124,7 @@ class Workbench(PageAnswers):
 
         def found() -> dict[str, Any]:
             wanted = request.query_params.get("of", "")[:500]
-            return before_and_after(self.bench, self.bench.loaded(), wanted, self.language(request))
+            return collect_before_and_after(self.bench, self.bench.loaded(), wanted, self.language(request))
 
         return await self.answered(request, found)
 
@@ -133,7 +133,7 @@ class Workbench(PageAnswers):
 
         def found() -> dict[str, Any]:
             wanted = request.query_params.get("of", "")[:500]
-            wave = folded(self.bench, self.bench.loaded(), wanted, self.language(request))
+            wave = fold(self.bench, self.bench.loaded(), wanted, self.language(request))
             return {"wave": wave}
 
         return await self.answered(request, found)
@@ -146,7 +146,7 @@ class Workbench(PageAnswers):
                 ends = float(request.query_params["low"]), float(request.query_params["high"])
             except (KeyError, ValueError) as error:
                 raise InputError.at(PLACE, OTHER_PAGE) from error
-            return closer(self.bench, self.bench.loaded(), ends)
+            return collect_closer(self.bench, self.bench.loaded(), ends)
 
         return await self.answered(request, found)
 
@@ -159,7 +159,7 @@ class Workbench(PageAnswers):
 
         def found() -> dict[str, Any]:
             effect = request.path_params["effect"]
-            values = effect_page(self.bench, self.bench.loaded(), effect, self.language(request))
+            values = make_effect_page(self.bench, self.bench.loaded(), effect, self.language(request))
             if values is None:
                 raise InputError.at(PLACE, f"there is no effect {effect[:60]!r}")
             return values
@@ -203,7 +203,7 @@ def serve(workbench: Served, port: int, ready: Callable[[str], None], *, open_br
     `port`: On which; 0 for any free one.
     """
     try:
-        with _listening(port) as listener:
+        with _listen(port) as listener:
             door = Door.at(listener.getsockname()[1])
             server = uvicorn.Server(
                 uvicorn.Config(workbench.app(door), log_level="warning", access_log=False)
@@ -217,7 +217,7 @@ def serve(workbench: Served, port: int, ready: Callable[[str], None], *, open_br
         workbench.end()
 
 
-def _listening(port: int) -> socket.socket:
+def _listen(port: int) -> socket.socket:
     """Return a socket on the loopback address, and on no other."""
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

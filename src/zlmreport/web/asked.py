@@ -10,7 +10,7 @@ from typing import Any, Literal
 from zlmreport import pipeline
 from zlmreport.document.certificate.clauses import MANDATORY_ITEMS
 from zlmreport.evaluation.uncertainty.job_budget import INSTRUMENT
-from zlmreport.evaluation.uncertainty.wording import DEVICE, contributor
+from zlmreport.evaluation.uncertainty.wording import DEVICE, name_contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.plugin.registry import Registry
@@ -101,15 +101,15 @@ _UNITS = MappingProxyType(
 )
 
 
-def lacking(loaded: Loaded, registry: Registry) -> tuple[Field, ...]:
+def list_what_is_lacking(loaded: Loaded, registry: Registry) -> tuple[Field, ...]:
     """Return what a job lacks to be a calibration certificate; nothing for a measuring report."""
     job = loaded.job
     if job.keys.certificate.kind != "certificate":
         return ()
-    return tuple({each.key: each for each in _lacking(job, loaded, registry)}.values())
+    return tuple({each.key: each for each in _list_lacking(job, loaded, registry)}.values())
 
 
-def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
+def _list_lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
     unstated = (item.key for item in MANDATORY_ITEMS if not item.stated(job.keys))
     of_clause = {_FIRST_OF.get(key, key) for key in unstated}
     if of_clause & {_INSTRUMENT_U, "instrument.certificate"} and job.keys.instrument is None:
@@ -118,7 +118,7 @@ def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
     for key, field in _FIELDS.items():
         if key in of_clause:
             yield replace(field, unit=unit) if key == _INSTRUMENT_U else field
-    budget = pipeline.budget_of_job(job, loaded.measurements, registry)
+    budget = pipeline.make_budget_of_job(job, loaded.measurements, registry)
     if budget.uncorrected_expansion is None:
         stated = job.keys.environment
         for key in _TEMPERATURES:
@@ -130,14 +130,16 @@ def _lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Field]:
         else:
             yield Field(
                 f"uncertainty.{name}",
-                contributor(name) if name == "resolution" else _FULL_RANGE.given(name=contributor(name)),
+                name_contributor(name)
+                if name == "resolution"
+                else _FULL_RANGE.given(name=name_contributor(name)),
                 "number",
                 _UNITS.get(name, unit),
                 f"uncertainty.negligible.{name}",
             )
 
 
-def field_values(field: Field, language: Language) -> dict[str, Any]:
+def collect_field(field: Field, language: Language) -> dict[str, Any]:
     """Return a field as a page is told of it."""
     return {
         "key": field.key,

@@ -13,16 +13,16 @@ from threading import RLock
 from zlmreport import pipeline
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.errors import Place, ZlmreportError
-from zlmreport.evaluation.correction.corrections import without_excluded
+from zlmreport.evaluation.correction.corrections import drop_excluded
 from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.provenance import SourceFile
-from zlmreport.model.diagnosis.study import Fitted, Study, addition
-from zlmreport.model.effects.axis_model import AxisModel, chosen_terms
-from zlmreport.model.fitting.sessions import with_zeros
+from zlmreport.model.diagnosis.study import Fitted, Study, read_addition
+from zlmreport.model.effects.axis_model import AxisModel, choose_terms
+from zlmreport.model.fitting.sessions import add_zeros
 from zlmreport.plugin.registry import Registry
 
 #: Where mistakes stand that are made on the page.
@@ -60,7 +60,7 @@ class Loaded:
     @property
     def content(self) -> str:
         """Names what stands in all files behind it, wherever and whenever they were written."""
-        files = (*self.job.files, *_files(self.measurements, *self.study.sessions))
+        files = (*self.job.files, *_list_files(self.measurements, *self.study.sessions))
         return hashlib.sha256(" ".join(each.sha256 for each in files).encode()).hexdigest()
 
 
@@ -89,7 +89,7 @@ class Bench:
 
     def stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading the job."""
-        return stamp_of([self.path, *self._watched])
+        return make_stamp_of([self.path, *self._watched])
 
     def loaded(self) -> Loaded:
         """Return the job as it stands in its files now.
@@ -109,7 +109,7 @@ class Bench:
                 named = (Path(each.place.file) for each in error.problems)
                 self._watched = tuple(dict.fromkeys((*self._watched, *named)))
                 raise
-            files = (*job.files, *_files(found.measurements, *found.study.sessions))
+            files = (*job.files, *_list_files(found.measurements, *found.study.sessions))
             self._watched = tuple(dict.fromkeys(each.path for each in files if each.path is not None))
             self._loaded = replace(found, stamp=self.stamp())
             return self._loaded
@@ -127,7 +127,7 @@ class Bench:
         known = self._readings
         if known is not None and known.basis == loaded.basis and known.evaluated is not None:
             return known.evaluated
-        found = pipeline.evaluated(loaded.job, loaded.measurements, self.registry)
+        found = pipeline.evaluate_all(loaded.job, loaded.measurements, self.registry)
         if known is not None and known.basis == loaded.basis:
             known.evaluated = found
         return found
@@ -151,12 +151,12 @@ class Bench:
         Raises `InputError` if there is no such effect, or it cannot be fitted to these readings.
         """
         job, installed = loaded.job, self.registry.effects
-        named, removed = addition(text, job, self.registry, installed, PLACE)
+        named, removed = read_addition(text, job, self.registry, installed, PLACE)
         kept = (each for each in job.effects if each.identifier not in removed)
         effects = (*kept, named.choice)
         by_identifier = {each.identifier: each for each in installed}
-        terms = chosen_terms(effects, by_identifier.__getitem__, job.axis.kind)
-        model = with_zeros(AxisModel(terms), loaded.study.together.design)
+        terms = choose_terms(effects, by_identifier.__getitem__, job.axis.kind)
+        model = add_zeros(AxisModel(terms), loaded.study.together.design)
         return self._fitted(loaded.basis, replace(loaded.study, model=model), effects)
 
     def _read(self, job: Job) -> _Readings:
@@ -165,21 +165,21 @@ class Bench:
         Raises `InputError` if they cannot be read, or a standard of the job cannot evaluate them.
         """
         before = self._readings
-        if before is None or before.basis != _basis(job, before.measurements):
+        if before is None or before.basis != _write_basis(job, before.measurements):
             raw = self._raw
-            if raw is None or raw[0] != _basis(job, raw[1], but_for_excluded=True):
+            if raw is None or raw[0] != _write_basis(job, raw[1], but_for_excluded=True):
                 measurements = pipeline.read_whole(job, self.registry)
-                raw = self._raw = (_basis(job, measurements, but_for_excluded=True), measurements)
-            measurements = without_excluded(raw[1], job)
-            pipeline.parameters(job, measurements, self.registry)
-            self._readings = before = _Readings(_basis(job, measurements), measurements)
+                raw = self._raw = (_write_basis(job, measurements, but_for_excluded=True), measurements)
+            measurements = drop_excluded(raw[1], job)
+            pipeline.evaluate_parameters(job, measurements, self.registry)
+            self._readings = before = _Readings(_write_basis(job, measurements), measurements)
         return before
 
     def _fitted(self, basis: str, study: Study, effects: tuple[EffectChoice, ...]) -> Fitted:
         """Return a fit, made once; the lock is free meanwhile: a click waits for no step of the model."""
         key = (
             basis,
-            *(each.sha256 for each in _files(*study.sessions)),
+            *(each.sha256 for each in _list_files(*study.sessions)),
             len(study.model.terms),
             *(
                 (each.identifier, each.settings, *sorted(each.values.items()), *sorted(each.limits.items()))
@@ -205,23 +205,23 @@ class Bench:
         return found.result()
 
 
-def _basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bool = False) -> str:
+def _write_basis(job: Job, measurements: MeasurementSet, *, but_for_excluded: bool = False) -> str:
     """Return what readings and evaluations follow from: all keys but the model, and all other files."""
     stated = job.keys.model_copy(update={"model": None})
     if but_for_excluded:
         measured = stated.measurement.model_copy(update={"excluded": []})
         stated = stated.model_copy(update={"measurement": measured})
     files = (*job.files[1:], *measurements.provenance.files)
-    state = stamp_of(each.path for each in files if each.path is not None)
+    state = make_stamp_of(each.path for each in files if each.path is not None)
     return hashlib.sha256(f"{stated!r} {state}".encode()).hexdigest()
 
 
-def _files(*measurements: MeasurementSet) -> tuple[SourceFile, ...]:
+def _list_files(*measurements: MeasurementSet) -> tuple[SourceFile, ...]:
     """Return the files from which readings came."""
     return tuple(file for each in measurements for file in each.provenance.files)
 
 
-def stamp_of(paths: Iterable[Path]) -> str:
+def make_stamp_of(paths: Iterable[Path]) -> str:
     """Return a name of the state of files, from what the file system says of them."""
     states = []
     for path in paths:

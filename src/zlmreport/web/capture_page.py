@@ -12,10 +12,10 @@ from zlmreport.errors import InputError, ZlmreportError
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import MINUS, fixed_number, percentage
+from zlmreport.language.formatting import MINUS, write_fixed_number, write_percentage
 from zlmreport.live.capture.events import Recorded
 from zlmreport.live.capture.journal import History, read_history
-from zlmreport.live.capture.of_job import Assignment, assignment_of, options_of
+from zlmreport.live.capture.of_job import Assignment, find_options_of, make_assignment_of
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
@@ -61,7 +61,7 @@ class CapturePage:
             found = self._assigned()
         except ZlmreportError:
             return False  # what is wrong with the job is said where it is read
-        return found is not None and not _progress(found[1], _history(found[1])).is_over
+        return found is not None and not _find_progress(found[1], _read_history(found[1])).is_over
 
     def do(self, request: CaptureRequest) -> None:
         """Do what a click asks for.
@@ -71,7 +71,7 @@ class CapturePage:
         found = self._assigned()
         if found is None:
             raise InputError.at(PLACE, "the readings of this job are not captured from a live instrument")
-        history = _history(found[1])
+        history = _read_history(found[1])
         self.process.do(request, has_begun=history is not None and history.has_readings)
 
     def values(self, language: Language) -> dict[str, Any]:
@@ -80,8 +80,8 @@ class CapturePage:
         if found is None:
             return {"isCaptured": False}
         job, assignment = found
-        history, state = _history(assignment), self.process.state()
-        progress, writer = _progress(assignment, history), _CaptureWriter(job.axis, language)
+        history, state = _read_history(assignment), self.process.state()
+        progress, writer = _find_progress(assignment, history), _CaptureWriter(job.axis, language)
         rest = assignment.remaining_time(progress.taken)
         return {
             "isCaptured": True,
@@ -97,8 +97,8 @@ class CapturePage:
             "taken": progress.taken,
             "minutes": round(rest / _SECONDS_A_MINUTE),
             "steps": [] if progress.is_over else list(writer.steps(progress)),
-            "moment": _moment(state["now"], progress, assignment, writer),
-            "asked": _asked(state["asked"], progress, language),
+            "moment": _show_moment(state["now"], progress, assignment, writer),
+            "asked": _show_question(state["asked"], progress, language),
             "lines": state["lines"],
             "problems": state["problems"],
         }
@@ -108,10 +108,10 @@ class CapturePage:
         stamp = Bench(self.path, self.registry).stamp()
         if self._known is None or self._known[0] != stamp:
             job = load(self.path, self.registry)
-            if options_of(job) is None or job.source.instrument is None:
+            if find_options_of(job) is None or job.source.instrument is None:
                 return None
-            plan = propose(job, pipeline.standards(job, self.registry)).plan
-            self._known = stamp, job, assignment_of(job, plan)
+            plan = propose(job, pipeline.choose_standards(job, self.registry)).plan
+            self._known = stamp, job, make_assignment_of(job, plan)
         return self._known[1:]
 
 
@@ -133,7 +133,7 @@ class _CaptureWriter:
         return self._length(self.axis.deviation_unit.from_si(value), self.axis.deviation_unit.symbol, 2)
 
     def _length(self, value: float, symbol: str, decimals: int) -> str:
-        return with_unit(fixed_number(value, decimals, self.language.decimal_sign), symbol)
+        return with_unit(write_fixed_number(value, decimals, self.language.decimal_sign), symbol)
 
     def steps(self, progress: Progress) -> Iterator[str]:
         """Yield what an operator does before readings are taken, one after the other."""
@@ -151,12 +151,12 @@ class _CaptureWriter:
         )
 
 
-def _history(assignment: Assignment) -> History | None:
+def _read_history(assignment: Assignment) -> History | None:
     path = assignment.options.journal
     return read_history(path) if path.exists() else None
 
 
-def _progress(assignment: Assignment, history: History | None) -> Progress:
+def _find_progress(assignment: Assignment, history: History | None) -> Progress:
     return history.progress if history else Progress.begin(assignment.visits, assignment.datum)
 
 
@@ -188,7 +188,7 @@ def _state(number: int, progress: Progress, *, is_read: bool) -> str:
     return "open" if number > progress.taken else "missed"
 
 
-def _moment(
+def _show_moment(
     now: dict[str, Any] | None, progress: Progress, assignment: Assignment, writer: _CaptureWriter
 ) -> dict[str, Any] | None:
     """Return what the instrument shows now; nothing as long as it does not run."""
@@ -207,7 +207,9 @@ def _moment(
     }
 
 
-def _asked(asked: dict[str, Any] | None, progress: Progress, language: Language) -> dict[str, Any] | None:
+def _show_question(
+    asked: dict[str, Any] | None, progress: Progress, language: Language
+) -> dict[str, Any] | None:
     """Return what the capture waits for, with the answers that may be given."""
     if asked is None:
         return None
@@ -215,7 +217,7 @@ def _asked(asked: dict[str, Any] | None, progress: Progress, language: Language)
     for number, share in asked.get("candidates", ()):
         if share < _WORTH_NAMING:
             continue
-        shown = percentage(share, language.decimal_sign)
+        shown = write_percentage(share, language.decimal_sign)
         phrase = (
             _CANDIDATE.given(number=number, run=progress.visits[number - 1].run, share=shown)
             if number

@@ -22,11 +22,19 @@ from zlmreport.job.measurement_keys import ExclusionKeys
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.diagnosis.asking import lengths_asked
-from zlmreport.model.diagnosis.study import Fitted, addition, refuse_useless
-from zlmreport.web.asked import lacking
+from zlmreport.model.diagnosis.asking import list_lengths_asked
+from zlmreport.model.diagnosis.study import Fitted, read_addition, refuse_useless
+from zlmreport.web.asked import list_what_is_lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
-from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, entry, redoable, undoable
+from zlmreport.web.journal import (
+    REDO,
+    UNDO,
+    BenchJournal,
+    JournalStep,
+    find_redoable,
+    find_undoable,
+    make_entry,
+)
 
 _KEY = "model.effects"
 _TABLE = "axis.compensation_table"
@@ -101,16 +109,21 @@ def change(bench: Bench, request: Request) -> None:
         step.edit.write()
         after = bench.whole(bench.loaded())
         BenchJournal.beside(bench.path).append(
-            entry(request.action, step.subject, (content, step.edit.content), (_rms(before), _rms(after)))
+            make_entry(
+                request.action,
+                step.subject,
+                (content, step.edit.content),
+                (_write_rms(before), _write_rms(after)),
+            )
         )
 
 
 def _add(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     registry = bench.registry
-    named, removed = addition(request.effect, loaded.job, registry, registry.effects, PLACE)
+    named, removed = read_addition(request.effect, loaded.job, registry, registry.effects, PLACE)
     edit = edit_effects(bench.path, loaded.job, registry, add=[named], remove=removed)
     added = named.choice.identifier
-    refuse_useless(added, bench.whole(loaded), _tried(bench, loaded, edit), loaded.job)
+    refuse_useless(added, bench.whole(loaded), _try_fit(bench, loaded, edit), loaded.job)
     return _Step(edit, request.effect)
 
 
@@ -118,24 +131,24 @@ def _remove(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     if request.effect not in {each.identifier for each in loaded.job.effects}:
         raise InputError.at(loaded.job.place_of(_KEY), f"{request.effect!r} does not stand in the model")
     edit = edit_effects(bench.path, loaded.job, bench.registry, remove=(request.effect,))
-    _tried(bench, loaded, edit)
+    _try_fit(bench, loaded, edit)
     return _Step(edit, request.effect)
 
 
 def _fix(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     if request.value is None or not math.isfinite(request.value):
         raise InputError.at(PLACE, "a parameter is fixed at a number; write one, such as 4.2")
-    return _with_parameter(bench, loaded, request, request.value)
+    return _change_parameter(bench, loaded, request, request.value)
 
 
 def _free(bench: Bench, loaded: Loaded, request: Request) -> _Step:
-    return _with_parameter(bench, loaded, request, None)
+    return _change_parameter(bench, loaded, request, None)
 
 
-def _with_parameter(bench: Bench, loaded: Loaded, request: Request, value: float | None) -> _Step:
+def _change_parameter(bench: Bench, loaded: Loaded, request: Request, value: float | None) -> _Step:
     choice = ParameterChoice(request.effect, request.parameter, value)
     edit = edit_parameter(bench.path, loaded.job, bench.registry, choice)
-    _tried(bench, loaded, edit)
+    _try_fit(bench, loaded, edit)
     return _Step(edit, f"{request.effect}.{request.parameter}")
 
 
@@ -145,17 +158,19 @@ def _exclude(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     if wrong or not request.readings:
         raise InputError.at(PLACE, f"there is no reading {wrong[0]}" if wrong else "choose a reading first")
     try:
-        exclusions = [_exclusion(measurements, each, request.reason) for each in request.readings]
+        exclusions = [_make_exclusion(measurements, each, request.reason) for each in request.readings]
     except ValidationError as error:
         raise InputError.at(
             PLACE, "a reading is set aside for a reason: one line that others can read"
         ) from error
     edit = exclude(bench.path, loaded.job, bench.registry, exclusions)
-    _tried(bench, loaded, edit)
-    return _Step(edit, _named(exclusions[0]) if len(exclusions) == 1 else f"{len(exclusions)} readings")
+    _try_fit(bench, loaded, edit)
+    return _Step(
+        edit, _name_reading(exclusions[0]) if len(exclusions) == 1 else f"{len(exclusions)} readings"
+    )
 
 
-def _exclusion(measurements: MeasurementSet, reading: int, reason: str) -> ExclusionKeys:
+def _make_exclusion(measurements: MeasurementSet, reading: int, reason: str) -> ExclusionKeys:
     """Return a reading of a measurement set as a job sets it aside."""
     target = measurements.target_positions[measurements.target[reading]]
     return ExclusionKeys.model_validate(
@@ -173,12 +188,12 @@ def _include(bench: Bench, loaded: Loaded, request: Request) -> _Step:
     if not 0 <= request.listed < len(listed):
         raise InputError.at(PLACE, "this reading is not set aside")
     edit = include(bench.path, loaded.job, bench.registry, request.listed)
-    _tried(bench, loaded, edit)
-    return _Step(edit, _named(listed[request.listed]))
+    _try_fit(bench, loaded, edit)
+    return _Step(edit, _name_reading(listed[request.listed]))
 
 
 def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
-    units = _asked_for(bench, loaded)
+    units = _list_asked_for(bench, loaded)
     unasked = [key for key in request.stated if key not in units]
     if unasked or not request.stated:
         raise InputError.at(PLACE, f"the job is not asked for {unasked[0][:60]!r}" if unasked else _NOTHING)
@@ -188,21 +203,21 @@ def _state(bench: Bench, loaded: Loaded, request: Request) -> _Step:
             Problem(PLACE, f"{key}: write a number such as 10, or a line of text") for key in wrong
         )
     edit = edit_keys(bench.path, loaded.job, bench.registry, request.stated, units)
-    _tried(bench, loaded, edit)
+    _try_fit(bench, loaded, edit)
     return _Step(edit, ", ".join(request.stated))
 
 
-def _asked_for(bench: Bench, loaded: Loaded) -> dict[str, str]:
+def _list_asked_for(bench: Bench, loaded: Loaded) -> dict[str, str]:
     """Return the keys that the page asks for, each with the symbol of its unit."""
     units = {
         f"axis.{each.key}": each.unit
-        for each in lengths_asked(
+        for each in list_lengths_asked(
             loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
         )
     }
     if loaded.job.keys.axis.compensation_table is None:
         units[_TABLE] = ""
-    for field in lacking(loaded, bench.registry):
+    for field in list_what_is_lacking(loaded, bench.registry):
         units |= {f"{field.key}.kind": ""} if field.form == "place" else {field.key: field.unit}
         units |= {field.reason: ""} if field.reason else {}
     return units
@@ -213,11 +228,11 @@ def _is_value(value: float | str) -> bool:
 
 
 def _undo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(bench, loaded, find_undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
 
 
 def _redo(bench: Bench, loaded: Loaded, _: Request) -> _Step:
-    return _put_back(bench, loaded, redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(bench, loaded, find_redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
 
 
 def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:
@@ -229,7 +244,7 @@ def _put_back(bench: Bench, loaded: Loaded, last: JournalStep | None) -> _Step:
     return _Step(Edit(bench.path, loaded.digest, last.content, job), subject)
 
 
-def _tried(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
+def _try_fit(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
     """Return the fit of the job as it is to become; refuse one that makes no sense."""
     try:
         return bench.whole(bench.tried(edit.job))
@@ -238,12 +253,12 @@ def _tried(bench: Bench, loaded: Loaded, edit: Edit) -> Fitted:
         raise InputError(Problem(place, each.message) for each in error.problems) from error
 
 
-def _named(exclusion: ExclusionKeys) -> str:
+def _name_reading(exclusion: ExclusionKeys) -> str:
     """Return a reading as the record names it: ``213.4 + 3``."""
     return f"{exclusion.target:.10g} {exclusion.direction} {exclusion.run}"
 
 
-def _rms(fitted: Fitted) -> float:
+def _write_rms(fitted: Fitted) -> float:
     return fitted.fit.design.axis.deviation_unit.from_si(fitted.error.rms)
 
 

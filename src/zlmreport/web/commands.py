@@ -18,7 +18,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench, Loaded
-from zlmreport.web.making import Making, documents, values
+from zlmreport.web.making import Making, make_documents, make_values
 
 #: What answers by values alone.
 _BY_VALUES = ("table", "confirmation", "experiment", "build")
@@ -59,7 +59,7 @@ class Commands:
     @classmethod
     def of(cls, bench: Bench, plugins: Sequence[Path]) -> Commands:
         """Return the commands of a job."""
-        readers = {"certificate": documents} | dict.fromkeys(_BY_VALUES, values)
+        readers = {"certificate": make_documents} | dict.fromkeys(_BY_VALUES, make_values)
         return cls(bench, {name: Making(read, plugins) for name, read in readers.items()})
 
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
@@ -72,7 +72,7 @@ class Commands:
             arguments = [
                 str(path.resolve()),
                 *self._sheet(loaded.job, wanted),
-                *demanded_formats(wanted, self.bench.registry),
+                *list_demanded_formats(wanted, self.bench.registry),
             ]
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
@@ -90,7 +90,7 @@ class Commands:
                 str(path.resolve().parent),
             ]
         else:
-            _demand(wanted.after, siblings(path), "job")
+            _demand(wanted.after, list_siblings(path), "job")
             tests = (str(each.resolve()) for each in (path, path.with_name(wanted.after)))
             arguments = ["compensate", *tests, *self._control(wanted), "--confirm"]
         self.making[name].begin(loaded.stamp, *arguments)
@@ -98,7 +98,7 @@ class Commands:
 
     def file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
-        return made_file(self.making, name)
+        return find_made_file(self.making, name)
 
     def end(self) -> None:
         """End all that is under way, and take away what was only looked at."""
@@ -145,7 +145,7 @@ class Commands:
         return [*chosen, "--unconfirmed"] if wanted.unconfirmed else chosen
 
 
-def demanded_formats(wanted: Wanted, registry: Registry) -> list[str]:
+def list_demanded_formats(wanted: Wanted, registry: Registry) -> list[str]:
     """Return the formats that a page wants as the command line has them; none for those of the file.
 
     Raises `InputError` if one is none that the page offered.
@@ -155,19 +155,19 @@ def demanded_formats(wanted: Wanted, registry: Registry) -> list[str]:
     return ["--format", ",".join(wanted.formats)] if wanted.formats else []
 
 
-def made_file(making: Mapping[str, Making], name: str) -> Path | None:
+def find_made_file(making: Mapping[str, Making], name: str) -> Path | None:
     """Return where a file lies that one of several commands wrote; None for any other name."""
     found = (each.file(name) for each in making.values())
     return next((path for path in found if path is not None and path.is_file()), None)
 
 
-def siblings(path: Path) -> list[str]:
+def list_siblings(path: Path) -> list[str]:
     """Return the names of other jobs in the folder of one: what may be its second test."""
     found = (each.name for each in path.resolve().parent.iterdir() if each.suffix in _SUFFIXES)
     return sorted(name for name in found if name != path.name)[:_MOST]
 
 
-def offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
+def list_offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return what a page offers to have made."""
     job, registry = loaded.job, bench.registry
     chosen = set(job.keys.output.formats)
@@ -186,7 +186,7 @@ def offered(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
             for each in registry.controllers
         ],
         "unit": job.axis.position_unit.symbol,
-        "jobs": siblings(bench.path),
+        "jobs": list_siblings(bench.path),
     }
 
 

@@ -12,13 +12,13 @@ import numpy as np
 
 from zlmreport import pipeline
 from zlmreport.document.certificate.results import Evaluated
-from zlmreport.document.subjects.fit import parameter_rows
-from zlmreport.document.subjects.linked import drawn_values
-from zlmreport.document.writer import NOTHING, Writer, written
+from zlmreport.document.subjects.fit import make_parameter_rows
+from zlmreport.document.subjects.linked import collect_drawn_values
+from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.job.contradictions import last_day
+from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.arrays import FloatArray
@@ -27,7 +27,7 @@ from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.effect import Effect
 from zlmreport.web.bench import Bench, Loaded
 from zlmreport.web.naming import Naming
-from zlmreport.web.panels import symbol
+from zlmreport.web.panels import split_symbol
 
 _AS_FOUND = Words("{name}, as found")
 
@@ -44,7 +44,7 @@ class _Test:
 
     @property
     def day(self) -> dt.date | None:
-        return last_day(self.job.keys.measurement)
+        return find_last_day(self.job.keys.measurement)
 
     @property
     def means(self) -> FloatArray:
@@ -97,8 +97,8 @@ class ComparedTests:
             tests.sort(key=lambda each: each.day or dt.date.min)  # stable: those of one day stay as named
         shown = {
             "tests": [_test(each, here, language) for each in tests],
-            "standards": list(_standards(tests, here, language)),
-            "models": list(_models(tests, self.bench.registry.effects, language)),
+            "standards": list(_compare_standards(tests, here, language)),
+            "models": list(_compare_models(tests, self.bench.registry.effects, language)),
         }
         return {"stamp": self.stamp(), "problems": problems, **(shown if len(tests) > 1 else {"tests": []})}
 
@@ -114,7 +114,7 @@ class ComparedTests:
         known = self._as_found.get(loaded.basis)
         if known is None:
             measurements = pipeline.read(job, bench.registry)
-            known = measurements, pipeline.evaluated(job, measurements, bench.registry)
+            known = measurements, pipeline.evaluate_all(job, measurements, bench.registry)
             self._as_found = {**dict(list(self._as_found.items())[-len(self.others) :]), loaded.basis: known}
         return known
 
@@ -137,13 +137,13 @@ def _test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
     for approach in test.measurements.approaches:
         mean = means[approach.index]
         there = np.isfinite(mean)
-        difference = mean - _between(here, approach.index, at)
+        difference = mean - _interpolate(here, approach.index, at)
         curves.append(
             {
                 "direction": int(approach),
-                "x": drawn_values(axis.position_unit.from_si(at[there])),
-                "y": drawn_values(axis.deviation_unit.from_si(mean[there])),
-                "difference": drawn_values(axis.deviation_unit.from_si(difference[there])),
+                "x": collect_drawn_values(axis.position_unit.from_si(at[there])),
+                "y": collect_drawn_values(axis.deviation_unit.from_si(mean[there])),
+                "difference": collect_drawn_values(axis.deviation_unit.from_si(difference[there])),
             }
         )
     return {
@@ -155,7 +155,7 @@ def _test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
     }
 
 
-def _between(test: _Test, direction: int, at: FloatArray) -> FloatArray:
+def _interpolate(test: _Test, direction: int, at: FloatArray) -> FloatArray:
     """Return the means of a test at other targets: straight between its own, and nothing beyond them."""
     mean = test.means[direction]
     there = np.isfinite(mean)
@@ -168,7 +168,7 @@ def _between(test: _Test, direction: int, at: FloatArray) -> FloatArray:
     return np.where(inside, np.interp(at, own, mean[there]), np.nan)
 
 
-def _standards(tests: Sequence[_Test], here: _Test, language: Language) -> Iterator[dict[str, Any]]:
+def _compare_standards(tests: Sequence[_Test], here: _Test, language: Language) -> Iterator[dict[str, Any]]:
     """Yield the parameters of each standard of the job, test by test."""
     writer = Writer.of(here.measurements, language)
     for evaluated in here.evaluated:
@@ -182,11 +182,11 @@ def _standards(tests: Sequence[_Test], here: _Test, language: Language) -> Itera
             "unit": writer.deviation_unit.symbol,
             "rows": [
                 {
-                    "symbol": symbol(own.quantity.notation),
+                    "symbol": split_symbol(own.quantity.notation),
                     "name": own.quantity.name.in_language(language),
                     "limit": None if own.limit is None else writer.deviation_unit.from_si(own.limit),
                     "cells": [
-                        _cell(None if other is None else other.parameter(own.quantity.symbol), writer)
+                        _make_cell(None if other is None else other.parameter(own.quantity.symbol), writer)
                         for other in others
                     ],
                 }
@@ -195,11 +195,11 @@ def _standards(tests: Sequence[_Test], here: _Test, language: Language) -> Itera
         }
 
 
-def _cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
+def _make_cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
     """Return a parameter and its U as text, and as numbers to be drawn."""
     if parameter is None:
         return None
-    value, uncertainty = written(parameter, writer)
+    value, uncertainty = write_with_uncertainty(parameter, writer)
     expanded = parameter.expanded_uncertainty
     number = writer.deviation_unit.from_si(parameter.printed_value)
     return {
@@ -210,12 +210,12 @@ def _cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
     }
 
 
-def _models(
+def _compare_models(
     tests: Sequence[_Test], effects: Sequence[Effect], language: Language
 ) -> Iterator[dict[str, Any]]:
     """Yield the parameters of all models, each with its amount in every test whose model has it."""
     of_tests = [
-        {(each.effect, each.name): each for each in parameter_rows(test.model.fit, language)}
+        {(each.effect, each.name): each for each in make_parameter_rows(test.model.fit, language)}
         if test.model is not None
         else {}
         for test in tests
@@ -227,7 +227,7 @@ def _models(
         yield {
             "called": names.text(first.effect),
             "name": first.name,
-            "symbol": symbol(first.notation),
+            "symbol": split_symbol(first.notation),
             "description": first.description,
             "unit": first.unit,
             "cells": [

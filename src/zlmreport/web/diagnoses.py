@@ -23,18 +23,18 @@ from typing import Any
 
 from zlmreport import version
 from zlmreport.errors import AccessError, ZlmreportError
-from zlmreport.files import Document, cache_folder, write
+from zlmreport.files import Document, find_cache_folder, write
 from zlmreport.job.job import Job
 from zlmreport.language import Language
-from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.planning.deciding import experiment_of_tie, experiment_values
+from zlmreport.model.planning.deciding import collect_experiment, plan_experiment_of_tie
 from zlmreport.model.planning.experiment import Experiment
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.web.bench import Bench
 from zlmreport.web.naming import Naming
-from zlmreport.web.view import diagnosed
+from zlmreport.web.view import collect_diagnosed
 
 #: Diagnoses that are kept: some hundred kilobytes each.
 _KEPT = 200
@@ -51,8 +51,8 @@ class DiagnosesByContent:
     @classmethod
     def of_user(cls, effects: Iterable[Effect | CircleEffect]) -> DiagnosesByContent:
         """Return those of a user, of this program with these effects."""
-        folder = cache_folder()
-        return cls(folder / "diagnoses" if folder else None, _program(effects))
+        folder = find_cache_folder()
+        return cls(folder / "diagnoses" if folder else None, _identify_program(effects))
 
     def recall(self, content: str) -> Any:
         """Return the diagnosis of a content; None if none was made."""
@@ -78,7 +78,7 @@ class DiagnosesByContent:
         return f"{hashlib.sha256(f'{self.program} {content}'.encode()).hexdigest()}.json"
 
 
-def _program(effects: Iterable[Effect | CircleEffect]) -> str:
+def _identify_program(effects: Iterable[Effect | CircleEffect]) -> str:
     """Return what tells this program and its effects, as they stand in their files, from any other."""
     package = Path(version.__file__).parent
     modules = (sys.modules.get(each.__class__.__module__) for each in effects)
@@ -220,31 +220,32 @@ def _tell(share: float) -> None:
     print(json.dumps({_SHARE: round(share, 3)}), flush=True)  # noqa: T201 - read as the answer is
 
 
-def answer(bench: Bench, registry: Registry, told: Told = untold) -> dict[str, Any]:
+def answer(bench: Bench, registry: Registry, told: Told = tell_nobody) -> dict[str, Any]:
     """Return the diagnosis of the job in all languages, what decides its tie, and of which content it is."""
     try:
         loaded = bench.loaded()
         study = loaded.study
         diagnosis = study.diagnosis(registry.effects, told)
-        experiment = experiment_of_tie(study, diagnosis, registry.effects)
+        experiment = plan_experiment_of_tie(study, diagnosis, registry.effects)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}
     return {
         "content": loaded.content,
         "diagnosis": {
             language.value: {
-                **diagnosed(diagnosis, study, registry.effects, language),
-                "experiment": experiment and _experiment(experiment, loaded.job, registry.effects, language),
+                **collect_diagnosed(diagnosis, study, registry.effects, language),
+                "experiment": experiment
+                and _make_experiment(experiment, loaded.job, registry.effects, language),
             }
             for language in Language
         },
     }
 
 
-def _experiment(
+def _make_experiment(
     experiment: Experiment, job: Job, effects: Sequence[Effect], language: Language
 ) -> dict[str, Any]:
-    values = experiment_values(experiment, job, language)
+    values = collect_experiment(experiment, job, language)
     return {**values, "statement": Naming.of(effects, language).text(values["statement"])}
 
 

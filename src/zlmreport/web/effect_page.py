@@ -7,20 +7,20 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.document.subjects.fit import parameter_rows
-from zlmreport.job.types import keys_in
+from zlmreport.document.subjects.fit import make_parameter_rows
+from zlmreport.job.types import list_keys_in
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import general_number
+from zlmreport.language.formatting import write_general_number
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.effects.design import Design, at_positions
-from zlmreport.model.effects.effect import Effect, Parameter, Shape, unit_of
-from zlmreport.model.fitting.curve import effect_positions
+from zlmreport.model.effects.design import Design, place_at_positions
+from zlmreport.model.effects.effect import Effect, Parameter, Shape, find_unit_of
+from zlmreport.model.fitting.curve import lay_effect_positions
 from zlmreport.plugin.registry import Registry
 from zlmreport.testing.measurements import full_designs
 from zlmreport.web.bench import Bench, Loaded
-from zlmreport.web.panels import naming, parameter_values, symbol
+from zlmreport.web.panels import collect_parameter, make_naming, split_symbol
 
 _OVER_TIME = frozenset({Shape.TIME, Shape.RUN})
 _POSITION = Words("Position")
@@ -35,49 +35,53 @@ _ROUNDING = 1e-9
 _PERIODS = 6.0
 
 
-def effect_page(bench: Bench, loaded: Loaded, identifier: str, language: Language) -> dict[str, Any] | None:
+def make_effect_page(
+    bench: Bench, loaded: Loaded, identifier: str, language: Language
+) -> dict[str, Any] | None:
     """Return what there is to say of an effect; None if it is not installed."""
     fit = bench.whole(loaded).fit
     known = (*bench.registry.effects, *(term.effect for term in fit.model.terms))
     effect = next((each for each in known if each.identifier == identifier), None)
     if effect is None:
         return None
-    names = naming(bench.whole(loaded), bench.registry.effects, language)
+    names = make_naming(bench.whole(loaded), bench.registry.effects, language)
     present = identifier in fit.model.identifiers
     return {
         "effect": identifier,
         "called": names.text(identifier),
         "title": effect.title.in_language(language),
-        "equation": symbol(effect.equation),
+        "equation": split_symbol(effect.equation),
         "look": names.text(effect.look.in_language(language)),
         "remedy": names.text(effect.remedy.in_language(language)) if effect.remedy else "",
         "parameters": [
-            _described(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
+            _describe(each, loaded.job.axis, language) for each in (*effect.linear, *effect.searched)
         ],
         "rangesFrom": effect.ranges_from.in_language(language),
         "keys": [
             {"name": name, "description": field.description}
-            for name, field in keys_in(effect.options).items()
+            for name, field in list_keys_in(effect.options).items()
         ],
         "estimates": [
-            parameter_values(each) for each in parameter_rows(fit, language) if each.effect == identifier
+            collect_parameter(each)
+            for each in make_parameter_rows(fit, language)
+            if each.effect == identifier
         ],
         "confusions": [
             {
                 "effect": each.effect,
                 "called": names.text(each.effect),
-                "title": _title(bench.registry, each.effect, language),
+                "title": _find_title(bench.registry, each.effect, language),
                 "told": names.text(each.told_apart_by.in_language(language)),
             }
             for each in effect.confusions
         ],
         "containsNames": [names.text(each) for each in effect.contains],
         "present": present,
-        "sketch": sketch(effect, loaded.study.observed.design, language),
+        "sketch": draw_sketch(effect, loaded.study.observed.design, language),
     }
 
 
-def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any] | None:
+def draw_sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any] | None:
     """Return the effect alone as the residuals of a test show it: over position or time, by direction.
 
     `effect`: The effect; its searched parameters are in the middle of their values.
@@ -92,23 +96,23 @@ def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any]
         design, words = complete[0], _ELSEWHERE.given(reason=reason)
     grid = effect.grid(design)
     theta = grid[len(grid) // 2]
-    values = _alone(effect, design, theta)
+    values = _draw_alone(effect, design, theta)
     mean, size = float(values.mean()), float(np.std(values))
     if size <= _ROUNDING * abs(mean):
         mean, size, words = 0.0, mean, _CONSTANT.given(unit=design.axis.deviation_unit.symbol)
-    x, title, unit = _along(effect.shape, design)
-    span = _shown(effect, theta, design)
+    x, title, unit = _choose_along(effect.shape, design)
+    span = _choose_shown(effect, theta, design)
     return {
-        "x": _rounded(x),
-        "y": _rounded((values - mean) / size),
+        "x": _round_values(x),
+        "y": _round_values((values - mean) / size),
         "direction": np.where(design.direction > 0, 1, -1).tolist(),
         "curves": [
             {
                 "direction": int(approach),
-                "x": _rounded(along),
-                "y": _rounded((_alone(effect, between, theta) - mean) / size),
+                "x": _round_values(along),
+                "y": _round_values((_draw_alone(effect, between, theta) - mean) / size),
             }
-            for approach, along, between in _between(effect, theta, design, span)
+            for approach, along, between in _lay_between(effect, theta, design, span)
         ],
         "range": None if span == design.span else [design.axis.position_unit.from_si(end) for end in span],
         "title": title.in_language(language),
@@ -118,12 +122,12 @@ def sketch(effect: Effect, design: Design, language: Language) -> dict[str, Any]
     }
 
 
-def _alone(effect: Effect, design: Design, theta: FloatArray) -> FloatArray:
+def _draw_alone(effect: Effect, design: Design, theta: FloatArray) -> FloatArray:
     """Return what an effect makes of readings, all its linear parameters alike."""
     return np.asarray(effect.columns(design, theta) @ np.ones(len(effect.linear)), dtype=np.float64)
 
 
-def _shown(effect: Effect, theta: FloatArray, design: Design) -> tuple[float, float]:
+def _choose_shown(effect: Effect, theta: FloatArray, design: Design) -> tuple[float, float]:
     """Return the part of the travel that is drawn: a few periods of what repeats often."""
     first, last = design.span
     periods = [
@@ -134,7 +138,7 @@ def _shown(effect: Effect, theta: FloatArray, design: Design) -> tuple[float, fl
     return first, min(last, first + _PERIODS * periods[0])
 
 
-def _between(
+def _lay_between(
     effect: Effect, theta: FloatArray, design: Design, span: tuple[float, float]
 ) -> Iterator[tuple[Approach, FloatArray, Design]]:
     """Yield positions between the targets, by direction; nothing for an effect that changes with time."""
@@ -142,19 +146,19 @@ def _between(
         return
     for approach in Approach:
         if np.any(design.direction == approach):
-            positions = effect_positions(effect, theta, design, approach, span)
+            positions = lay_effect_positions(effect, theta, design, approach, span)
             yield (
                 approach,
                 design.axis.position_unit.from_si(positions),
-                at_positions(design, positions, approach),
+                place_at_positions(design, positions, approach),
             )
 
 
-def _rounded(values: FloatArray) -> list[float]:
+def _round_values(values: FloatArray) -> list[float]:
     return [float(each) for each in np.round(values, _DECIMALS)]
 
 
-def _along(shape: Shape, design: Design) -> tuple[FloatArray, Words, str]:
+def _choose_along(shape: Shape, design: Design) -> tuple[FloatArray, Words, str]:
     """Return that along which an effect shows itself best."""
     if shape not in _OVER_TIME:
         unit = design.axis.position_unit
@@ -164,15 +168,15 @@ def _along(shape: Shape, design: Design) -> tuple[FloatArray, Words, str]:
     return design.time / 60.0, _TIME, "min"
 
 
-def _described(own: Parameter, axis: Axis, language: Language) -> dict[str, Any]:
-    unit = unit_of(own.dimension, axis.kind)
+def _describe(own: Parameter, axis: Axis, language: Language) -> dict[str, Any]:
+    unit = find_unit_of(own.dimension, axis.kind)
     bounds = [
-        None if bound is None else general_number(unit.from_si(bound), language.decimal_sign, 3)
+        None if bound is None else write_general_number(unit.from_si(bound), language.decimal_sign, 3)
         for bound in (own.smallest, own.largest)
     ]
     return {
         "name": own.name,
-        "symbol": symbol(own.notation),
+        "symbol": split_symbol(own.notation),
         "description": own.description.in_language(language),
         "low": bounds[0],
         "high": bounds[1],
@@ -180,6 +184,6 @@ def _described(own: Parameter, axis: Axis, language: Language) -> dict[str, Any]
     }
 
 
-def _title(registry: Registry, identifier: str, language: Language) -> str:
+def _find_title(registry: Registry, identifier: str, language: Language) -> str:
     titles = {each.identifier: each.title for each in registry.effects}
     return titles[identifier].in_language(language) if identifier in titles else ""

@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.document.subjects.linked import drawn_values
+from zlmreport.document.subjects.linked import collect_drawn_values
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import general_number
+from zlmreport.language.formatting import write_general_number
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.study import corrected
-from zlmreport.model.effects.design import Design, at_positions
-from zlmreport.model.fitting.curve import waves_along
+from zlmreport.model.diagnosis.study import correct_by_model
+from zlmreport.model.effects.design import Design, place_at_positions
+from zlmreport.model.fitting.curve import find_waves_along
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.web.bench import Bench, Loaded
 
@@ -45,12 +45,12 @@ class _Wave:
 
     def along(self, positions: FloatArray, approach: Approach) -> FloatArray:
         """Return what the effect makes of readings at positions in one direction, m or rad, shape (M,)."""
-        return self.at(at_positions(self.fit.design, positions, approach))
+        return self.at(place_at_positions(self.fit.design, positions, approach))
 
     def period(self) -> float | None:
         """Return after which length the effect repeats, m or rad; None if it does not."""
         design = self.fit.design
-        shortest = waves_along(self.fit)[self.fit.model.identifiers[self.place]]
+        shortest = find_waves_along(self.fit)[self.fit.model.identifiers[self.place]]
         first, last = design.span
         if not np.isfinite(shortest) or shortest <= 0:
             return None
@@ -65,7 +65,7 @@ class _Wave:
         return None
 
 
-def folded(bench: Bench, loaded: Loaded, named: str, language: Language) -> dict[str, Any] | None:
+def fold(bench: Bench, loaded: Loaded, named: str, language: Language) -> dict[str, Any] | None:
     """Return the readings and the wave of an effect on one period; None where it does not repeat.
 
     What the other effects of the model explain is taken away from the readings. In the units of the page.
@@ -85,27 +85,27 @@ def folded(bench: Bench, loaded: Loaded, named: str, language: Language) -> dict
         return None
     study, axis = loaded.study, loaded.job.axis
     observed = study.observed
-    left = corrected(study.measurements, observed, fitted.fit).deviation[observed.reading]
+    left = correct_by_model(study.measurements, observed, fitted.fit).deviation[observed.reading]
     unit, along = axis.deviation_unit, axis.position_unit
     first = fit.design.span[0]
     start = np.ceil(first / period) * period
     within = np.linspace(0.0, period, _PLACES)
     directions = [each for each in Approach if np.any(observed.design.direction == each)]
-    length = general_number(along.from_si(period), language.decimal_sign, 4)
+    length = write_general_number(along.from_si(period), language.decimal_sign, 4)
     title = _WITHIN.given(period=length, unit=along.symbol)
     return {
-        "x": drawn_values(along.from_si(observed.design.position % period)),
-        "y": drawn_values(unit.from_si(left + wave.at(observed.design))),
+        "x": collect_drawn_values(along.from_si(observed.design.position % period)),
+        "y": collect_drawn_values(unit.from_si(left + wave.at(observed.design))),
         "direction": np.where(observed.design.direction > 0, 1, -1).tolist(),
         "curves": [
             {
                 "direction": int(approach),
-                "x": drawn_values(along.from_si(within)),
-                "y": drawn_values(unit.from_si(wave.along(start + within, approach))),
+                "x": collect_drawn_values(along.from_si(within)),
+                "y": collect_drawn_values(unit.from_si(wave.along(start + within, approach))),
             }
             for approach in directions
         ],
-        "range": drawn_values(along.from_si(np.array([0.0, period]))),
+        "range": collect_drawn_values(along.from_si(np.array([0.0, period]))),
         "xTitle": title.in_language(language),
         "yTitle": f"{_PART.in_language(language)} ({unit.symbol})",
     }

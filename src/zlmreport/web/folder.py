@@ -16,15 +16,15 @@ from zlmreport import pipeline
 from zlmreport.document.certificate.conformity import STATEMENTS
 from zlmreport.document.certificate.results import Evaluated
 from zlmreport.errors import AccessError, InputError, ZlmreportError
-from zlmreport.job.contradictions import last_day
+from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
 from zlmreport.machines.reading import read_machine
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.carrier import results_in
-from zlmreport.web.bench import PLACE, Bench, stamp_of
+from zlmreport.verification.carrier import find_results_in
+from zlmreport.web.bench import PLACE, Bench, make_stamp_of
 
 #: What is due within this time may be planned now.
 SOON = dt.timedelta(days=90)
@@ -94,7 +94,7 @@ class JobRow:
         return replace(self, state=state)
 
 
-def jobs_in(folder: Path) -> tuple[Path, ...]:
+def find_jobs_in(folder: Path) -> tuple[Path, ...]:
     """Return the job and machine files below a folder, by their names; hidden folders are passed over.
 
     Raises `AccessError` if the folder cannot be read, `InputError` if there is none in it.
@@ -116,7 +116,7 @@ def _is_job(path: Path, folder: Path) -> bool:
     if hidden or path.suffix not in _SUFFIXES or not path.is_file():
         return False
     try:
-        return _schema(path) != ""
+        return _read_schema(path) != ""
     except OSError:
         return True  # it is listed, with what is wrong
 
@@ -124,12 +124,12 @@ def _is_job(path: Path, folder: Path) -> bool:
 def is_machine(path: Path) -> bool:
     """Return whether a file is a machine file; one that cannot be read is none."""
     try:
-        return _schema(path) == _MACHINE
+        return _read_schema(path) == _MACHINE
     except OSError:
         return False
 
 
-def _schema(path: Path) -> str:
+def _read_schema(path: Path) -> str:
     """Return whether a file says that it is a job or a machine; nothing for any other."""
     with path.open(encoding="utf-8", errors="replace") as file:
         found = _SCHEMA.search(file.read(_HEAD))
@@ -150,7 +150,7 @@ class JobFolder:
 
     def paths(self) -> dict[str, Path]:
         """Return the job files by their keys."""
-        return {self.key(each): each for each in jobs_in(self.path)}
+        return {self.key(each): each for each in find_jobs_in(self.path)}
 
     def key(self, job: Path) -> str:
         """Return what names a job in addresses."""
@@ -169,38 +169,38 @@ class JobFolder:
                 self._known[key][1] if key in self._known else JobRow(key, self._name(path))
                 for key, path in paths.items()
             ]
-        return sorted(_dated(known, self.today()), key=lambda each: (each.state, each.name))
+        return sorted(_date_rows(known, self.today()), key=lambda each: (each.state, each.name))
 
     def _name(self, path: Path) -> str:
         return path.relative_to(self.path).as_posix()
 
     def _is_changed(self, key: str) -> bool:
-        return stamp_of(self._watched[key]) != self._known[key][0]
+        return make_stamp_of(self._watched[key]) != self._known[key][0]
 
     def _look(self, waiting: dict[str, Path]) -> None:
         for key, path in waiting.items():
-            row, files = looked_at(JobRow(key, self._name(path)), path, self.registry)
+            row, files = look_at(JobRow(key, self._name(path)), path, self.registry)
             with self._lock:
                 self._watched[key] = files
-                self._known[key] = stamp_of(files), row
+                self._known[key] = make_stamp_of(files), row
 
 
-def looked_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
+def look_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
     """Return a job with all that its files say, and these files; a job that cannot be evaluated fails."""
     files = [path]
     if is_machine(path):
-        return _machine(row, path, registry)
+        return _describe_machine(row, path, registry)
     try:
         job = load(path, registry)
-        row, files = _described(row, job), _known_paths(job.files)
+        row, files = _describe_row(row, job), _list_known_paths(job.files)
         evaluated: list[Evaluated] = []
         for part in job.parts:
             readings = pipeline.read(part, registry)
-            files += _known_paths(readings.provenance.files)
-            evaluated += pipeline.evaluated(part, readings, registry)
+            files += _list_known_paths(readings.provenance.files)
+            evaluated += pipeline.evaluate_all(part, readings, registry)
         row = replace(row, state=_state(evaluated))
     except ZlmreportError as error:
-        return _failing(row, files, error)
+        return _describe_failing(row, files, error)
     try:
         Bench(path, registry).tried(job)
     except ZlmreportError as error:
@@ -208,19 +208,21 @@ def looked_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tupl
     return row, tuple(dict.fromkeys(files))
 
 
-def _failing(row: JobRow, files: Sequence[Path], error: ZlmreportError) -> tuple[JobRow, tuple[Path, ...]]:
+def _describe_failing(
+    row: JobRow, files: Sequence[Path], error: ZlmreportError
+) -> tuple[JobRow, tuple[Path, ...]]:
     """Return a file that cannot be evaluated, and what is watched: those of its files that are named, too."""
     named = (Path(each.place.file) for each in error.problems)
     problems = tuple(str(each) for each in error.problems)
     return replace(row, state=JobState.FAILS, problems=problems), tuple(dict.fromkeys((*files, *named)))
 
 
-def _machine(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
+def _describe_machine(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[Path, ...]]:
     """Return a machine file with all that it names."""
     try:
-        machine = read_machine(path, registry, results_in)
+        machine = read_machine(path, registry, find_results_in)
     except ZlmreportError as error:
-        return _failing(row, [path], error)
+        return _describe_failing(row, [path], error)
     names = machine.file.keys.machine
     found = replace(
         row,
@@ -229,16 +231,16 @@ def _machine(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple
         machine=" ".join(filter(None, (names.type, names.serial or ""))),
         axis=_WHOLE.given(chain=machine.machine.chain.letters),
     )
-    return found, tuple(dict.fromkeys(_known_paths(machine.sources)))
+    return found, tuple(dict.fromkeys(_list_known_paths(machine.sources)))
 
 
-def _known_paths(files: Sequence[SourceFile]) -> list[Path]:
+def _list_known_paths(files: Sequence[SourceFile]) -> list[Path]:
     return [each.path for each in files if each.path is not None]
 
 
-def _described(row: JobRow, job: Job) -> JobRow:
+def _describe_row(row: JobRow, job: Job) -> JobRow:
     keys = job.keys
-    measured = last_day(keys.measurement)
+    measured = find_last_day(keys.measurement)
     interval = keys.fleet.interval if keys.fleet else None
     return replace(
         row,
@@ -257,7 +259,7 @@ def _state(evaluated: Sequence[Evaluated]) -> JobState:
     return min((_DECIDED.get(each, JobState.FINE) for each in marks), default=JobState.FINE)
 
 
-def _dated(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
+def _date_rows(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
     latest: dict[tuple[str, str], dt.date] = {}
     for each in rows:
         if each.measured:
@@ -268,7 +270,7 @@ def _dated(rows: Sequence[JobRow], today: dt.date) -> Iterator[JobRow]:
         yield each.dated(today, is_latest=is_latest)
 
 
-def row_values(row: JobRow, language: Language) -> dict[str, Any]:
+def collect_row(row: JobRow, language: Language) -> dict[str, Any]:
     """Return a job as a page is told of it."""
     return {
         "key": row.key,

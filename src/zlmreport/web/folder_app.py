@@ -18,12 +18,12 @@ from starlette.types import Receive, Scope, Send
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
 from zlmreport.plugin.registry import Registry
-from zlmreport.web.answers import file, language_of, shell
+from zlmreport.web.answers import answer_with_file, answer_with_shell, find_language_of
 from zlmreport.web.app import Workbench
-from zlmreport.web.folder import JobFolder, is_machine, row_values
+from zlmreport.web.folder import JobFolder, collect_row, is_machine
 from zlmreport.web.guard import Door, DoorKeeper
 from zlmreport.web.machine_app import MachineWorkbench
-from zlmreport.web.texts import texts
+from zlmreport.web.texts import collect_texts
 
 
 @dataclass(slots=True)
@@ -51,7 +51,7 @@ class FolderWorkbench:
         """Return the application behind its guard."""
         routes = [
             Route("/", self.page),
-            Route("/files/{name}", file),
+            Route("/files/{name}", answer_with_file),
             Route("/api/texts", self.texts),
             Route("/api/folder", self.jobs),
             Mount("/jobs/{key}", self.job),
@@ -60,19 +60,19 @@ class FolderWorkbench:
 
     async def page(self, request: HttpRequest) -> Response:
         """Answer with the page of the folder; it fills itself."""
-        return shell(self._language(request), self.folder.path.resolve().name)
+        return answer_with_shell(self._language(request), self.folder.path.resolve().name)
 
     async def texts(self, request: HttpRequest) -> Response:
         """Answer with the words of the page, and that it is one of a folder."""
         return JSONResponse(
-            {**texts(self._language(request)), "folder": str(self.folder.path.resolve().name)}
+            {**collect_texts(self._language(request)), "folder": str(self.folder.path.resolve().name)}
         )
 
     async def jobs(self, request: HttpRequest) -> Response:
         """Answer with the jobs, the worst first."""
 
         def found() -> dict[str, Any]:
-            return {"jobs": [row_values(each, self._language(request)) for each in self.folder.rows()]}
+            return {"jobs": [collect_row(each, self._language(request)) for each in self.folder.rows()]}
 
         try:
             return JSONResponse(await run_in_threadpool(found))
@@ -96,4 +96,4 @@ class FolderWorkbench:
             return self._opened[key][1]
 
     def _language(self, request: HttpRequest) -> Language:
-        return language_of(request) or Language.ENGLISH
+        return find_language_of(request) or Language.ENGLISH

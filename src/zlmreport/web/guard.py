@@ -98,7 +98,7 @@ class DoorKeeper:
             return
         answer: Callable[[Scope, Receive, Send], Awaitable[None]]
         answer = self._refusal(Request(scope)) or self.app
-        await answer(scope, receive, _with_headers(send))
+        await answer(scope, receive, _add_headers(send))
 
     def _refusal(self, request: Request) -> Response | None:
         """Return what stands in the way of a request; the cookie, where it brings the token; else nothing."""
@@ -141,7 +141,7 @@ def _is_short(headers: Headers) -> bool:
     return length.isdecimal() and int(length) <= _LONGEST_BODY
 
 
-def _with_headers(send: Send) -> Send:
+def _add_headers(send: Send) -> Send:
     async def sending(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)

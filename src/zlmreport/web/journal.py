@@ -15,7 +15,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import Appended, unreadable, unwritable
+from zlmreport.files import Appended, make_unreadable, make_unwritable
 
 SUFFIX = ".history.jsonl"
 SCHEMA = "zlmreport/workbench-history/1"
@@ -68,8 +68,8 @@ class BenchJournal:
         except UnicodeDecodeError as error:
             raise AccessError.at(Place(str(self.path)), f"cannot be read: {error}") from error
         except OSError as error:
-            raise unreadable(self.path, error) from error
-        return tuple(found for line in lines if (found := _entry(line)))
+            raise make_unreadable(self.path, error) from error
+        return tuple(found for line in lines if (found := _read_entry(line)))
 
     def append(self, entry: JournalStep) -> None:
         """Write a change behind the others."""
@@ -78,10 +78,10 @@ class BenchJournal:
             with Appended(self.path) as file:
                 file.append(f"{line}\n".encode())
         except OSError as error:
-            raise unwritable(self.path, error) from error
+            raise make_unwritable(self.path, error) from error
 
 
-def entry(
+def make_entry(
     action: str, subject: str, contents: tuple[bytes, bytes], errors: tuple[float, float]
 ) -> JournalStep:
     """Return the record of a change made now: contents of the job and its errors, before and after."""
@@ -98,19 +98,19 @@ def entry(
     )
 
 
-def undoable(entries: Sequence[JournalStep], digest: str) -> JournalStep | None:
+def find_undoable(entries: Sequence[JournalStep], digest: str) -> JournalStep | None:
     """Return the change that an undo would take back; None if the job is not as that change left it."""
-    standing, _ = _stacks(entries)
+    standing, _ = _split_stacks(entries)
     return standing[-1] if standing and standing[-1].after == digest else None
 
 
-def redoable(entries: Sequence[JournalStep], digest: str) -> JournalStep | None:
+def find_redoable(entries: Sequence[JournalStep], digest: str) -> JournalStep | None:
     """Return the undo that a redo would take back; None if the job is not as that undo left it."""
-    _, taken_back = _stacks(entries)
+    _, taken_back = _split_stacks(entries)
     return taken_back[-1] if taken_back and taken_back[-1].after == digest else None
 
 
-def _stacks(entries: Sequence[JournalStep]) -> tuple[list[JournalStep], list[JournalStep]]:
+def _split_stacks(entries: Sequence[JournalStep]) -> tuple[list[JournalStep], list[JournalStep]]:
     """Return the changes that stand, and the undos since the last change: the last of each can be undone."""
     standing: list[JournalStep] = []
     taken_back: list[JournalStep] = []
@@ -127,7 +127,7 @@ def _stacks(entries: Sequence[JournalStep]) -> tuple[list[JournalStep], list[Jou
     return standing, taken_back
 
 
-def _entry(line: str) -> JournalStep | None:
+def _read_entry(line: str) -> JournalStep | None:
     try:
         values = json.loads(line)
         if values.pop("schema") != SCHEMA:

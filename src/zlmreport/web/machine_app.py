@@ -17,14 +17,14 @@ from zlmreport.language import Language
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.answers import PageAnswers
 from zlmreport.web.changes import Request
-from zlmreport.web.commands import Wanted, demanded_formats, made_file
+from zlmreport.web.commands import Wanted, find_made_file, list_demanded_formats
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.guard import Door, DoorKeeper
 from zlmreport.web.machine_bench import MachineBench
 from zlmreport.web.machine_changes import change_machine
 from zlmreport.web.machine_view import MachineView
-from zlmreport.web.making import Making, values
-from zlmreport.web.texts import machine_texts
+from zlmreport.web.making import Making, make_values
+from zlmreport.web.texts import collect_machine_texts
 
 _DIAGNOSING = "zlmreport.web.machine_diagnoses"
 
@@ -42,7 +42,7 @@ class MachineCommands:
         Raises `InputError` if a format is none that the page offered.
         """
         loaded = self.bench.loaded()
-        formats = demanded_formats(wanted, self.bench.registry)
+        formats = list_demanded_formats(wanted, self.bench.registry)
         self.making[name].begin(
             loaded.stamp, "machine", "certificate", str(self.bench.path.resolve()), *formats
         )
@@ -50,7 +50,7 @@ class MachineCommands:
 
     def file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
-        return made_file(self.making, name)
+        return find_made_file(self.making, name)
 
     def end(self) -> None:
         """End all that is under way."""
@@ -82,7 +82,7 @@ class MachineWorkbench(PageAnswers):
         """Return the answers for a machine, whether or not it can be read: the page says what is wrong."""
         bench = MachineBench(path, registry)
         answers = DiagnosesByContent.of_user(registry.circle_effects)
-        commands = MachineCommands(bench, {"certificate": Making(values, plugins)})
+        commands = MachineCommands(bench, {"certificate": Making(make_values, plugins)})
         return cls(bench, Diagnoses(path, answers, plugins, _DIAGNOSING), commands)
 
     def app(self, door: Door) -> DoorKeeper:
@@ -100,7 +100,7 @@ class MachineWorkbench(PageAnswers):
 
     def page_texts(self, language: Language) -> dict[str, str]:
         """Return the words of the page, and that it is one of a machine."""
-        return machine_texts(language)
+        return collect_machine_texts(language)
 
     def viewed(self, language: Language) -> dict[str, Any]:
         """Return the page of the machine."""

@@ -12,13 +12,13 @@ from threading import RLock
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language
 from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
-from zlmreport.machines.diagnosis import rms_of
+from zlmreport.machines.diagnosis import compute_rms_of
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
-from zlmreport.verification.carrier import results_in
-from zlmreport.web.bench import stamp_of
+from zlmreport.verification.carrier import find_results_in
+from zlmreport.web.bench import make_stamp_of
 
 #: Studies that are kept: more than anybody tries in an hour.
 _KEPT = 32
@@ -69,7 +69,7 @@ class MachineBench:
 
     def stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading them."""
-        return stamp_of([self.path, *self._watched])
+        return make_stamp_of([self.path, *self._watched])
 
     def loaded(self) -> LoadedMachine:
         """Return the machine as its files are now.
@@ -81,7 +81,7 @@ class MachineBench:
                 return self._loaded
             self._loaded = None
             try:
-                machine = read_machine(self.path, self.registry, results_in)
+                machine = read_machine(self.path, self.registry, find_results_in)
             except ZlmreportError as error:
                 # Which of them will be mended nobody knows: those of before, and those that are named.
                 named = (Path(each.place.file) for each in error.problems)
@@ -124,7 +124,7 @@ class FallenError:
     rms: float  #: Of all circles together, m.
 
 
-def fall_of(bench: MachineBench, loaded: LoadedMachine) -> tuple[FallenError, ...]:
+def find_fall_of(bench: MachineBench, loaded: LoadedMachine) -> tuple[FallenError, ...]:
     """Return the error of the circles as measured, beside the axes, and after each effect of the model.
 
     Where the bar stands and how long it is belongs to no error: such effects are there from the beginning.
@@ -134,10 +134,10 @@ def fall_of(bench: MachineBench, loaded: LoadedMachine) -> tuple[FallenError, ..
     by_axes = bench.study(loaded, base)
     measured = replace(by_axes, deviation=by_axes.deviation + by_axes.predicted)
     return (
-        FallenError("", rms_of(measured)),
-        FallenError("", rms_of(by_axes)),
+        FallenError("", compute_rms_of(measured)),
+        FallenError("", compute_rms_of(by_axes)),
         *(
-            FallenError(each.identifier, rms_of(bench.study(loaded, (*base, *further[: number + 1]))))
+            FallenError(each.identifier, compute_rms_of(bench.study(loaded, (*base, *further[: number + 1]))))
             for number, each in enumerate(further)
         ),
     )

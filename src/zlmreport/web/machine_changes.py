@@ -6,15 +6,23 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 
 from zlmreport.errors import InputError
-from zlmreport.files import demanded
+from zlmreport.files import demand
 from zlmreport.job.parse import LARGEST
-from zlmreport.machines.diagnosis import rms_of
-from zlmreport.machines.editing import edit_effects, effects_with, effects_without, put_back
+from zlmreport.machines.diagnosis import compute_rms_of
+from zlmreport.machines.editing import edit_effects, list_effects_with, list_effects_without, put_back
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.web.bench import PLACE
 from zlmreport.web.changes import ConflictError, NothingToUndoError, Request
-from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, entry, redoable, undoable
+from zlmreport.web.journal import (
+    REDO,
+    UNDO,
+    BenchJournal,
+    JournalStep,
+    find_redoable,
+    find_undoable,
+    make_entry,
+)
 from zlmreport.web.machine_bench import LoadedMachine, MachineBench
 
 
@@ -31,19 +39,21 @@ def change_machine(bench: MachineBench, request: Request) -> None:
             raise ConflictError
         if request.action not in _ACTIONS:
             raise InputError.at(PLACE, f"a machine has no action {request.action[:60]!r}")
-        before, content = _rms(bench, loaded), demanded(bench.path, LARGEST)
+        before, content = _write_rms(bench, loaded), demand(bench.path, LARGEST)
         subject = _ACTIONS[request.action](bench, loaded, request)
-        after = _rms(bench, bench.loaded())
-        changed = content, demanded(bench.path, LARGEST)
-        BenchJournal.beside(bench.path).append(entry(request.action, subject, changed, (before, after)))
+        after = _write_rms(bench, bench.loaded())
+        changed = content, demand(bench.path, LARGEST)
+        BenchJournal.beside(bench.path).append(make_entry(request.action, subject, changed, (before, after)))
 
 
 def _add(bench: MachineBench, loaded: LoadedMachine, request: Request) -> str:
-    return _write(bench, loaded, request, effects_with(loaded.machine, request.effect, bench.registry, PLACE))
+    return _write(
+        bench, loaded, request, list_effects_with(loaded.machine, request.effect, bench.registry, PLACE)
+    )
 
 
 def _remove(bench: MachineBench, loaded: LoadedMachine, request: Request) -> str:
-    return _write(bench, loaded, request, effects_without(loaded.machine, request.effect))
+    return _write(bench, loaded, request, list_effects_without(loaded.machine, request.effect))
 
 
 def _write(
@@ -56,11 +66,11 @@ def _write(
 
 
 def _undo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(loaded, find_undoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
 
 
 def _redo(bench: MachineBench, loaded: LoadedMachine, _: Request) -> str:
-    return _put_back(loaded, redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
+    return _put_back(loaded, find_redoable(BenchJournal.beside(bench.path).entries(), loaded.digest))
 
 
 def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:
@@ -70,8 +80,8 @@ def _put_back(loaded: LoadedMachine, last: JournalStep | None) -> str:
     return last.subject if last.action in {UNDO, REDO} else f"{last.action} {last.subject}"
 
 
-def _rms(bench: MachineBench, loaded: LoadedMachine) -> float:
-    return MICROMETRE.from_si(rms_of(bench.study(loaded)))
+def _write_rms(bench: MachineBench, loaded: LoadedMachine) -> float:
+    return MICROMETRE.from_si(compute_rms_of(bench.study(loaded)))
 
 
 _ACTIONS: Mapping[str, Callable[[MachineBench, LoadedMachine, Request], str]] = MappingProxyType(

@@ -9,23 +9,23 @@ from typing import Any
 
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import percentage
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, Step, diagnose, rms_of
-from zlmreport.machines.planning import NextRun, next_run
+from zlmreport.language.formatting import write_percentage
+from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, Step, compute_rms_of, diagnose
+from zlmreport.machines.planning import NextRun, plan_next_run
 from zlmreport.machines.subjects.findings import (
-    absence_section,
-    next_words,
-    remedy,
-    verdict_section,
+    lay_out_absence,
+    lay_out_verdict,
+    say_remedy,
+    say_what_is_next,
 )
 from zlmreport.machines.subjects.plan import plan_section
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.plugin.registry import find_plugins
-from zlmreport.web.blocks import all_sections, blocks_values
+from zlmreport.web.blocks import collect_blocks, list_all_sections
 from zlmreport.web.diagnoses import answer_all
 from zlmreport.web.machine_bench import MachineBench
-from zlmreport.web.machine_view import effect_names, parameter_values
+from zlmreport.web.machine_view import collect_parameter, name_effects
 from zlmreport.web.naming import Naming
 
 #: Probability from which on an effect is shown with all that is known of it.
@@ -38,26 +38,28 @@ def answer(bench: MachineBench) -> dict[str, Any]:
         loaded = bench.loaded()
         catalogue = loaded.machine.catalogue
         diagnosis = diagnose(bench.study(loaded), catalogue)
-        planned = next_run(diagnosis, catalogue)
+        planned = plan_next_run(diagnosis, catalogue)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}
     return {
         "content": loaded.content,
-        "diagnosis": {language.value: diagnosis_of(diagnosis, planned, language) for language in Language},
+        "diagnosis": {
+            language.value: collect_diagnosis_of(diagnosis, planned, language) for language in Language
+        },
     }
 
 
-def diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language: Language) -> dict[str, Any]:
+def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language: Language) -> dict[str, Any]:
     """Return a diagnosis in one language, what to do next first."""
     say = Sayer(language)
-    names = effect_names(diagnosis.catalogue, language)
-    verdict, *findings = verdict_section(diagnosis, say).blocks
-    candidates = [_candidate(each, diagnosis, names) for each in diagnosis.candidates]
+    names = name_effects(diagnosis.catalogue, language)
+    verdict, *findings = lay_out_verdict(diagnosis, say).blocks
+    candidates = [_make_candidate(each, diagnosis, names) for each in diagnosis.candidates]
     return {
         "verdict": diagnosis.verdict.value,
         "isTied": diagnosis.is_tied,
-        "next": say(next_words(diagnosis, planned)),
-        "statement": blocks_values([verdict], names)[0]["text"],
+        "next": say(say_what_is_next(diagnosis, planned)),
+        "statement": collect_blocks([verdict], names)[0]["text"],
         #: What of the error no effect takes away, once all that was found is in the model.
         "noise": None
         if diagnosis.is_tied
@@ -65,7 +67,7 @@ def diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language: Langua
             "value": MICROMETRE.from_si(diagnosis.complete.noise.rms),
             "written": say.micrometres(diagnosis.complete.noise.rms),
         },
-        "findings": blocks_values(findings, names),
+        "findings": collect_blocks(findings, names),
         "candidates": candidates,
         "serious": sum(each.probability > _SERIOUS for each in diagnosis.candidates),
         "notExcluded": [],
@@ -74,12 +76,12 @@ def diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language: Langua
             for name in diagnosis.not_testable
         ],
         "remarks": [],
-        "stairs": list(_stairs(diagnosis.steps, names)),
-        "sections": all_sections([absence_section(diagnosis, say), plan_section(planned, say)], names),
+        "stairs": list(_list_stairs(diagnosis.steps, names)),
+        "sections": list_all_sections([lay_out_absence(diagnosis, say), plan_section(planned, say)], names),
     }
 
 
-def _candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, names: Naming) -> dict[str, Any]:
+def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, names: Naming) -> dict[str, Any]:
     effect, say = candidate.effect, Sayer(names.language)
     by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
     equals = candidate.indistinguishable_from
@@ -88,22 +90,22 @@ def _candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, names: N
         "name": names.text(effect.identifier),
         "title": say(effect.title),
         "argument": effect.identifier,
-        "probability": f"{percentage(candidate.probability, names.language.decimal_sign)} %",
+        "probability": f"{write_percentage(candidate.probability, names.language.decimal_sign)} %",
         "share": candidate.probability,
         "plausible": candidate.is_plausible,
         "p": "",
-        "rmsBefore": _written(rms_of(diagnosis.study), say),
-        "rmsAfter": _written(candidate.rms_after, say),
-        "parameters": [parameter_values(each, names.language) for each in candidate.estimates],
+        "rmsBefore": _write_length(compute_rms_of(diagnosis.study), say),
+        "rmsAfter": _write_length(candidate.rms_after, say),
+        "parameters": [collect_parameter(each, names.language) for each in candidate.estimates],
         "explains": say(effect.explains),
         "equals": list(equals),
         "equalNames": [names.text(each) for each in equals],
-        "tell": f"{say(remedy(effect, by_name[equals[0]], diagnosis.study))}." if equals else "",
+        "tell": f"{say(say_remedy(effect, by_name[equals[0]], diagnosis.study))}." if equals else "",
         "remedy": "",
     }
 
 
-def _stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any]]:
+def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any]]:
     """Yield the steps by which the error falls, as a staircase shows them."""
     say = Sayer(names.language)
     largest = max((each.before for each in steps), default=0.0) or 1.0
@@ -113,14 +115,14 @@ def _stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any]]:
             "argument": each.effect,
             "removed": False,
             "name": f"+ {names.text(each.effect)}",
-            "before": _written(each.before, say),
-            "after": _written(each.after, say),
+            "before": _write_length(each.before, say),
+            "after": _write_length(each.after, say),
             "share": each.after / largest,
             "floor": min(1.0, each.noise / largest),
         }
 
 
-def _written(length: float, say: Sayer) -> str:
+def _write_length(length: float, say: Sayer) -> str:
     return f"{say.micrometres(length)} {MICROMETRE.symbol}"
 
 

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.document.subjects.linked import drawn_values
+from zlmreport.document.subjects.linked import collect_drawn_values
 from zlmreport.language import Language, Words, same
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest, StraightTest
-from zlmreport.machines.residual import Stretch, centred
-from zlmreport.machines.subjects.tests import circle_figure, line_figure, title_of
+from zlmreport.machines.residual import Stretch, centre
+from zlmreport.machines.subjects.tests import draw_circle, draw_line, write_title_of
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.circle_design import AXES
@@ -22,17 +22,17 @@ _MOST = 3000
 _TURN = 2.0 * np.pi
 
 
-def graph_values(found: ComparedTest, language: Language) -> dict[str, Any]:
+def collect_graph(found: ComparedTest, language: Language) -> dict[str, Any]:
     """Return a test as both graphs draw it, in µm: measured, by axes and effects, what is left."""
     sides = _Sides(found)
     drawn = sides.drawn
-    figure = circle_figure(found) if sides.is_circle else line_figure(found)
+    figure = draw_circle(found) if sides.is_circle else draw_line(found)
     unit = MICROMETRE
     return {
         "test": found.name,
         "kind": "circle" if sides.is_circle else "line",
-        "title": title_of(found.test).in_language(language),
-        "axes": [_axis(*each, language) for each in sides.axes()],
+        "title": write_title_of(found.test).in_language(language),
+        "axes": [_make_axis(*each, language) for each in sides.axes()],
         "arrows": ["↻", "↺"] if sides.is_circle else ["↓", "↑"],
         "unit": unit.symbol,
         "deviation": figure.y_title.in_language(language),
@@ -41,17 +41,17 @@ def graph_values(found: ComparedTest, language: Language) -> dict[str, Any]:
             "place": drawn.tolist(),
             "direction": sides.way[drawn].astype(int).tolist(),
             "run": sides.run[drawn].tolist(),
-            "deviation": drawn_values(unit.from_si(sides.shown(found.test.deviation)[drawn])),
-            "residual": drawn_values(unit.from_si(sides.shown(found.left)[drawn])),
+            "deviation": collect_drawn_values(unit.from_si(sides.shown(found.test.deviation)[drawn])),
+            "residual": collect_drawn_values(unit.from_si(sides.shown(found.left)[drawn])),
             "fitted": [True] * len(drawn),
         },
-        "model": model_values(found),
+        "model": collect_model(found),
         "noise": None,
         "alternative": figure.alternative.in_language(language),
     }
 
 
-def model_values(found: ComparedTest) -> list[dict[str, Any]]:
+def collect_model(found: ComparedTest) -> list[dict[str, Any]]:
     """Return what axes and effects make of a test in each direction, with the band of the axes."""
     sides = _Sides(found)
     model = sides.shown(found.test.deviation) - sides.shown(found.left)
@@ -66,23 +66,23 @@ def model_values(found: ComparedTest) -> list[dict[str, Any]]:
         curves.append(
             {
                 "direction": way,
-                "x": drawn_values(sides.place[own]),
-                "y": drawn_values(MICROMETRE.from_si(model[own])),
-                "low": drawn_values(MICROMETRE.from_si(model[own] - u[own])),
-                "high": drawn_values(MICROMETRE.from_si(model[own] + u[own])),
+                "x": collect_drawn_values(sides.place[own]),
+                "y": collect_drawn_values(MICROMETRE.from_si(model[own])),
+                "low": collect_drawn_values(MICROMETRE.from_si(model[own] - u[own])),
+                "high": collect_drawn_values(MICROMETRE.from_si(model[own] + u[own])),
                 "reach": False,
             }
         )
     return curves
 
 
-def residual_values(found: ComparedTest) -> list[float | None]:
+def collect_residuals(found: ComparedTest) -> list[float | None]:
     """Return what is left at each reading that is drawn, µm."""
     sides = _Sides(found)
-    return drawn_values(MICROMETRE.from_si(sides.shown(found.left)[sides.drawn]))
+    return collect_drawn_values(MICROMETRE.from_si(sides.shown(found.left)[sides.drawn]))
 
 
-def readings_of(stretch: Stretch, found: ComparedTest) -> list[int]:
+def find_readings_of(stretch: Stretch, found: ComparedTest) -> list[int]:
     """Return the drawn readings of a stretch, by their places."""
     sides = _Sides(found)
     test, drawn = found.test, sides.drawn
@@ -117,7 +117,7 @@ class _Sides:
     def shown(self, values: FloatArray) -> FloatArray:
         """Return values as a page shows them: without centre and radius, or without the mean."""
         test = self.test
-        return centred(test, values) if isinstance(test, CircularTest) else values - values.mean()
+        return centre(test, values) if isinstance(test, CircularTest) else values - values.mean()
 
     def axes(self) -> Iterator[tuple[str, Words, str, FloatArray]]:
         """Yield all over which the readings can be laid out: key, title, unit, values."""
@@ -139,8 +139,13 @@ class _Sides:
         yield "direction", _SENSE, "", self.way[drawn]
 
 
-def _axis(key: str, title: Words, unit: str, values: FloatArray, language: Language) -> dict[str, Any]:
-    return {"key": key, "title": title.in_language(language), "unit": unit, "values": drawn_values(values)}
+def _make_axis(key: str, title: Words, unit: str, values: FloatArray, language: Language) -> dict[str, Any]:
+    return {
+        "key": key,
+        "title": title.in_language(language),
+        "unit": unit,
+        "values": collect_drawn_values(values),
+    }
 
 
 _ANGLE, _PLACE = Words("Angle"), Words("Place on the line")

@@ -10,30 +10,35 @@ from zlmreport.document.blocks import Section
 from zlmreport.document.writer import NOTHING
 from zlmreport.errors import InputError
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import rounded_pair
+from zlmreport.language.formatting import round_pair
 from zlmreport.machines.comparison import ComparedTest
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.diagnosis import rms_of
-from zlmreport.machines.editing import effects_with
+from zlmreport.machines.diagnosis import compute_rms_of
+from zlmreport.machines.editing import list_effects_with
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
-from zlmreport.machines.subjects.axes import error_section, space_section
+from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
 from zlmreport.machines.subjects.saying import Sayer
-from zlmreport.machines.subjects.tests import failure_notice, sizes_table, stretch_in_words, test_section
+from zlmreport.machines.subjects.tests import (
+    describe_stretch,
+    lay_out_sizes,
+    make_failure_notice,
+    test_section,
+)
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.web.bench import PLACE
-from zlmreport.web.blocks import all_sections, blocks_values
-from zlmreport.web.journal import REDO, UNDO, BenchJournal, redoable, undoable
-from zlmreport.web.machine_bench import LoadedMachine, MachineBench, fall_of
-from zlmreport.web.machine_graphs import graph_values, model_values, readings_of, residual_values
+from zlmreport.web.blocks import collect_blocks, list_all_sections
+from zlmreport.web.journal import REDO, UNDO, BenchJournal, find_redoable, find_undoable
+from zlmreport.web.machine_bench import LoadedMachine, MachineBench, find_fall_of
+from zlmreport.web.machine_graphs import collect_graph, collect_model, collect_residuals, find_readings_of
 from zlmreport.web.naming import Naming
-from zlmreport.web.panels import symbol
-from zlmreport.web.view import SHOWN, done_by, step
+from zlmreport.web.panels import split_symbol
+from zlmreport.web.view import SHOWN, say_done_by, step
 
 _MOST_FAILURES = 3
 
 
-def effect_names(effects: Iterable[CircleEffect], language: Language) -> Naming:
+def name_effects(effects: Iterable[CircleEffect], language: Language) -> Naming:
     """Return what a page calls effects on circles."""
     return Naming(language, {each.identifier: each.title.in_language(language) for each in effects}, {})
 
@@ -54,7 +59,7 @@ class MachineView:
     @property
     def names(self) -> Naming:
         """What effects are called."""
-        return effect_names(self.loaded.machine.catalogue, self.language)
+        return name_effects(self.loaded.machine.catalogue, self.language)
 
     @property
     def study(self) -> CircleStudy | None:
@@ -65,7 +70,7 @@ class MachineView:
         """Return what is shown at once: tests with their graphs, effects, what was done."""
         loaded, machine, names = self.loaded, self.loaded.machine, self.names
         entries = BenchJournal.beside(self.bench.path).entries()
-        back = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
+        back = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
         study = self.study
         compared = self.bench.compared(loaded, study)
         keys = machine.file.keys
@@ -80,7 +85,7 @@ class MachineView:
                 )
             ).lstrip(", "),
             "file": self.bench.path.name,
-            "tests": [graph_values(each, self.language) for each in compared],
+            "tests": [collect_graph(each, self.language) for each in compared],
             "failures": list(self._failures(compared)),
             "error": list(self._error(study)),
             "effects": [self._effect(each.effect, study) for each in study.effects] if study else [],
@@ -102,7 +107,7 @@ class MachineView:
             "asked": [],
             "steps": [step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
             **{
-                name: None if each is None else names.text(self.say(done_by(each)))
+                name: None if each is None else names.text(self.say(say_done_by(each)))
                 for name, each in zip((UNDO, REDO), back, strict=True)
             },
         }
@@ -111,16 +116,16 @@ class MachineView:
         """Return what takes longer: the fall of the error, each test in numbers, errors and work space."""
         machine, names, study = self.loaded.machine, self.names, self.study
         compared = self.bench.compared(self.loaded, study)
-        sizes = sizes_table(compared, self.say)
+        sizes = lay_out_sizes(compared, self.say)
         return {
             "stamp": self.loaded.stamp,
             "fall": self._fall() if study else None,
-            "sizes": blocks_values([sizes], names)[0],
+            "sizes": collect_blocks([sizes], names)[0],
             "tests": {each.name: self._test(each) for each in compared},
-            "sections": all_sections(
+            "sections": list_all_sections(
                 [
-                    space_section(machine.machine, self.say),
-                    error_section(machine.machine, self.say, is_full=True),
+                    lay_out_space(machine.machine, self.say),
+                    lay_out_errors(machine.machine, self.say, is_full=True),
                 ],
                 names,
             ),
@@ -141,7 +146,7 @@ class MachineView:
         return {
             "stamp": self.loaded.stamp,
             **{
-                name: {"model": model_values(own), "residual": residual_values(own)}
+                name: {"model": collect_model(own), "residual": collect_residuals(own)}
                 for name, compared in zip(("before", "after"), drawn, strict=True)
                 for own in compared
                 if own.name == test
@@ -157,33 +162,33 @@ class MachineView:
             count = int(wanted) - 1
             parts = (base + further[: count - 1], base + further[:count])
         else:
-            parts = (machine.effects, effects_with(machine, wanted, bench.registry, PLACE))
+            parts = (machine.effects, list_effects_with(machine, wanted, bench.registry, PLACE))
         before, after = (bench.study(self.loaded, each) for each in parts)
         return before, after
 
     def _failures(self, compared: Sequence[ComparedTest]) -> Iterator[dict[str, Any]]:
         for each in compared:
             for stretch in each.fails[:_MOST_FAILURES]:
-                said = stretch_in_words(stretch, is_circle=isinstance(each.test, CircularTest))
+                said = describe_stretch(stretch, is_circle=isinstance(each.test, CircularTest))
                 yield {
                     "test": each.name,
                     "statement": self.say(said),
                     "where": each.name if len(compared) > 1 else "",
                     "p": "",
                     "axis": "position",
-                    "readings": readings_of(stretch, each),
+                    "readings": find_readings_of(stretch, each),
                 }
 
     def _test(self, found: ComparedTest) -> list[dict[str, Any]]:
         """Return a test in numbers, but for where it fails, which the page says elsewhere."""
         section: Section = test_section(found, self.say)
-        elsewhere = failure_notice([found], self.say)
-        return blocks_values((each for each in section.blocks if each != elsewhere), self.names)
+        elsewhere = make_failure_notice([found], self.say)
+        return collect_blocks((each for each in section.blocks if each != elsewhere), self.names)
 
     def _error(self, study: CircleStudy | None) -> Iterator[dict[str, str]]:
         if study is None:
             return
-        written = f"{self.say.micrometres(rms_of(study))} {MICROMETRE.symbol}"
+        written = f"{self.say.micrometres(compute_rms_of(study))} {MICROMETRE.symbol}"
         yield {"name": self.say(_ERROR), "value": written, "meaning": self.say(_ERROR_IS)}
 
     def _effect(self, effect: CircleEffect, study: CircleStudy) -> dict[str, Any]:
@@ -191,14 +196,14 @@ class MachineView:
             "effect": effect.identifier,
             "name": self.names.text(effect.identifier),
             "title": self.say(effect.title),
-            "equation": symbol(effect.equation),
+            "equation": split_symbol(effect.equation),
             "parameters": [
-                parameter_values(each, self.language) for each in study.estimates_of(effect.identifier)
+                collect_parameter(each, self.language) for each in study.estimates_of(effect.identifier)
             ],
         }
 
     def _fall(self) -> dict[str, Any]:
-        rows = fall_of(self.bench, self.loaded)
+        rows = find_fall_of(self.bench, self.loaded)
         largest = max(each.rms for each in rows) or 1.0
         names = self.names
         called = [self.say(_MEASURED), self.say(_BY_AXES), *(names.text(each.effect) for each in rows[2:])]
@@ -219,12 +224,12 @@ class MachineView:
         }
 
 
-def parameter_values(term: EstimatedTerm, language: Language) -> dict[str, Any]:
+def collect_parameter(term: EstimatedTerm, language: Language) -> dict[str, Any]:
     """Return a parameter as a page shows it."""
     say, u = Sayer(language), term.expanded_uncertainty
     value, uncertainty = say.general(term.unit.from_si(term.value)), ""
     if u is not None:
-        pair = rounded_pair(term.unit.from_si(term.value), term.unit.from_si(u), language.decimal_sign)
+        pair = round_pair(term.unit.from_si(term.value), term.unit.from_si(u), language.decimal_sign)
         value, uncertainty = pair
     return {
         "name": term.name,

@@ -46,7 +46,7 @@ class CommandResult:
         return sheet | {each.name: each for each in self.files if each.suffix == _PDF}
 
 
-def documents(output: str, complaints: str) -> CommandResult:
+def make_documents(output: str, complaints: str) -> CommandResult:
     """Return what ``zlmreport JOB.yaml [SHEET.yaml] --json`` came to, by what it printed.
 
     A sheet that does not hold the certificate is none.
@@ -54,22 +54,22 @@ def documents(output: str, complaints: str) -> CommandResult:
     try:
         job, *sheets = json.loads(output)["jobs"]
     except (ValueError, KeyError, TypeError):
-        return CommandResult(problems=_lines(complaints))
+        return CommandResult(problems=_list_lines(complaints))
     problems = (f"{each['file']}:{each['line']}: {each['message']}" for each in job["problems"])
     sheet = next((Path(name) for each in sheets for name in each["files"] if name.endswith(_PDF)), None)
     return CommandResult(tuple(map(Path, job["files"])), tuple(problems), sheet=sheet)
 
 
-def values(output: str, complaints: str) -> CommandResult:
+def make_values(output: str, complaints: str) -> CommandResult:
     """Return what another command came to, by the values that it printed; what it wrote is among them."""
     try:
         found = json.loads(output)
     except ValueError:
-        return CommandResult(problems=_lines(complaints))
+        return CommandResult(problems=_list_lines(complaints))
     return CommandResult(tuple(map(Path, found.get("files", ()))), (), found)
 
 
-def _lines(complaints: str) -> tuple[str, ...]:
+def _list_lines(complaints: str) -> tuple[str, ...]:
     return tuple(complaints.splitlines()) or (_ENDED,)
 
 
@@ -118,7 +118,7 @@ class Making:
             return {
                 "state": "failed" if made.problems else "made",
                 "files": sorted(each.name for each in made.files),
-                "pages": {name: page_count(path) for name, path in made.pages().items()},
+                "pages": {name: count_pages(path) for name, path in made.pages().items()},
                 "problems": list(made.problems),
                 "values": made.values,
                 "stamp": self._stamp,
@@ -147,7 +147,7 @@ class Making:
             self._made = self.read(output, complaints)
 
 
-def page_picture(path: Path, number: int) -> bytes | None:
+def draw_page(path: Path, number: int) -> bytes | None:
     """Return a page of a PDF as PNG, counted from 1; None where there is no such page."""
     with _ONE_AT_A_TIME, pypdfium2.PdfDocument(path) as document:
         if not 0 < number <= len(document):
@@ -157,7 +157,7 @@ def page_picture(path: Path, number: int) -> bytes | None:
         return content.getvalue()
 
 
-def page_count(path: Path) -> int:
+def count_pages(path: Path) -> int:
     """Return how many pages a PDF has."""
     with _ONE_AT_A_TIME, pypdfium2.PdfDocument(path) as document:
         return len(document)

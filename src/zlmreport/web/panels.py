@@ -17,17 +17,17 @@ from zlmreport.document.subjects.fit import (
     LEFT_OUT,
     RMS,
     ParameterRow,
-    deviation,
-    error_facts,
-    parameter_rows,
+    list_error_facts,
+    make_parameter_rows,
+    write_deviation,
 )
-from zlmreport.document.writer import NOTHING, Writer, written
+from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.evaluation.evaluation import Parameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import spans
-from zlmreport.model.compensation.basis import FittedModel, compensated
-from zlmreport.model.diagnosis.study import Fitted, corrected
+from zlmreport.language.formatting import split_spans
+from zlmreport.model.compensation.basis import FittedModel, compensate_readings
+from zlmreport.model.diagnosis.study import Fitted, correct_by_model
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.plugin.registry import Registry
@@ -63,7 +63,7 @@ class Panels:
     @property
     def naming(self) -> Naming:
         """What effects are called."""
-        return naming(self.whole, self.registry.effects, self.language)
+        return make_naming(self.whole, self.registry.effects, self.language)
 
     def say(self, words: Words) -> str:
         """Return words in the language of the page."""
@@ -76,8 +76,8 @@ class Panels:
             for name, key in ((RMS, "errorIs"), (FLOOR, "noiseFloorIs"), (LEFT_OUT, "leftOutIs"))
         }
         chi2 = self.say(_CHI2_IS)
-        facts = error_facts(self.whole.error, self.design.axis, self.language)
-        return [each | {"meaning": meanings.get(each["name"], chi2)} for each in error_values(facts)]
+        facts = list_error_facts(self.whole.error, self.design.axis, self.language)
+        return [each | {"meaning": meanings.get(each["name"], chi2)} for each in collect_errors(facts)]
 
     def effects(self) -> list[dict[str, Any]]:
         """Return the effects of the model with their parameters."""
@@ -87,10 +87,10 @@ class Panels:
                 "effect": term.effect.identifier,
                 "name": names.text(term.effect.identifier),
                 "title": self.say(term.effect.title),
-                "equation": symbol(term.effect.equation),
+                "equation": split_symbol(term.effect.equation),
                 "parameters": [
-                    parameter_values(each) | {"fixed": each.name in term.fixed}
-                    for each in parameter_rows(fit, self.language)
+                    collect_parameter(each) | {"fixed": each.name in term.fixed}
+                    for each in make_parameter_rows(fit, self.language)
                     if each.effect == term.effect.identifier
                 ],
             }
@@ -140,13 +140,13 @@ class Panels:
         """
         study, whole = self.loaded.study, self.whole.fit
         tests = [
-            compensated(FittedModel(study.measurements, study.observed, whole)),
-            corrected(study.measurements, study.observed, whole),
+            compensate_readings(FittedModel(study.measurements, study.observed, whole)),
+            correct_by_model(study.measurements, study.observed, whole),
         ]
         statistics = position_statistics(np.stack([test.deviations() for test in tests]))
         found = []
         for (standard, options), evaluated in zip(
-            pipeline.standards(self.loaded.job, self.registry), results, strict=True
+            pipeline.choose_standards(self.loaded.job, self.registry), results, strict=True
         ):
             forecast = standard.arithmetic(statistics, options).parameters
             parameters = evaluated.evaluation.parameters
@@ -178,15 +178,15 @@ class Panels:
         ]
 
     def _deviation(self, value: float | None) -> str:
-        return deviation(value, self.design.axis, self.language)
+        return write_deviation(value, self.design.axis, self.language)
 
     def _row(self, parameter: Parameter, forecast: Any) -> dict[str, Any]:
         writer, quantity = self.writer, parameter.quantity
-        value, uncertainty = written(parameter, writer)
+        value, uncertainty = write_with_uncertainty(parameter, writer)
         by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)
         decision = parameter.decision
         return {
-            "symbol": symbol(quantity.notation),
+            "symbol": split_symbol(quantity.notation),
             "name": self.say(quantity.name),
             "value": value,
             "uncertainty": "" if uncertainty == NOTHING else uncertainty,
@@ -198,21 +198,21 @@ class Panels:
         }
 
 
-def naming(whole: Fitted, installed: Iterable[Effect], language: Language) -> Naming:
+def make_naming(whole: Fitted, installed: Iterable[Effect], language: Language) -> Naming:
     """Return what effects are called: those that are installed, and those of the model."""
     return Naming.of((*installed, *(term.effect for term in whole.fit.model.terms)), language)
 
 
-def error_values(facts: Facts) -> list[dict[str, str]]:
+def collect_errors(facts: Facts) -> list[dict[str, str]]:
     """Return how far model and readings are apart: name and value."""
     return [{"name": name, "value": value} for name, value in facts.pairs]
 
 
-def parameter_values(row: ParameterRow) -> dict[str, Any]:
+def collect_parameter(row: ParameterRow) -> dict[str, Any]:
     """Return a parameter as a page shows it."""
     return {
         "name": row.name,
-        "symbol": symbol(row.notation),
+        "symbol": split_symbol(row.notation),
         "description": row.description,
         "value": row.value,
         "number": row.number,
@@ -225,6 +225,6 @@ def parameter_values(row: ParameterRow) -> dict[str, Any]:
     }
 
 
-def symbol(notation: str) -> list[dict[str, Any]]:
+def split_symbol(notation: str) -> list[dict[str, Any]]:
     """Return a notation as stretches that are set alike."""
-    return [asdict(each) for each in spans(notation)]
+    return [asdict(each) for each in split_spans(notation)]

@@ -9,7 +9,7 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from zlmreport.document.subjects.fit import deviation
+from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.job import Job
 from zlmreport.language import Language
@@ -17,24 +17,24 @@ from zlmreport.plugin.registry import Registry
 from zlmreport.web.naming import Naming
 
 
-def stairs(
+def make_stairs(
     steps: Sequence[Mapping[str, Any]], job: Job, registry: Registry, names: Naming
 ) -> list[dict[str, Any]]:
     """Return the steps of a build as a page shows them.
 
     `steps`: As ``zlmreport model build --json`` has them, errors in the unit of the job's deviations.
     """
-    return list(_stairs(steps, job, registry, names))
+    return list(_list_stairs(steps, job, registry, names))
 
 
-def _stairs(
+def _list_stairs(
     steps: Sequence[Mapping[str, Any]], job: Job, registry: Registry, names: Naming
 ) -> Iterator[dict[str, Any]]:
     unit, language = job.axis.deviation_unit, names.language
     largest = max((each["rms_before"] for each in steps), default=0.0) or 1.0
 
     def written(value: float | None) -> str:
-        number = deviation(None if value is None else unit.to_si(value), job.axis, language)
+        number = write_deviation(None if value is None else unit.to_si(value), job.axis, language)
         return f"{number} {unit.symbol}"
 
     for each in steps:
@@ -42,7 +42,7 @@ def _stairs(
         noise = each["noise_rms"]
         yield {
             "effect": each["effect"],
-            "argument": _argument(each["effect"], each["settings"], job, registry),
+            "argument": _write_argument(each["effect"], each["settings"], job, registry),
             "removed": removed,
             "name": f"{'−' if removed else '+'} {names.text(each['effect'])}",
             "before": written(each["rms_before"]),
@@ -52,7 +52,7 @@ def _stairs(
         }
 
 
-def _argument(effect: str, settings: Mapping[str, Any], job: Job, registry: Registry) -> str:
+def _write_argument(effect: str, settings: Mapping[str, Any], job: Job, registry: Registry) -> str:
     """Return an effect as a job names it: a formula of its candidates by name, else with unusual keys."""
     if effect in {each.identifier for each in job.candidates}:
         return effect
@@ -64,9 +64,9 @@ def _argument(effect: str, settings: Mapping[str, Any], job: Job, registry: Regi
     return f"{effect}: {json.dumps(unusual)}" if unusual else effect
 
 
-def with_stairs(state: dict[str, Any], job: Job, registry: Registry, language: Language) -> dict[str, Any]:
+def add_stairs(state: dict[str, Any], job: Job, registry: Registry, language: Language) -> dict[str, Any]:
     """Return the state of a build with its staircase; any other state as it is."""
     steps = state.get("values", {}).get("steps")
     if steps is None:
         return state
-    return {**state, "stairs": stairs(steps, job, registry, Naming.of(registry.effects, language))}
+    return {**state, "stairs": make_stairs(steps, job, registry, Naming.of(registry.effects, language))}

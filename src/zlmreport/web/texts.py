@@ -232,12 +232,12 @@ MACHINE_TEXTS: Mapping[str, Words] = MappingProxyType(
 )
 
 
-def machine_texts(language: Language) -> dict[str, str]:
+def collect_machine_texts(language: Language) -> dict[str, str]:
     """Return all words of the page of a machine in one language, and that it is one."""
     own = {name: words.in_language(language) for name, words in MACHINE_TEXTS.items()}
-    return {**texts(language), **own, "machine": "machine"}
+    return {**collect_texts(language), **own, "machine": "machine"}
 
 
-def texts(language: Language) -> dict[str, str]:
+def collect_texts(language: Language) -> dict[str, str]:
     """Return all of them in one language."""
     return {name: words.in_language(language) for name, words in TEXTS.items()}

@@ -7,22 +7,22 @@ from typing import Any
 
 from zlmreport.document.figures.model_diagram import ModelDiagram
 from zlmreport.document.subjects.diagnosis import CandidateRow, DiagnosisRows
-from zlmreport.document.subjects.fit import no_table_takes_away
-from zlmreport.document.subjects.linked import failure_values, graphs, model_curves
+from zlmreport.document.subjects.fit import say_no_table_takes_away
+from zlmreport.document.subjects.linked import collect_failure, collect_graphs, collect_model_curves
 from zlmreport.errors import InputError
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words, same
-from zlmreport.model.diagnosis.asking import lengths_asked
+from zlmreport.model.diagnosis.asking import list_lengths_asked
 from zlmreport.model.diagnosis.diagnosis import Diagnosis
 from zlmreport.model.diagnosis.faults import DataFault
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.effect import Effect
-from zlmreport.web.asked import field_values, lacking
+from zlmreport.web.asked import collect_field, list_what_is_lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
-from zlmreport.web.commands import offered
-from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, redoable, undoable
+from zlmreport.web.commands import list_offered
+from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, find_redoable, find_undoable
 from zlmreport.web.naming import Naming
-from zlmreport.web.panels import Panels, error_values, parameter_values
+from zlmreport.web.panels import Panels, collect_errors, collect_parameter
 
 _READING = Words("{target} {arrow}, run {run}")
 _ARROWS = {"+": "↑", "-": "↓"}
@@ -41,25 +41,25 @@ _STEPS = {
 SHOWN = 30
 
 
-def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
+def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return the page of a job."""
     whole = bench.whole(loaded)
     panels = Panels(loaded, bench.registry, whole, language)
     names = panels.naming
     entries = BenchJournal.beside(bench.path).entries()
-    steps = undoable(entries, loaded.digest), redoable(entries, loaded.digest)
+    steps = find_undoable(entries, loaded.digest), find_redoable(entries, loaded.digest)
     return {
         "stamp": loaded.stamp,
         "digest": loaded.digest,
         "number": loaded.job.keys.certificate.number,
-        "subject": _subject(loaded.job, language),
+        "subject": _name_subject(loaded.job, language),
         "file": bench.path.name,
-        "graphs": graphs(loaded.study, whole, language),
+        "graphs": collect_graphs(loaded.study, whole, language),
         "error": panels.error(),
         "effects": panels.effects(),
         "others": panels.others(),
         "excluded": panels.excluded(),
-        "offered": offered(bench, loaded, language),
+        "offered": list_offered(bench, loaded, language),
         "steps": [step(each, language, names) for each in reversed(entries[-SHOWN:])],
         "asked": [
             {
@@ -69,30 +69,30 @@ def view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
                 "effects": list(each.effects),
                 "names": [names.text(effect) for effect in each.effects],
             }
-            for each in lengths_asked(
+            for each in list_lengths_asked(
                 loaded.study.observed.design, loaded.study.model.identifiers, bench.registry.effects
             )
         ],
         **{
-            name: None if entry is None else names.text(done_by(entry).in_language(language))
+            name: None if entry is None else names.text(say_done_by(entry).in_language(language))
             for name, entry in zip((UNDO, REDO), steps, strict=True)
         },
     }
 
 
-def results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
+def make_results(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any]:
     """Return what takes longer than the graphs: how the error fell, and what the standards say."""
     panels = Panels(loaded, bench.registry, bench.whole(loaded), language)
     return {
         "stamp": loaded.stamp,
         "fall": panels.fall(bench.history(loaded)),
         "standards": panels.standards(bench.evaluated(loaded)),
-        "moving": no_table_takes_away(panels.whole.fit, language),
-        "lacking": [field_values(each, language) for each in lacking(loaded, bench.registry)],
+        "moving": say_no_table_takes_away(panels.whole.fit, language),
+        "lacking": [collect_field(each, language) for each in list_what_is_lacking(loaded, bench.registry)],
     }
 
 
-def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language) -> dict[str, Any]:
+def collect_before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language) -> dict[str, Any]:
     """Return what the graphs draw before and after a step of the model.
 
     `step`: The number of an effect of the model, from 1; or an effect that is not in it, as a job names it.
@@ -104,14 +104,14 @@ def before_and_after(bench: Bench, loaded: Loaded, step: str, language: Language
         fits = history[int(step) - 1], history[int(step)]
     else:
         fits = history[-1], bench.with_effect(loaded, step)
-    drawn = (graphs(loaded.study, each, language) for each in fits)
+    drawn = (collect_graphs(loaded.study, each, language) for each in fits)
     return {
         name: {"model": each["model"], "residual": each["readings"]["residual"]}
         for name, each in zip(("before", "after"), drawn, strict=True)
     }
 
 
-def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str, Any]:
+def collect_closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str, Any]:
     """Return the curves of the model on a part of the travel, as finely as that part needs.
 
     `ends`: Of the part: positions in the unit of the page.
@@ -123,18 +123,21 @@ def closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> dict[str,
     low, high = (min(max(unit.to_si(each), first), last) for each in ends)
     if not low < high:
         raise InputError.at(PLACE, "nothing was measured there")
-    return {"stamp": loaded.stamp, "model": model_curves(ModelDiagram(whole.fit, whole.error, (low, high)))}
+    return {
+        "stamp": loaded.stamp,
+        "model": collect_model_curves(ModelDiagram(whole.fit, whole.error, (low, high))),
+    }
 
 
 def step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
-    words = done_by(entry)
+    words = say_done_by(entry)
     if entry.action in {UNDO, REDO}:
         words = _STEPS[entry.action].given(subject=words)
     return {"at": entry.at[11:19], "text": names.text(words.in_language(language))}
 
 
-def done_by(entry: JournalStep) -> Words:
+def say_done_by(entry: JournalStep) -> Words:
     """Return what a step did; of one that took another back or brought it back, what that did."""
     action, subject = entry.action, entry.subject
     if action in {UNDO, REDO}:
@@ -148,13 +151,13 @@ def done_by(entry: JournalStep) -> Words:
     return _STEPS.get(action, same("{subject}")).given(subject=named)
 
 
-def _subject(job: Job, language: Language) -> str:
+def _name_subject(job: Job, language: Language) -> str:
     machine = job.keys.machine
     parts = (job.axis.heading.in_language(language), machine.type, machine.serial)
     return ", ".join(part for part in parts if part)
 
 
-def diagnosed(
+def collect_diagnosed(
     diagnosis: Diagnosis, study: Study, effects: Sequence[Effect], language: Language
 ) -> dict[str, Any]:
     """Return a diagnosis in one language."""
@@ -163,9 +166,9 @@ def diagnosed(
     return {
         "verdict": diagnosis.verdict.value,
         "statement": names.text(rows.statement),
-        "failures": [failure_values(each, diagnosis, study) for each in rows.failures],
-        "faults": [_fault(each, study, language) for each in diagnosis.faults],
-        "candidates": [_candidate(each, rows, names) for each in rows.candidates],
+        "failures": [collect_failure(each, diagnosis, study) for each in rows.failures],
+        "faults": [_describe_fault(each, study, language) for each in diagnosis.faults],
+        "candidates": [_make_candidate(each, rows, names) for each in rows.candidates],
         "serious": sum(each.is_serious for each in rows.candidates),
         "hidden": [
             {
@@ -181,7 +184,7 @@ def diagnosed(
     }
 
 
-def _fault(fault: DataFault, study: Study, language: Language) -> dict[str, Any]:
+def _describe_fault(fault: DataFault, study: Study, language: Language) -> dict[str, Any]:
     """Return what looks wrong in the data, with the places of the readings of its run."""
     observed = study.observed
     of_run = observed.design.run == (-1 if fault.run is None else fault.run)
@@ -192,7 +195,7 @@ def _fault(fault: DataFault, study: Study, language: Language) -> dict[str, Any]
     }
 
 
-def _candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) -> dict[str, Any]:
+def _make_candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) -> dict[str, Any]:
     return {
         "effect": row.effect,
         "name": names.text(row.effect),
@@ -204,8 +207,8 @@ def _candidate(row: CandidateRow, diagnosed: DiagnosisRows, names: Naming) -> di
         "p": row.p,
         "rmsBefore": diagnosed.error.pairs[0][1],
         "rmsAfter": row.error.pairs[0][1],
-        "error": error_values(row.error),
-        "parameters": [parameter_values(each) for each in row.parameters],
+        "error": collect_errors(row.error),
+        "parameters": [collect_parameter(each) for each in row.parameters],
         "explains": names.text(row.explains),
         "equals": list(row.equals),
         "equalNames": [names.text(each) for each in row.equals],

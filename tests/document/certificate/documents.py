@@ -25,7 +25,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.plugin.registry import Registry, find_plugins
 
 ROOT = Path(__file__).parents[3]
@@ -120,7 +120,7 @@ def lines_of(block: Block) -> list[str]:
         case Formulas(caption, rows):
             return [
                 caption,
-                *(f"  {plain(s.notation)} = {plain(f.notation)} ({name})" for s, f, name in rows),
+                *(f"  {write_plain(s.notation)} = {write_plain(f.notation)} ({name})" for s, f, name in rows),
             ]
         case Table(caption, columns, groups):
             head = " | ".join(_cell(column.heading) + f" {column.unit}".rstrip() for column in columns)
@@ -142,7 +142,7 @@ def lines_of(block: Block) -> list[str]:
 def _cell(cell: Cell) -> str:
     match cell:
         case Symbol(notation):
-            return plain(notation)
+            return write_plain(notation)
         case Verdict(_, word):
             return word
         case _:

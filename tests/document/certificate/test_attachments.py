@@ -16,10 +16,10 @@ from zlmreport.document.certificate.attachments import (
     Relationship,
     Source,
     SourceRole,
-    arranged,
-    media_type,
-    source_attachments,
-    sources,
+    arrange_attachments,
+    attach_sources,
+    find_media_type,
+    list_sources,
 )
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
@@ -70,7 +70,7 @@ def test_further_tests_and_what_earlier_ones_taught_are_named_as_such(tmp_path: 
     (tmp_path / "second.yaml").write_text(SOUND)
     (tmp_path / "job.yaml").write_text(f"{SOUND}model: {{sessions: [second.yaml], priors: priors.yaml}}\n")
     job = load(tmp_path / "job.yaml", REGISTRY)
-    assert paths(sources(job, (), None)) == {
+    assert paths(list_sources(job, (), None)) == {
         "job.yaml": SourceRole.JOB,
         "second.yaml": SourceRole.SESSION,
         "priors.yaml": SourceRole.PRIORS,
@@ -98,7 +98,7 @@ def test_a_source_is_carried_byte_for_byte(tmp_path: Path) -> None:
 def test_what_lies_in_the_folder_later_is_not_what_is_carried(tmp_path: Path) -> None:
     certificate = composed(tmp_path)
     (tmp_path / "jobs/six.txt").write_text("9 9 9 9 9 9")
-    contents = {each.name: each.content for each in source_attachments(certificate.sources, Language.ENGLISH)}
+    contents = {each.name: each.content for each in attach_sources(certificate.sources, Language.ENGLISH)}
     assert contents["six.txt"] == b"1 2 3 -1 -2 -3"
 
 
@@ -151,13 +151,13 @@ def test_a_name_that_is_not_seen_or_not_taken_everywhere_is_made_plain(tmp_path:
     [(Language.ENGLISH, "Readings: six.txt"), (Language.GERMAN, "Messwerte: six.txt")],
 )
 def test_an_attachment_says_what_it_is(tmp_path: Path, language: Language, description: str) -> None:
-    *_, last = source_attachments(composed(tmp_path).sources, language)
+    *_, last = attach_sources(composed(tmp_path).sources, language)
     assert last == Attachment("six.txt", b"1 2 3 -1 -2 -3", "text/plain", Relationship.SOURCE, description)
 
 
 def test_a_source_whose_reader_kept_no_bytes_is_named_and_not_attached() -> None:
     source = Source(SourceRole.READINGS, "x.csv", "x.csv", SourceFile("x.csv", "0" * 64, 3))
-    assert list(source_attachments([source], Language.ENGLISH)) == []
+    assert list(attach_sources([source], Language.ENGLISH)) == []
 
 
 @pytest.mark.parametrize(
@@ -172,21 +172,26 @@ def test_a_source_whose_reader_kept_no_bytes_is_named_and_not_attached() -> None
     ],
 )
 def test_media_types_are_the_same_on_every_machine(name: str, expected: str) -> None:
-    assert media_type(name) == expected
+    assert find_media_type(name) == expected
 
 
 def test_attachments_stand_in_the_order_of_their_names() -> None:
     names = ["b", "a", "ä", "Z"]
-    assert [each.name for each in arranged(map(attachment, names), "CAL-1")] == ["Z", "a", "b", "ä"]
+    assert [each.name for each in arrange_attachments(map(attachment, names), "CAL-1")] == [
+        "Z",
+        "a",
+        "b",
+        "ä",
+    ]
 
 
 def test_more_files_than_a_certificate_carries_are_refused() -> None:
     fitting = [attachment(str(number)) for number in range(MOST_ATTACHMENTS)]
-    assert len(arranged(fitting, "CAL-1")) == MOST_ATTACHMENTS
+    assert len(arrange_attachments(fitting, "CAL-1")) == MOST_ATTACHMENTS
     with pytest.raises(InputError, match="CAL-1: its 65 files"):
-        arranged([*fitting, attachment("one more")], "CAL-1")
+        arrange_attachments([*fitting, attachment("one more")], "CAL-1")
 
 
 def test_files_larger_than_a_certificate_carries_are_refused() -> None:
     with pytest.raises(InputError, match="64 MiB"):
-        arranged([attachment("a", LARGEST_TOTAL), attachment("b", 1)], "CAL-1")
+        arrange_attachments([attachment("a", LARGEST_TOTAL), attachment("b", 1)], "CAL-1")

@@ -84,7 +84,7 @@ def test_a_standard_that_asks_for_nothing_has_no_table_of_requirements(tmp_path)
     captions = [
         [
             block.caption
-            for block in results.section(Evaluated(each, (), NoBudget(same(""))), writer).blocks
+            for block in results.lay_out_results(Evaluated(each, (), NoBudget(same(""))), writer).blocks
             if isinstance(block, Table)
         ]
         for each in (evaluation, replace(evaluation, findings=()))

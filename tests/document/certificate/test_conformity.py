@@ -11,7 +11,7 @@ import pytest
 from document.certificate.documents import COMPLETE, certificate, lines_of
 from zlmreport.document.blocks import Graph, Table
 from zlmreport.document.certificate import conformity
-from zlmreport.document.writer import Writer, written
+from zlmreport.document.writer import Writer, write_with_uncertainty
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.evaluation_keys import DecisionRuleKeys
@@ -30,14 +30,14 @@ def evaluation(tmp_path_factory) -> Evaluation:
 
 def rows(evaluation: Evaluation, rule: str, language: Language = Language.ENGLISH) -> list[str]:
     writer = Writer.of(evaluation.measurements, language)
-    _, table = conformity.blocks(decided(evaluation, decision_rule(rule)), writer)
+    _, table = conformity.lay_out_conformity(decided(evaluation, decision_rule(rule)), writer)
     assert isinstance(table, Table)
     return [line.strip() for line in lines_of(table)[2:]]
 
 
 def paragraph(evaluation: Evaluation, keys: Mapping[str, Any], language: Language = Language.ENGLISH) -> str:
     writer = Writer.of(evaluation.measurements, language)
-    (found,) = conformity.rule_paragraph(DecisionRuleKeys.model_validate(keys), [evaluation], writer)
+    (found,) = conformity.say_rule(DecisionRuleKeys.model_validate(keys), [evaluation], writer)
     return found.text
 
 
@@ -53,14 +53,14 @@ def test_an_amount_has_the_digits_that_it_has_in_the_table_of_results(evaluation
     found = evaluation.parameter("A")
     assert found is not None
 
-    assert rows(evaluation, "guard-band")[0].split(" | ")[1] == written(found, writer)[0]
+    assert rows(evaluation, "guard-band")[0].split(" | ")[1] == write_with_uncertainty(found, writer)[0]
 
 
 def test_an_acceptance_limit_is_explained_where_one_is_drawn(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
     captions = {}
     for rule in ("simple", "guard-band"):
-        graph, _ = conformity.blocks(decided(evaluation, decision_rule(rule)), writer)
+        graph, _ = conformity.lay_out_conformity(decided(evaluation, decision_rule(rule)), writer)
         assert isinstance(graph, Graph)
         captions[rule] = graph.figure.title.in_language(Language.ENGLISH)
 
@@ -93,8 +93,8 @@ def test_an_evaluation_without_limits_states_nothing(evaluation):
     bare = replace(evaluation, parameters=tuple(replace(each, limit=None) for each in evaluation.parameters))
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
 
-    assert list(conformity.blocks(bare, writer)) == []
-    assert list(conformity.rule_paragraph(DecisionRuleKeys(), [bare], writer)) == []
+    assert list(conformity.lay_out_conformity(bare, writer)) == []
+    assert list(conformity.say_rule(DecisionRuleKeys(), [bare], writer)) == []
 
 
 @pytest.mark.parametrize(
@@ -128,7 +128,7 @@ def test_a_rule_without_the_uncertainty_that_it_needs_says_so(evaluation):
 
 def test_the_graph_shows_amount_uncertainty_and_acceptance_in_percent_of_the_limit(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
-    graph, _ = conformity.blocks(decided(evaluation, decision_rule("guard-band")), writer)
+    graph, _ = conformity.lay_out_conformity(decided(evaluation, decision_rule("guard-band")), writer)
     assert isinstance(graph, Graph)
     bar = graph.figure.panels[0].bars[0]
     value = evaluation.value("A")
@@ -143,7 +143,7 @@ def test_the_graph_shows_amount_uncertainty_and_acceptance_in_percent_of_the_lim
 def test_without_any_uncertainty_there_is_a_graph_and_no_table_of_risks(evaluation):
     bare = tuple(replace(each, expanded_uncertainty=None) for each in evaluation.parameters)
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
-    (graph,) = conformity.blocks(replace(evaluation, parameters=bare), writer)
+    (graph,) = conformity.lay_out_conformity(replace(evaluation, parameters=bare), writer)
 
     assert isinstance(graph, Graph)
     assert "±" not in graph.figure.title.in_language(Language.ENGLISH)
@@ -151,7 +151,7 @@ def test_without_any_uncertainty_there_is_a_graph_and_no_table_of_risks(evaluati
 
 def test_the_graph_is_told_to_those_who_cannot_see_it(evaluation):
     writer = Writer.of(evaluation.measurements, Language.ENGLISH)
-    graph, _ = conformity.blocks(decided(evaluation, decision_rule("guard-band")), writer)
+    graph, _ = conformity.lay_out_conformity(decided(evaluation, decision_rule("guard-band")), writer)
     assert isinstance(graph, Graph)
 
     told = graph.figure.alternative.in_language(Language.ENGLISH)

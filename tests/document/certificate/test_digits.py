@@ -9,7 +9,7 @@ import pytest
 
 from document.certificate.documents import certificate, having
 from zlmreport.document.blocks import Symbol, Table
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 
 TARGETS = range(0, 401, 40)
 
@@ -40,14 +40,14 @@ def _tables(folder: Path, decimals: int, expanded: float) -> list[Table]:
 
 def _rows(table: Table) -> list[dict[str, str]]:
     heads = [
-        plain(each.heading.notation) if isinstance(each.heading, Symbol) else each.heading
+        write_plain(each.heading.notation) if isinstance(each.heading, Symbol) else each.heading
         for each in table.columns
     ]
     return [
         dict(
             zip(
                 heads,
-                (plain(cell.notation) if isinstance(cell, Symbol) else str(cell) for cell in row),
+                (write_plain(cell.notation) if isinstance(cell, Symbol) else str(cell) for cell in row),
                 strict=True,
             )
         )

@@ -34,7 +34,7 @@ def linear_test(targets, runs, missing=(), directions=(1, -1)):
 
 
 def tables(measurements):
-    section = readings.section(measurements, Writer.of(measurements, Language.ENGLISH))
+    section = readings.lay_out_readings(measurements, Writer.of(measurements, Language.ENGLISH))
     return [block for block in section.blocks if isinstance(block, Table)]
 
 
@@ -64,7 +64,7 @@ def test_every_reading_is_printed_exactly_once(runs):
 
 def test_a_missing_reading_is_a_dash_in_the_table_and_is_named_above_it():
     measurements = linear_test(targets=3, runs=2, missing={(1, -1, 2)})
-    section = readings.section(measurements, Writer.of(measurements, Language.ENGLISH))
+    section = readings.lay_out_readings(measurements, Writer.of(measurements, Language.ENGLISH))
     notice, table = section.blocks
     assert isinstance(notice, Notice)
     assert notice.heading == "1 of 12 readings is missing; nothing was filled in"
@@ -75,11 +75,11 @@ def test_a_missing_reading_is_a_dash_in_the_table_and_is_named_above_it():
 def test_many_missing_readings_are_named_up_to_a_dozen_and_counted_beyond():
     missing = {(position, 1, run) for position in range(5) for run in (1, 2, 3)}
     measurements = linear_test(targets=6, runs=3, missing=missing)
-    (notice,) = readings.missing_readings(measurements, Writer.of(measurements, Language.GERMAN))
+    (notice,) = readings.list_missing_readings(measurements, Writer.of(measurements, Language.GERMAN))
     assert len(notice.items) == 13
     assert notice.items[-1] == "und 3 weitere (siehe Tabelle der Messwerte)"
 
 
 def test_a_unidirectional_test_misses_nothing_in_the_other_direction():
     measurements = linear_test(targets=3, runs=2, directions=(1,))
-    assert not list(readings.missing_readings(measurements, Writer.of(measurements, Language.ENGLISH)))
+    assert not list(readings.list_missing_readings(measurements, Writer.of(measurements, Language.ENGLISH)))

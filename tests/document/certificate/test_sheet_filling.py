@@ -9,7 +9,7 @@ from hypothesis import given, settings, strategies as st
 from document.certificate.documents import lines_of
 from zlmreport.document.blocks import Facts, Notice, Paragraph
 from zlmreport.document.certificate import columns
-from zlmreport.document.certificate.sheet_filling import Filled, Said, details, fill
+from zlmreport.document.certificate.sheet_filling import Filled, Said, fill, lay_out_details
 from zlmreport.document.writer import Writer
 from zlmreport.language import Language
 from zlmreport.measurement import units
@@ -75,7 +75,7 @@ def test_a_page_that_another_one_follows_has_more_room() -> None:
 
 def test_details_say_once_what_several_pages_lack() -> None:
     lacking = Said(who=WHO, law=(Paragraph("Decision rule."),))
-    title, blocks = details((lacking, lacking, Said(who=WHO[:1])), WRITER)
+    title, blocks = lay_out_details((lacking, lacking, Said(who=WHO[:1])), WRITER)
     assert title == "Details"
     assert blocks == (Facts(WHO), Paragraph("Decision rule."))
 
@@ -96,7 +96,7 @@ _SAID = st.builds(
 def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: Said, room: float) -> None:
     filled = fill(said, room, WRITER)
     shown = text(filled)
-    _, left = details((filled.left,), WRITER)
+    _, left = lay_out_details((filled.left,), WRITER)
     printed = f"{shown} {' '.join(line for block in left for line in lines_of(block))}"
     stated = [*said.who, *(pair for group in said.conditions for pair in group.pairs)]
     for words in (
@@ -107,4 +107,4 @@ def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: Said, 
         assert words in printed
     assert filled.height <= room
     assert ("“Details”: " in shown) == (filled.left != Said())
-    assert columns.height(filled.notices) > 0 or not said.notices
+    assert columns.estimate_height(filled.notices) > 0 or not said.notices

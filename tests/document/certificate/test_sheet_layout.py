@@ -191,8 +191,11 @@ def stating(words: Mapping[str, str]) -> Mapping[str, Any]:
 
 def taken(of: Certificate) -> list[float]:
     """Return how high each page is estimated to be, in parts of what it has."""
-    head = columns.head_height(of.letterhead, of.title, of.subtitle, of.number) + columns.BELOW_TITLE
-    heights = [columns.heading_height(each.title) + columns.height(each.blocks) for each in of.sections]
+    head = columns.estimate_head_height(of.letterhead, of.title, of.subtitle, of.number) + columns.BELOW_TITLE
+    heights = [
+        columns.estimate_heading_height(each.title) + columns.estimate_height(each.blocks)
+        for each in of.sections
+    ]
     heights[0] += head
     return [height / (columns.PAGES[of.paper] + columns.END_MARK) for height in heights]
 
@@ -320,17 +323,17 @@ def _lowest(of: Certificate, renderer: str) -> float:
 def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, renderer: str) -> None:
     found = certificate(tmp_path, SHEET)
     section = found.sections[0]
-    estimate = columns.head_height(found.letterhead, found.title, found.subtitle, found.number)
-    estimate += columns.BELOW_TITLE + columns.heading_height(section.title)
-    estimate += columns.height(section.blocks)
+    estimate = columns.estimate_head_height(found.letterhead, found.title, found.subtitle, found.number)
+    estimate += columns.BELOW_TITLE + columns.estimate_heading_height(section.title)
+    estimate += columns.estimate_height(section.blocks)
     taken = _lowest(found, renderer)
     assert taken < estimate + 12
     assert estimate < 1.15 * taken
 
 
 def test_words_that_do_not_share_a_line_take_one_each() -> None:
-    one, four = (columns.height([Paragraph(" ".join(["n" * 60] * words))]) for words in (1, 4))
-    both = columns.height([Paragraph("n" * 60), Paragraph("n" * 60)])
+    one, four = (columns.estimate_height([Paragraph(" ".join(["n" * 60] * words))]) for words in (1, 4))
+    both = columns.estimate_height([Paragraph("n" * 60), Paragraph("n" * 60)])
     assert four - one == pytest.approx(3 * (both - one - 3.0))
 
 
@@ -338,5 +341,5 @@ def test_words_that_do_not_share_a_line_take_one_each() -> None:
     "block", [Paragraph("word " * 100), Notice("Heading", ("item " * 60,)), Facts((("name", "value " * 40),))]
 )
 def test_more_text_takes_more_room(block: Block) -> None:
-    assert columns.height([block]) > 20
+    assert columns.estimate_height([block]) > 20
     assert list(columns.gather_facts([block]))

@@ -17,7 +17,7 @@ from document.certificate.everything import EVERYTHING, write_tables
 from document.figures.samples import figure
 from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.certificate.standard_layout import in_less_room, main_graph
+from zlmreport.document.certificate.standard_layout import draw_in_less_room, find_main_graph
 from zlmreport.document.figures.figure import Curve, Panel, Role
 from zlmreport.language import same
 
@@ -196,7 +196,7 @@ def test_no_graph_draws_the_curves_of_another_again(seven: Certificate, seven_in
 def test_the_graph_that_is_kept_shows_the_single_readings(seven_in_full: Certificate) -> None:
     section = next(each for each in seven_in_full.sections if each.key == "iso230-2-2014")
     figures = [block.figure for block in section.blocks if isinstance(block, Graph)]
-    main, *_ = in_less_room(figures)
+    main, *_ = draw_in_less_room(figures)
     assert main.panels[0].brackets
     assert main.panels[0].readings
 
@@ -222,7 +222,7 @@ def test_quantities_of_their_own_stand_one_below_the_other_on_one_axis() -> None
     panels = (Panel(curves=(curve,)), Panel(curves=(curve,), y_title=same("Temperature"), y_unit="°C"))
     alike = figure(*panels[:1], panels[0])
     of_several = figure(*panels)
-    assert [each.is_wide for each in in_less_room([alike])] == [True]
-    assert list(in_less_room([of_several])) == [of_several]
-    assert main_graph([of_several]) is of_several
-    assert main_graph([alike]) is alike
+    assert [each.is_wide for each in draw_in_less_room([alike])] == [True]
+    assert list(draw_in_less_room([of_several])) == [of_several]
+    assert find_main_graph([of_several]) is of_several
+    assert find_main_graph([alike]) is alike

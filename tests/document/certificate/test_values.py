@@ -7,8 +7,8 @@ from dataclasses import replace
 import pytest
 
 from plugins.standards.installed import STANDARDS
-from zlmreport.document.certificate.values import Values, coverage_factor
-from zlmreport.document.writer import Writer, written, written_uncertainty
+from zlmreport.document.certificate.values import Values, write_coverage_factor
+from zlmreport.document.writer import Writer, write_uncertainty, write_with_uncertainty
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.types import Options
@@ -44,26 +44,26 @@ def parameter(value: float, expanded: float | None, factor: float = 2.0) -> Para
 def test_a_value_is_rounded_with_its_uncertainty(
     value: float, expanded: float | None, expected: tuple[str, str]
 ) -> None:
-    assert written(parameter(value, expanded), SCRIBE) == expected
+    assert write_with_uncertainty(parameter(value, expanded), SCRIBE) == expected
 
 
 def test_the_decimal_sign_is_that_of_the_document() -> None:
     german = replace(SCRIBE, language=Language.GERMAN)
 
-    assert written(parameter(12.3456, 0.123), german) == ("12,35", "0,12")
-    assert coverage_factor(parameter(1.0, 0.1, 1.653), german) == "1,65"
+    assert write_with_uncertainty(parameter(12.3456, 0.123), german) == ("12,35", "0,12")
+    assert write_coverage_factor(parameter(1.0, 0.1, 1.653), german) == "1,65"
 
 
 @pytest.mark.parametrize("expanded", [None, 0.0])
 def test_what_has_no_uncertainty_has_no_coverage_factor(expanded: float | None) -> None:
-    assert coverage_factor(parameter(1.0, expanded), SCRIBE) == "–"
+    assert write_coverage_factor(parameter(1.0, expanded), SCRIBE) == "–"
 
 
 @pytest.mark.parametrize(
     ("micrometres", "expected"), [(0.456, "0.46"), (0.0, "0"), (float("nan"), "–"), (0.0001, "0.00010")]
 )
 def test_an_uncertainty_by_itself_keeps_two_digits(micrometres: float, expected: str) -> None:
-    assert written_uncertainty(micrometres * 1e-6, SCRIBE) == expected
+    assert write_uncertainty(micrometres * 1e-6, SCRIBE) == expected
 
 
 def evaluation(*, uncertain: bool, limited: bool) -> Evaluation:

@@ -10,7 +10,7 @@ import numpy as np
 from plugins.effects.installed import EFFECTS
 from zlmreport.document.figures.model_diagram import ModelDiagram
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.diagnosis.diagnosis import error_numbers
+from zlmreport.model.diagnosis.diagnosis import compute_error_numbers
 from zlmreport.model.diagnosis.study import Fitted
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
@@ -39,7 +39,7 @@ def fitted(*effects: str, design: Design | None = None) -> Fitted:
     """Return a model of the axis by these effects."""
     test = linear_test() if design is None else design
     found = fit(AxisModel(tuple(Term(EFFECTS[name]) for name in effects)), test, deviations(test))
-    return Fitted(found, error_numbers(found))
+    return Fitted(found, compute_error_numbers(found))
 
 
 @cache

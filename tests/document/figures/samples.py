@@ -21,8 +21,8 @@ from zlmreport.document.figures.figure import (
     Readings,
     Role,
 )
-from zlmreport.document.figures.layout import figure_size
-from zlmreport.document.figures.metrics import plain_label
+from zlmreport.document.figures.layout import measure_figure
+from zlmreport.document.figures.metrics import make_plain_label
 from zlmreport.document.figures.shapes import Box
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
@@ -288,7 +288,7 @@ class DrawnText:
     def box(self) -> Box:
         """The room of its letters, y downwards: from the height of a capital to the baseline."""
         last = self.runs[-1]
-        length = last.x - self.runs[0].x + plain_label(last.text, last.size, last.face).width
+        length = last.x - self.runs[0].x + make_plain_label(last.text, last.size, last.face).width
         x, y, size = self.runs[0].x, self.runs[0].y, self.runs[0].size
         if self.angle:
             return Box(x - 0.7 * size, y - length, x, y)
@@ -374,7 +374,7 @@ DIMENSIONS = ("arrow", "bracket", "level")
 def collisions(of: Figure, language: Language = Language.ENGLISH) -> list[str]:
     """Return the labels of a figure that lie on each other, on a line of a dimension, or outside of it."""
     canvas = drawn(of, language)
-    width, height = figure_size(of)
+    width, height = measure_figure(of)
     dimensions = [text.box for text in canvas.texts_of(*DIMENSIONS)]
     around = [text.box for text in canvas.texts_of("tick x", "tick y", "legend", "heading", "title")]
     found = [f"{a} overlaps {b}" for both in (dimensions, around) for a, b in pairs(both) if a.overlaps(b)]

@@ -10,7 +10,7 @@ import pytest
 from document.typesetting import samples
 from zlmreport.document.figures.figure import Figure, Role
 from zlmreport.document.figures.layout import lay_out
-from zlmreport.document.figures.prescribed import comparison_graph
+from zlmreport.document.figures.prescribed import draw_comparison
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
@@ -27,7 +27,7 @@ def evaluated(factor: float) -> Evaluation:
 
 @pytest.fixture
 def graph() -> Figure:
-    return comparison_graph(evaluated(3.0), evaluated(1.0), NAMES)
+    return draw_comparison(evaluated(3.0), evaluated(1.0), NAMES)
 
 
 def test_each_measurement_has_a_panel_of_its_means_in_both_directions(graph: Figure) -> None:
@@ -45,7 +45,7 @@ def test_the_words_for_those_who_cannot_see_it_have_the_ranges_of_both(graph: Fi
 
 def test_a_test_in_one_direction_has_one_curve() -> None:
     evaluation = samples.evaluation(samples.measurements(approaches=(Approach.POSITIVE,)))
-    graph = comparison_graph(evaluation, evaluation, NAMES)
+    graph = draw_comparison(evaluation, evaluation, NAMES)
     assert [len(panel.curves) for panel in graph.panels] == [1, 1]
 
 

@@ -12,12 +12,12 @@ from zlmreport.document.figures.dimensions import (
     HEAD,
     DimensionSpan,
     DrawnDimension,
-    beside_targets,
-    margin_columns,
-    margin_width,
+    measure_margin,
+    place_beside_targets,
+    place_margin_columns,
     spread,
 )
-from zlmreport.document.figures.shapes import Box, counts
+from zlmreport.document.figures.shapes import Box, count_points
 
 NOTHING = np.empty((0, 2))
 REGION = Box(0.0, 0.0, 300.0, 200.0)
@@ -32,7 +32,7 @@ def _span(low: float, high: float, at: float = 150.0) -> DimensionSpan:
 
 
 def _columns(*spans: DimensionSpan) -> tuple[DrawnDimension, ...]:
-    return margin_columns(spans, 400.0, 0.0, 200.0)
+    return place_margin_columns(spans, 400.0, 0.0, 200.0)
 
 
 def test_the_shortest_bracket_stands_nearest_to_the_frame() -> None:
@@ -55,7 +55,7 @@ def test_the_columns_take_the_width_that_was_foretold() -> None:
     spans = [_span(0.0, 100.0), _span(40.0, 60.0)]
     last = _columns(*spans)[-1]
     assert last.label.x + last.span.label.width == pytest.approx(
-        400.0 + margin_width(span.label for span in spans)
+        400.0 + measure_margin(span.label for span in spans)
     )
 
 
@@ -77,7 +77,7 @@ def test_heads_without_room_between_the_ends_stand_outside() -> None:
 def _beside(
     *spans: DimensionSpan, marks: np.ndarray = NOTHING, lines: np.ndarray = NOTHING
 ) -> tuple[DrawnDimension, ...]:
-    return beside_targets(spans, REGION, marks, lines)
+    return place_beside_targets(spans, REGION, marks, lines)
 
 
 def test_an_arrow_stands_near_its_target_and_not_on_it() -> None:
@@ -104,7 +104,7 @@ def test_an_arrow_at_the_edge_stays_inside(at: float) -> None:
 def test_a_label_leaves_marks_alone() -> None:
     marks = np.array([(x, 75.0) for x in (160.0, 165.0, 170.0, 130.0, 135.0, 140.0)])
     (one,) = _beside(_span(50.0, 100.0), marks=marks)
-    assert counts([one.label.box], marks) == [0]
+    assert count_points([one.label.box], marks) == [0]
 
 
 def test_a_label_that_cannot_avoid_a_line_says_so() -> None:

@@ -10,7 +10,7 @@ import pytest
 from document.figures.samples import ALL, ORDINARY, both_directions, collisions, drawn, each_direction, figure
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.figure import Bar, Figure, Panel
-from zlmreport.document.figures.layout import axis_title, figure_size
+from zlmreport.document.figures.layout import measure_figure, write_axis_title
 from zlmreport.language import Language, same
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
@@ -115,7 +115,7 @@ def test_the_title_of_the_values_reads_upwards() -> None:
 def test_a_long_title_of_the_values_stays_inside_a_low_graph() -> None:
     long = replace(figure(both_directions()), y_title=same("Slope of the residuals of a pass"), height=50)
     _, y_title = drawn(long).texts_of("title")
-    _, height = figure_size(long)
+    _, height = measure_figure(long)
     assert 0 < y_title.box.bottom < y_title.box.top < height
 
 
@@ -146,7 +146,7 @@ def test_no_extension_line_runs_through_the_label_of_a_bracket() -> None:
 
 @by_name
 def test_everything_drawn_is_finite_and_inside(sample: Figure) -> None:
-    width, height = figure_size(sample)
+    width, height = measure_figure(sample)
     for outline in drawn(sample).outlines:
         assert np.isfinite(outline.points).all(), outline
         assert outline.points.min() >= 0, outline
@@ -173,5 +173,5 @@ def test_titles_of_several_quantities_do_not_meet(*, is_wide: bool) -> None:
 
 
 def test_an_axis_names_a_unit_that_is_but_a_small_sign() -> None:
-    titles = [axis_title(same("Deviation"), unit, Language.ENGLISH) for unit in ("″", "°", "µm")]
+    titles = [write_axis_title(same("Deviation"), unit, Language.ENGLISH) for unit in ("″", "°", "µm")]
     assert titles == ["Deviation in ″ (arcsec)", "Deviation in ° (deg)", "Deviation in µm"]

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.ft2font import FT2Font, LoadFlags
 
 from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.metrics import advance, font_file, has_letter, mark_offset
+from zlmreport.document.figures.metrics import find_font_file, has_letter, mark_offset, measure_advance
 
 
 @pytest.mark.parametrize("face", TypeFace)
@@ -22,17 +22,17 @@ from zlmreport.document.figures.metrics import advance, font_file, has_letter, m
     ],
 )
 def test_a_text_is_as_wide_as_a_library_that_sets_it_says(text: str, face: TypeFace) -> None:
-    font = FT2Font(str(font_file(face)))
+    font = FT2Font(str(find_font_file(face)))
     font.set_size(1000.0, 72)
     font.set_text(text, 0.0, flags=LoadFlags.NO_HINTING)
     width, _ = font.get_width_height()
-    assert advance(text, face) == pytest.approx(width / 64 / 1000, abs=1 / 64 / 1000)
+    assert measure_advance(text, face) == pytest.approx(width / 64 / 1000, abs=1 / 64 / 1000)
 
 
 def test_a_bar_stands_over_the_middle_of_its_letter() -> None:
     right, above = mark_offset("x", "\N{COMBINING MACRON}", TypeFace.REGULAR)
     assert above == 0.0  # over a small letter the bar is drawn where its own glyph has it
-    assert right == pytest.approx(advance("x", TypeFace.REGULAR) / 2, abs=0.02)
+    assert right == pytest.approx(measure_advance("x", TypeFace.REGULAR) / 2, abs=0.02)
     assert mark_offset("B", "\N{COMBINING MACRON}", TypeFace.REGULAR)[1] > 0.1
 
 

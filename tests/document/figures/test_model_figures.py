@@ -24,17 +24,17 @@ from document.figures.samples import drawn
 from zlmreport.document.figures.figure import Figure, Panel, Role
 from zlmreport.document.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.document.figures.model_residuals import (
-    fall_chart,
-    over_condition,
-    over_position,
-    over_run,
-    over_time,
-    slopes_over_time,
+    draw_fall_chart,
+    draw_over_condition,
+    draw_over_position,
+    draw_over_run,
+    draw_over_time,
+    draw_slopes_over_time,
 )
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.effects.design import at_positions
+from zlmreport.model.effects.design import place_at_positions
 
 MICROMETRE = 1e6
 
@@ -42,9 +42,14 @@ MICROMETRE = 1e6
 @cache
 def all_figures() -> dict[str, Figure]:
     """Return every graph that a model has."""
-    found = [over_position(diagram()), over_run(diagram()), over_time(diagram()), estimate(diagram())]
-    found += [over_condition(diagram(), name) for name in diagram().design.conditions]
-    found.append(fall_chart(history()))
+    found = [
+        draw_over_position(diagram()),
+        draw_over_run(diagram()),
+        draw_over_time(diagram()),
+        estimate(diagram()),
+    ]
+    found += [draw_over_condition(diagram(), name) for name in diagram().design.conditions]
+    found.append(draw_fall_chart(history()))
     return {figure.key: figure for figure in found}
 
 
@@ -60,14 +65,14 @@ def by_approach(values: FloatArray) -> FloatArray:
 
 
 def test_the_upper_panel_has_the_readings_and_the_lower_one_what_the_model_leaves() -> None:
-    upper, lower = over_position(diagram()).panels
+    upper, lower = draw_over_position(diagram()).panels
     fit = diagram().fit
     np.testing.assert_allclose(readings(upper), by_approach(fit.deviation) * MICROMETRE, rtol=1e-12)
     np.testing.assert_allclose(readings(lower), by_approach(fit.residual) * MICROMETRE, atol=1e-9)
 
 
 def test_the_model_leads_through_each_target_of_each_direction() -> None:
-    upper, _ = over_position(diagram()).panels
+    upper, _ = draw_over_position(diagram()).panels
     up, down = upper.curves
     assert (up.role, down.role) == (Role.MODEL_POSITIVE, Role.MODEL_NEGATIVE)
     np.testing.assert_allclose(up.x, diagram().design.target_positions * 1e3, rtol=1e-12)
@@ -75,7 +80,7 @@ def test_the_model_leads_through_each_target_of_each_direction() -> None:
 
 
 def test_mean_residuals_are_means_of_the_residuals_at_a_target() -> None:
-    _, lower = over_position(diagram()).panels
+    _, lower = draw_over_position(diagram()).panels
     up = next(curve for curve in lower.curves if curve.role is Role.MEAN_POSITIVE)
     design, residual = diagram().design, diagram().fit.residual
     chosen = (design.direction > 0) & (design.target == 3)
@@ -93,13 +98,13 @@ def test_the_noise_is_drawn_at_twice_the_noise_floor_to_both_sides(key: str) -> 
 
 
 def test_residuals_over_runs_stand_at_the_numbers_of_the_runs() -> None:
-    (panel,) = over_run(diagram()).panels
+    (panel,) = draw_over_run(diagram()).panels
     assert {x for each in panel.readings for x in each.x.tolist()} == {1.0, 2.0, 3.0, 4.0, 5.0}
     assert [curve.x.tolist() for curve in panel.curves] == [[1.0, 2.0, 3.0, 4.0, 5.0]] * 2
 
 
 def test_a_long_test_is_told_in_minutes() -> None:
-    figure = over_time(diagram())
+    figure = draw_over_time(diagram())
     assert figure.x_unit == "min"
     last = max(each.x.max() for each in figure.panels[0].readings)
     assert last == pytest.approx(diagram().design.duration / 60)
@@ -108,14 +113,14 @@ def test_a_long_test_is_told_in_minutes() -> None:
 def test_a_short_test_is_told_in_seconds() -> None:
     design = linear_test()
     found = fitted("offset", "backlash", design=replace(design, time=design.time / 100))
-    assert over_time(ModelDiagram(found.fit, found.error)).x_unit == "s"
+    assert draw_over_time(ModelDiagram(found.fit, found.error)).x_unit == "s"
 
 
 def test_without_times_residuals_stand_in_their_order() -> None:
     design = linear_test()
     count = np.arange(len(design.time), dtype=np.float64)
     found = fitted("offset", "backlash", design=replace(design, time=count, time_is_counted=True))
-    figure = over_time(ModelDiagram(found.fit, found.error))
+    figure = draw_over_time(ModelDiagram(found.fit, found.error))
     assert figure.x_title.en == "Number of the reading"
     assert min(each.x.min() for each in figure.panels[0].readings) == 1.0
 
@@ -132,14 +137,14 @@ def test_without_times_residuals_stand_in_their_order() -> None:
 def test_a_condition_is_shown_in_the_unit_in_which_it_is_logged(
     condition: str, unit: str, first: float
 ) -> None:
-    figure = over_condition(diagram(), condition)
+    figure = draw_over_condition(diagram(), condition)
     assert figure.x_unit == unit
     log = np.concatenate([each.x for each in figure.panels[0].readings])
     assert np.abs(log - first).min() < 1e-9
 
 
 def test_the_course_over_time_leads_through_means_of_neighbours() -> None:
-    (curve,) = over_time(diagram()).panels[0].curves
+    (curve,) = draw_over_time(diagram()).panels[0].curves
     assert len(curve.x) == 12
     assert np.all(np.diff(curve.x) > 0)
     # Each is a mean of some 18 readings: five standard deviations of it.
@@ -197,7 +202,7 @@ def test_an_estimate_that_moves_with_time_says_when_it_holds() -> None:
 
 
 def test_the_fall_chart_has_a_bar_for_each_effect_and_the_noise_floor() -> None:
-    (panel,) = fall_chart(history()).panels
+    (panel,) = draw_fall_chart(history()).panels
     assert [bar.label.in_language(Language.ENGLISH) for bar in panel.bars] == [
         "without model",
         *(f"+ {name}" for name in WHOLE),
@@ -217,7 +222,7 @@ def test_the_slope_of_a_pass_is_that_of_the_line_through_its_residuals() -> None
     own = (design.direction > 0) & (design.run == 1)
     from_mean = design.position[own] - design.position[own].mean()
     slope = from_mean @ residual[own] / (from_mean @ from_mean)
-    upwards = slopes_over_time(shown).panels[0].curves[0]
+    upwards = draw_slopes_over_time(shown).panels[0].curves[0]
     assert upwards.y[0] == pytest.approx(1e6 * slope)  # µm/m
     assert len(upwards.y) == len(np.unique(design.run))
 
@@ -226,7 +231,7 @@ def test_a_test_in_one_direction_has_one_curve() -> None:
     found = fitted("offset", "scale-error", design=one_way(linear_test()))
     single = ModelDiagram(found.fit, found.error)
     assert single.approaches == (Approach.POSITIVE,)
-    assert len(over_position(single).panels[0].curves) == 1
+    assert len(draw_over_position(single).panels[0].curves) == 1
     assert len(estimate(single).panels[0].bands) == 1
 
 
@@ -257,7 +262,7 @@ def test_every_drawn_position_has_the_value_that_the_model_gives_there(length: f
     found = fitted(*WHOLE, design=stretched)
     figure = estimate(ModelDiagram(found.fit, found.error))
     for curve, approach in zip(figure.panels[0].curves, Approach, strict=True):
-        asked = at_positions(stretched, curve.x / 1e3, approach)
+        asked = place_at_positions(stretched, curve.x / 1e3, approach)
         np.testing.assert_allclose(curve.y, MICROMETRE * found.fit.value_at(asked), atol=1e-6)
     says_so = "the line shows how far they reach" in figure.title.in_language(Language.ENGLISH)
     assert says_so == (length == 3.0)

@@ -15,7 +15,7 @@ from weasyprint.text.fonts import FontConfiguration
 from document.figures.samples import ALL, ORDINARY, Recording, drawn
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.figure import Figure
-from zlmreport.document.figures.metrics import font_file
+from zlmreport.document.figures.metrics import find_font_file
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf.press import FAMILY, PageGraph
 
@@ -34,7 +34,7 @@ def typeset() -> Typeset:
         TypeFace.SEMIBOLD: (600, "normal"),
     }
     faces = "".join(
-        f'@font-face {{ font-family: "{FAMILY}"; src: url({font_file(face).as_uri()});'
+        f'@font-face {{ font-family: "{FAMILY}"; src: url({find_font_file(face).as_uri()});'
         f" font-weight: {weight}; font-style: {style} }}"
         for face, (weight, style) in looks.items()
     )

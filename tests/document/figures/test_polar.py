@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from zlmreport.document.figures.draw import legend_shapes, sketch, to_svg
+from zlmreport.document.figures.draw import draw_figure_shapes, draw_legend, to_svg
 from zlmreport.document.figures.figure import Curve, Figure, Level, Panel, Role
-from zlmreport.document.figures.layout import figure_size, lay_out
-from zlmreport.document.figures.polar import on_circle, polar_grid, square
+from zlmreport.document.figures.layout import lay_out, measure_figure
+from zlmreport.document.figures.polar import find_largest_square, make_polar_grid, place_on_circle
 from zlmreport.document.figures.shapes import Box, PointMarks
 from zlmreport.language import Language, same
 from zlmreport.language.formatting import DecimalSign
@@ -33,8 +33,8 @@ def figure(values, **of_panel):
 
 def test_values_stand_so_far_outside_the_nominal_circle_as_they_are_large():
     panel = figure(3.0 * np.cos(np.radians(ANGLES))).panels[0]
-    grid = polar_grid(panel, DecimalSign.POINT)
-    curve = on_circle(panel, grid).curves[0]
+    grid = make_polar_grid(panel, DecimalSign.POINT)
+    curve = place_on_circle(panel, grid).curves[0]
     radius = np.hypot(curve.x, curve.y)
     assert radius[0] - radius[180] == pytest.approx(6.0)
     assert np.degrees(np.arctan2(curve.y[90], curve.x[90])) == pytest.approx(90.0)
@@ -51,11 +51,11 @@ def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
     (panel,) = layout.panels
     assert panel.frame.box.width == pytest.approx(panel.frame.box.height)
     assert panel.frame.x_factor == pytest.approx(panel.frame.y_factor)
-    width, height = figure_size(shown)
+    width, height = measure_figure(shown)
     box = panel.frame.box
     assert 0 <= box.left < box.right <= width
     assert 0 <= box.bottom < box.top <= height
-    (curve,) = [shape for shape in sketch(layout) if shape.kind == "curve mean_positive"]
+    (curve,) = [shape for shape in draw_figure_shapes(layout) if shape.kind == "curve mean_positive"]
     assert np.abs(curve.parts[0]).max() <= panel.frame.x_scale.upper
 
 
@@ -63,19 +63,19 @@ def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
 def test_a_circle_uses_the_height_of_its_figure(height, least):
     # Above it a line of the legend and that of the angle, below it the angle and what its distances are.
     layout = lay_out(replace(figure(3.0 * np.cos(np.radians(ANGLES))), height=height), Language.ENGLISH)
-    outermost = max(np.ptp(each.parts[0][:, 1]) for each in sketch(layout) if each.kind == "grid")
+    outermost = max(np.ptp(each.parts[0][:, 1]) for each in draw_figure_shapes(layout) if each.kind == "grid")
     assert outermost / 72 * 25.4 >= least
 
 
 def test_the_angles_stand_outside_of_the_circle_and_inside_of_the_figure():
     shown = figure(3.0 * np.cos(np.radians(ANGLES)), directions=((0, "+X"), (180, "−X")))
-    width, _ = figure_size(shown)
+    width, _ = measure_figure(shown)
     layout = lay_out(shown, Language.ENGLISH)
-    rim = max((each.parts[0] for each in sketch(layout) if each.kind == "grid"), key=np.ptp)
+    rim = max((each.parts[0] for each in draw_figure_shapes(layout) if each.kind == "grid"), key=np.ptp)
     (right,), (left,) = (
         [
             each.placed
-            for each in sketch(layout)
+            for each in draw_figure_shapes(layout)
             if each.kind == "ray" and each.placed.label.runs[0].text == text
         ]
         for text in ("+X 0°", "−X 180°")
@@ -99,7 +99,9 @@ def test_a_curve_shows_its_sense_by_an_arrow_along_it():
     )
 
     def tip_and_base(shown):
-        (head,) = [each for each in sketch(lay_out(shown, Language.ENGLISH)) if each.kind == "sense"]
+        (head,) = [
+            each for each in draw_figure_shapes(lay_out(shown, Language.ENGLISH)) if each.kind == "sense"
+        ]
         corners = head.parts[0]
         return corners[0], (corners[1] + corners[2]) / 2
 
@@ -120,14 +122,16 @@ def test_the_distance_of_circles_is_told_in_words_of_the_language():
 def test_a_level_is_a_circle_and_a_gap_stays_a_gap():
     values = np.where(ANGLES < 180, 1.0, np.nan)
     shapes = list(
-        sketch(lay_out(figure(values, levels=(Level("F", Role.TOLERANCE, 4.0),)), Language.ENGLISH))
+        draw_figure_shapes(
+            lay_out(figure(values, levels=(Level("F", Role.TOLERANCE, 4.0),)), Language.ENGLISH)
+        )
     )
     (level,) = [each for each in shapes if each.kind == "level"]
     middle = level.parts[0].mean(axis=0)
     distances = np.hypot(*(level.parts[0][:-1] - level.parts[0][:-1].mean(axis=0)).T)
     assert np.ptp(distances) < 1e-6
     assert np.isfinite(middle).all()
-    assert square(Box(0, 0, 4, 2)) == Box(1, 0, 3, 2)
+    assert find_largest_square(Box(0, 0, 4, 2)) == Box(1, 0, 3, 2)
 
 
 def test_an_entry_of_its_legend_has_no_mark():
@@ -135,7 +139,7 @@ def test_an_entry_of_its_legend_has_no_mark():
     marks = [
         [
             each
-            for each in legend_shapes(lay_out(shown, Language.ENGLISH).panels[0])
+            for each in draw_legend(lay_out(shown, Language.ENGLISH).panels[0])
             if isinstance(each, PointMarks)
         ]
         for shown in (about, over)

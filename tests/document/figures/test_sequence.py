@@ -7,7 +7,7 @@ import pytest
 
 from zlmreport.document.figures.draw import to_svg
 from zlmreport.document.figures.figure import Panel
-from zlmreport.document.figures.sequence import sequence
+from zlmreport.document.figures.sequence import draw_sequence
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
@@ -17,7 +17,7 @@ from zlmreport.testing import sample_motion
 
 def _panel(method: Method, runs: int = 2) -> Panel:
     motion = sample_motion(method, targets=(10.0, 20.0), runs=runs)
-    (panel,) = sequence(motion).panels
+    (panel,) = draw_sequence(motion).panels
     return panel
 
 
@@ -59,12 +59,12 @@ def test_axis_turns_round_between_two_readings() -> None:
 
 @pytest.mark.parametrize("language", Language)
 def test_sequence_is_told_to_those_who_cannot_see_it(language: Language) -> None:
-    told = sequence(sample_motion(Method.PENDULUM)).alternative.in_language(language)
+    told = draw_sequence(sample_motion(Method.PENDULUM)).alternative.in_language(language)
     for part in ("16", "4", "58", "5 mm"):
         assert part in told
 
 
 def test_rotary_axis_has_degrees() -> None:
     turning = sample_motion(axis=Axis("C", AxisKind.ROTARY), targets=(0.0, 90.0, 180.0))
-    assert sequence(turning).y_unit == "°"
-    assert "180°" in to_svg(sequence(turning), Language.ENGLISH)
+    assert draw_sequence(turning).y_unit == "°"
+    assert "180°" in to_svg(draw_sequence(turning), Language.ENGLISH)

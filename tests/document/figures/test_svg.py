@@ -11,7 +11,7 @@ from document.figures.samples import ALL, both_directions, figure
 from processes import PYTHON, run
 from zlmreport.document.figures.draw import to_svg
 from zlmreport.document.figures.figure import Figure
-from zlmreport.document.figures.layout import figure_size
+from zlmreport.document.figures.layout import measure_figure
 from zlmreport.language import Language, same
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -35,7 +35,7 @@ def test_the_image_is_as_wide_as_the_text_of_a_page() -> None:
 
 
 def test_one_panel_is_90_millimetres_high() -> None:
-    _, height = figure_size(figure(both_directions()))
+    _, height = measure_figure(figure(both_directions()))
     assert height == pytest.approx(90 / 25.4 * 72)
 
 

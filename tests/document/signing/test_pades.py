@@ -13,7 +13,7 @@ from document.signing.keys import PASSWORD, pkcs12_file, rsa_key
 from document.typesetting import samples
 from pdf_conformance import complaints
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.document.signing.state import Integrity, signature_state
+from zlmreport.document.signing.state import Integrity, read_signature_state
 from zlmreport_plugins.renderers.pdf_typst import TypstRenderer
 
 
@@ -46,7 +46,7 @@ def test_a_file_that_ends_without_a_line_break_is_signed(unsigned: bytes, tmp_pa
     file = pkcs12_file(tmp_path / "laboratory.p12")
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
         signed = signer(unsigned.rstrip(), "Electronic signature")
-    assert signature_state(signed).integrity is Integrity.INTACT
+    assert read_signature_state(signed).integrity is Integrity.INTACT
     assert complaints(signed) == []
 
 
@@ -58,7 +58,7 @@ def test_a_pdf_without_structure_is_signed_as_well(tmp_path) -> None:
     file = pkcs12_file(tmp_path / "laboratory.p12")
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
         signed = signer(plain.getvalue(), "Electronic signature")
-    assert signature_state(signed).integrity is Integrity.INTACT
+    assert read_signature_state(signed).integrity is Integrity.INTACT
 
 
 @pytest.mark.parametrize("password", [PASSWORD, ""])
@@ -66,7 +66,7 @@ def test_a_key_of_rsa_signs_with_and_without_a_password(unsigned: bytes, tmp_pat
     file = pkcs12_file(tmp_path / "laboratory.p12", rsa_key(), password=password)
     with open_signer(str(file), lambda _: password, PLACE) as signer:
         signed = signer(unsigned, "Electronic signature")
-    assert signature_state(signed).integrity is Integrity.INTACT
+    assert read_signature_state(signed).integrity is Integrity.INTACT
 
 
 def test_what_typst_printed_stays_what_it_claims(tmp_path: Path) -> None:

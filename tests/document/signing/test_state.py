@@ -12,15 +12,15 @@ import pytest
 from document.signing.conftest import PLACE
 from document.signing.keys import NAME, PASSWORD, certificate_of, elliptic, pkcs12_file
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.document.signing.state import Integrity, SignatureState, signature_state
+from zlmreport.document.signing.state import Integrity, SignatureState, read_signature_state
 
 
 def test_an_unsigned_file_is_unsigned(unsigned: bytes) -> None:
-    assert signature_state(unsigned) == SignatureState(Integrity.UNSIGNED)
+    assert read_signature_state(unsigned) == SignatureState(Integrity.UNSIGNED)
 
 
 def test_a_signed_file_is_intact_and_tells_who_signed_it_and_when(signed: bytes) -> None:
-    state = signature_state(signed)
+    state = read_signature_state(signed)
     assert (state.integrity, state.reason) == (Integrity.INTACT, "")
     (signature,) = state.signatures
     assert signature.signer == f"Common Name: {NAME}"
@@ -36,7 +36,7 @@ def test_the_fingerprint_is_that_of_the_certificate(unsigned: bytes, tmp_path) -
     certificate = certificate_of(elliptic())
     file = pkcs12_file(tmp_path / "laboratory.p12", certificate=certificate)
     with open_signer(str(file), lambda _: PASSWORD, PLACE) as signer:
-        (signature,) = signature_state(signer(unsigned, "signature")).signatures
+        (signature,) = read_signature_state(signer(unsigned, "signature")).signatures
     assert signature.fingerprint == certificate.fingerprint(SHA256()).hex()
 
 
@@ -45,7 +45,7 @@ def test_one_bit_anywhere_in_what_was_signed_is_found(unsigned: bytes, signed: b
     place = int(where * len(unsigned))
     altered = bytearray(signed)
     altered[place] ^= 1
-    assert signature_state(bytes(altered)).integrity is Integrity.ALTERED
+    assert read_signature_state(bytes(altered)).integrity is Integrity.ALTERED
 
 
 def test_a_signature_that_is_not_the_keys_is_found(signed: bytes) -> None:
@@ -53,7 +53,7 @@ def test_a_signature_that_is_not_the_keys_is_found(signed: bytes) -> None:
     end = start + len(signed[start:].split(b">")[0].rstrip(b"0")) - 8
     altered = bytearray(signed)
     altered[end : end + 2] = b"00" if altered[end : end + 2] != b"00" else b"11"
-    assert signature_state(bytes(altered)).integrity is Integrity.ALTERED
+    assert read_signature_state(bytes(altered)).integrity is Integrity.ALTERED
 
 
 def test_a_page_added_after_signing_is_found(signed: bytes) -> None:
@@ -65,7 +65,7 @@ def test_a_page_added_after_signing_is_found(signed: bytes) -> None:
     writer.update_root()
     extended = BytesIO()
     writer.write(extended)
-    state = signature_state(extended.getvalue())
+    state = read_signature_state(extended.getvalue())
     assert state.integrity is Integrity.ALTERED
     assert state.reason.startswith("something was added after it was signed: the catalog's /PageMode")
     assert state.signatures[0].holds
@@ -75,25 +75,25 @@ def test_a_file_written_anew_after_signing_is_found(signed: bytes) -> None:
     rewritten = BytesIO()
     with pikepdf.open(BytesIO(signed)) as pdf:
         pdf.save(rewritten)
-    assert signature_state(rewritten.getvalue()).integrity is Integrity.ALTERED
+    assert read_signature_state(rewritten.getvalue()).integrity is Integrity.ALTERED
 
 
 @pytest.mark.parametrize("kept", [0.5, 0.99])
 def test_a_truncated_file_is_altered_or_unsigned_but_never_intact(signed: bytes, kept: float) -> None:
-    assert signature_state(signed[: int(kept * len(signed))]).integrity is not Integrity.INTACT
+    assert read_signature_state(signed[: int(kept * len(signed))]).integrity is not Integrity.INTACT
 
 
 @pytest.mark.parametrize(
     "content", [b"", b"/ByteRange", b"%PDF-1.7\n/ByteRange [0 1 2 3]\n%%EOF\n", b"\0" * 100 + b"/ByteRange"]
 )
 def test_what_is_no_pdf_is_never_intact(content: bytes) -> None:
-    assert signature_state(content).integrity in {Integrity.UNSIGNED, Integrity.ALTERED}
+    assert read_signature_state(content).integrity in {Integrity.UNSIGNED, Integrity.ALTERED}
 
 
 def test_without_pyhanko_a_signature_is_seen_and_not_judged(
     signed: bytes, unsigned: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(sys.modules, "pyhanko.pdf_utils.reader", None)
-    assert signature_state(signed).integrity is Integrity.UNCHECKED
-    assert "zlmreport[sign]" in signature_state(signed).reason
-    assert signature_state(unsigned).integrity is Integrity.UNSIGNED
+    assert read_signature_state(signed).integrity is Integrity.UNCHECKED
+    assert "zlmreport[sign]" in read_signature_state(signed).reason
+    assert read_signature_state(unsigned).integrity is Integrity.UNSIGNED

@@ -20,7 +20,12 @@ from document.signing.conftest import PLACE
 from document.signing.keys import PASSWORD, certificate_of, elliptic, pkcs12_file
 from pdf_conformance import complaints
 from zlmreport.document.signing.signer import open_signer
-from zlmreport.document.signing.state import Integrity, _Trust, signature_state, trusted_certificates
+from zlmreport.document.signing.state import (
+    Integrity,
+    _Trust,
+    read_signature_state,
+    read_trusted_certificates,
+)
 from zlmreport.errors import AccessError
 
 
@@ -33,7 +38,7 @@ def own() -> Iterator[Authority]:
 def roots(of: Authority, folder: Path) -> tuple[Any, ...]:
     file = folder / "authority.pem"
     file.write_bytes(of.certificate.public_bytes(Encoding.PEM))
-    return trusted_certificates(file, PLACE)
+    return read_trusted_certificates(file, PLACE)
 
 
 def signed_by(own: Authority, pdf: bytes, folder: Path, authorities: tuple[Any, ...]) -> bytes:
@@ -51,7 +56,7 @@ def stamped(own: Authority, unsigned: bytes, tmp_path_factory: pytest.TempPathFa
 def test_the_time_is_the_stamps_and_trusted_if_its_authority_is(
     stamped: bytes, own: Authority, tmp_path: Path
 ) -> None:
-    state = signature_state(stamped, roots(own, tmp_path))
+    state = read_signature_state(stamped, roots(own, tmp_path))
     assert (state.integrity, state.is_trusted, state.is_time_trusted) == (Integrity.INTACT, True, True)
     signature, kept = state.signatures
     assert (signature.time, signature.stamped_by) == (own.now, "Common Name: Test Clock")
@@ -60,14 +65,14 @@ def test_the_time_is_the_stamps_and_trusted_if_its_authority_is(
 
 
 def test_without_trust_the_stamp_is_intact_and_no_more(stamped: bytes) -> None:
-    state = signature_state(stamped)
+    state = read_signature_state(stamped)
     assert (state.integrity, state.is_trusted) == (Integrity.INTACT, False)
     assert [each.is_time_trusted for each in state.signatures] == [False, False]
 
 
 def test_a_stamp_of_another_authority_is_not_trusted(stamped: bytes, tmp_path: Path) -> None:
     with authority() as other:
-        state = signature_state(stamped, roots(other, tmp_path))
+        state = read_signature_state(stamped, roots(other, tmp_path))
     assert (state.integrity, state.is_trusted) == (Integrity.INTACT, False)
 
 
@@ -84,7 +89,7 @@ def test_a_stamp_that_is_altered_is_found(stamped: bytes) -> None:
     place = stamped.rindex(b"/DocTimeStamp")
     altered = bytearray(stamped)
     altered[place - 40] ^= 1
-    assert signature_state(bytes(altered)).integrity is Integrity.ALTERED
+    assert read_signature_state(bytes(altered)).integrity is Integrity.ALTERED
 
 
 def test_a_certificate_that_is_revoked_signs_nothing(unsigned: bytes, tmp_path: Path) -> None:
@@ -175,7 +180,7 @@ def test_what_was_changed_after_signing_is_named(
     change(writer)
     changed = BytesIO()
     writer.write(changed)
-    state = signature_state(changed.getvalue())
+    state = read_signature_state(changed.getvalue())
     assert state.integrity is Integrity.ALTERED
     assert state.reason.startswith("something was added after it was signed: ")
     assert named in state.reason
@@ -195,7 +200,7 @@ def test_a_further_signature_does_not_heal_a_change(signed: bytes, tmp_path: Pat
     signer: Any = PdfSigner(PdfSignatureMetadata(field_name="Other"), key)
     signer._enforce_certification_constraints = lambda _: None  # a forger's program does not ask
     again = signer.sign_pdf(writer).getvalue()
-    state = signature_state(again)
+    state = read_signature_state(again)
     assert state.integrity is Integrity.ALTERED
     assert state.reason.startswith("it was changed after it was signed: ")
     assert "an annotation (Stamp)" in state.reason

@@ -15,7 +15,7 @@ from document.signing.keys import PASSWORD, certificate_of, in_der, pkcs12_file,
 from pdf_conformance import complaints
 from processes import run
 from zlmreport.document.signing.signer import TokenUri, _signed, open_signer, parse_token_uri
-from zlmreport.document.signing.state import Integrity, signature_state
+from zlmreport.document.signing.state import Integrity, read_signature_state
 from zlmreport.errors import AccessError, InputError
 
 _MODULE = Path("/usr/lib/softhsm/libsofthsm2.so")
@@ -77,7 +77,7 @@ def test_the_key_of_a_token_signs_and_the_token_is_closed_behind_it(
     with open_signer(named, lambda of: {"token Lab": _PIN}[of], PLACE) as signer:
         signed = signer(unsigned, "Electronic signature")
     assert asked == [("/usr/lib/token.so", "Lab", _PIN), ("session", "signature", "signature"), "closed"]
-    assert signature_state(signed).integrity is Integrity.INTACT
+    assert read_signature_state(signed).integrity is Integrity.INTACT
 
 
 def test_a_key_that_fails_to_sign_is_told(
@@ -124,7 +124,7 @@ def token(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def test_a_token_signs(token: str, unsigned: bytes) -> None:
     with open_signer(token, lambda _: _PIN, PLACE) as signer:
         signed = signer(unsigned, "Electronic signature")
-    assert signature_state(signed).integrity is Integrity.INTACT
+    assert read_signature_state(signed).integrity is Integrity.INTACT
     assert complaints(signed) == []
 
 

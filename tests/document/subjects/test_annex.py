@@ -31,7 +31,7 @@ _NUMBER = re.compile(r"\d+([.,]\d+)?")
 def modelled(path: Path = CONFIG / "job.yaml") -> Modelled:
     """Return the error model of a job, studied."""
     loaded = job(path)
-    return pipeline.modelled(loaded, pipeline.read(loaded, registry()), registry())
+    return pipeline.fit_model(loaded, pipeline.read(loaded, registry()), registry())
 
 
 def section(of: Modelled, language: Language = Language.ENGLISH) -> Section:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from model.hidden_effect import example_diagnosis, example_history
-from zlmreport.document.subjects.diagnosis import DiagnosisRows, failure_row
-from zlmreport.document.subjects.fit import error_facts, parameter_rows, wave_rows
+from zlmreport.document.subjects.diagnosis import DiagnosisRows, make_failure_row
+from zlmreport.document.subjects.fit import list_error_facts, make_all_wave_rows, make_parameter_rows
 from zlmreport.language import Language, Words
-from zlmreport.model.diagnosis.report import verdict_statement
+from zlmreport.model.diagnosis.report import write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 
 ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
@@ -17,7 +17,7 @@ ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 def test_rows_say_the_verdict_and_name_the_candidates_best_first() -> None:
     diagnosis = example_diagnosis()
     rows = DiagnosisRows.of(diagnosis, ENGLISH, {"screw-pitch": Words(en="Pitch", de="Steigung")})
-    assert rows.statement == verdict_statement(diagnosis).in_language(ENGLISH)
+    assert rows.statement == write_verdict_statement(diagnosis).in_language(ENGLISH)
     assert [row.effect for row in rows.candidates] == [each.identifier for each in diagnosis.candidates]
     assert (rows.candidates[0].title, rows.candidates[0].probability) == ("Pitch", "100")
     assert rows.candidates[0].is_serious
@@ -48,21 +48,21 @@ def test_only_what_the_plan_hides_is_called_hidden() -> None:
 def test_a_condition_that_the_residuals_follow_is_named_in_words() -> None:
     where = Words(en="air_pressure", de="air_pressure")
     failure = Failure(ResidualTest.CONDITION, 0.001, where, where, condition="air_pressure")
-    assert failure_row(failure, GERMAN).where == "Luftdruck"
+    assert make_failure_row(failure, GERMAN).where == "Luftdruck"
 
 
 def test_error_numbers_have_three_digits_and_their_unit() -> None:
     whole = example_history()[-1]
     error = replace(whole.error, rms=12.345e-6, noise_rms=None)
-    pairs = error_facts(error, whole.fit.design.axis, GERMAN).pairs
+    pairs = list_error_facts(error, whole.fit.design.axis, GERMAN).pairs
     assert pairs[0] == ("Quadratischer Mittelwert der Abweichungen", "12,3 µm")
     assert "Grundrauschen" not in dict(pairs)
 
 
 def test_the_number_of_a_parameter_is_the_value_that_is_printed() -> None:
-    for row in parameter_rows(example_history()[-1].fit, GERMAN):
+    for row in make_parameter_rows(example_history()[-1].fit, GERMAN):
         assert row.number == float(row.value.replace(",", ".").replace("\N{MINUS SIGN}", "-"))
 
 
 def test_a_model_without_waves_has_no_rows_of_waves() -> None:
-    assert wave_rows(example_history()[-1].fit, ENGLISH) == ()
+    assert make_all_wave_rows(example_history()[-1].fit, ENGLISH) == ()

@@ -7,13 +7,13 @@ from pathlib import Path
 import pytest
 
 from model.hidden_effect import LAST, example_history, study, written
-from zlmreport.document.blocks import Paragraph, Table, text_of
+from zlmreport.document.blocks import Paragraph, Table, write_cell_text
 from zlmreport.document.subjects.fit import (
     fit_sections,
-    in_a_sentence,
-    parameter_rows,
-    parameters,
-    polynomial,
+    lay_out_parameters,
+    make_parameter_rows,
+    write_in_a_sentence,
+    write_polynomial,
 )
 from zlmreport.language import Language
 
@@ -22,7 +22,7 @@ ENGLISH, GERMAN = Language.ENGLISH, Language.GERMAN
 
 def _cells(table: Table, key: str) -> list[str]:
     (number,) = [number for number, column in enumerate(table.columns) if column.key == key]
-    return [text_of(row[number]) for group in table.groups for row in group.rows]
+    return [write_cell_text(row[number]) for group in table.groups for row in group.rows]
 
 
 def test_sections_are_the_same_in_both_languages(tmp_path: Path) -> None:
@@ -38,7 +38,7 @@ def test_sections_are_the_same_in_both_languages(tmp_path: Path) -> None:
 
 
 def test_a_table_of_parameters_without_a_column_keeps_the_others() -> None:
-    whole = parameters(example_history()[-1].fit, ENGLISH)
+    whole = lay_out_parameters(example_history()[-1].fit, ENGLISH)
     narrow = whole.without("symbol", "value")
     assert [each.key for each in narrow.columns] == [
         each.key for each in whole.columns if each.key not in {"symbol", "value"}
@@ -49,8 +49,8 @@ def test_a_table_of_parameters_without_a_column_keeps_the_others() -> None:
 
 def test_each_parameter_has_its_value_and_its_uncertainty() -> None:
     fit = example_history()[-1].fit
-    table = parameters(fit, ENGLISH)
-    rows = parameter_rows(fit, ENGLISH)
+    table = lay_out_parameters(fit, ENGLISH)
+    rows = make_parameter_rows(fit, ENGLISH)
     assert _cells(table, "name") == [each.name for each in rows]
     assert _cells(table, "value") == [each.value for each in rows]
     assert _cells(table, "uncertainty") == [each.uncertainty for each in rows]
@@ -69,10 +69,10 @@ def test_a_value_without_uncertainty_says_how_it_is_known(
 ) -> None:
     fit = study(written(tmp_path, (LAST, f"    - backlash: {{{stated}}}\n"))).fitted().fit
     for language, expected in ((ENGLISH, english), (GERMAN, german)):
-        (row,) = [each for each in parameter_rows(fit, language) if each.effect == "backlash"]
-        assert in_a_sentence(row, language) == expected
+        (row,) = [each for each in make_parameter_rows(fit, language) if each.effect == "backlash"]
+        assert write_in_a_sentence(row, language) == expected
 
 
 def test_a_polynomial_has_the_decimal_sign_of_its_language() -> None:
     powers = [("X", 0), ("X", 1)]
-    assert polynomial([-0.5, 2e-5], powers, GERMAN) == "−0,5 + 2e−5·X"
+    assert write_polynomial([-0.5, 2e-5], powers, GERMAN) == "−0,5 + 2e−5·X"

@@ -10,9 +10,9 @@ import pytest
 
 from model.hidden_effect import example, example_history, registry, study, written
 from zlmreport import pipeline
-from zlmreport.document.subjects.forecast import StandardForecast, forecasts
+from zlmreport.document.subjects.forecast import StandardForecast, make_forecasts
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.model.diagnosis.study import corrected
+from zlmreport.model.diagnosis.study import correct_by_model
 
 ALL = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "nmtba"]
 
@@ -20,7 +20,7 @@ ALL = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "nmtba"]
 @cache
 def found() -> dict[str, StandardForecast]:
     standards = [(registry().standard(name), registry().standard(name).options()) for name in ALL]
-    return {each.standard: each for each in forecasts(standards, example(), example_history())}
+    return {each.standard: each for each in make_forecasts(standards, example(), example_history())}
 
 
 @pytest.mark.parametrize(
@@ -48,7 +48,7 @@ def test_the_first_step_is_what_was_measured(standard: str) -> None:
 def test_each_step_is_what_the_standard_says_of_the_corrected_readings(standard: str) -> None:
     chosen = registry().standard(standard)
     for step, each in enumerate(example_history()):
-        left = corrected(example().measurements, example().observed, each.fit)
+        left = correct_by_model(example().measurements, example().observed, each.fit)
         evaluation = evaluate(chosen, left, chosen.options(), {})
         expected = [evaluation.value(quantity.symbol) for quantity in found()[standard].quantities]
         np.testing.assert_allclose(found()[standard].by_step[step], expected, rtol=1e-9)
@@ -68,7 +68,7 @@ def test_a_table_leaves_the_repeatability_that_drift_has_made(tmp_path: Path) ->
     path = written(tmp_path, ("    - backlash\n", "    - backlash\n    - thermal-drift\n"))
     warm = study(path)
     history = warm.history()
-    (forecast,) = forecasts(pipeline.standards(warm.job, registry()), warm, history)
+    (forecast,) = make_forecasts(pipeline.choose_standards(warm.job, registry()), warm, history)
     repeatability = 2
     assert forecast.quantities[repeatability].symbol == "R"
     # Without the drift as with the table: what moves with time is in the scatter of each position.

@@ -9,7 +9,7 @@ import pytest
 
 from document.certificate.documents import lines_of
 from model.planning.planned import WHOLE_PITCHES, plan_of_test, planned_job
-from zlmreport.document.subjects.plan import plan_sections, size_of_plan
+from zlmreport.document.subjects.plan import plan_sections, say_size_of_plan
 from zlmreport.language import Language
 
 CHANGES = (("plan: {}", WHOLE_PITCHES),), (("method: linear", "method: pendulum"),)
@@ -38,7 +38,7 @@ def test_both_languages_say_the_same(changes: tuple[tuple[str, str], ...]) -> No
 
 def test_a_plan_says_how_large_it_is() -> None:
     planned = plan_of_test()
-    assert size_of_plan(planned).in_language(Language.ENGLISH) == (
+    assert say_size_of_plan(planned).in_language(Language.ENGLISH) == (
         f"{len(planned.proposal.plan.targets)} targets, {len(planned.visits)} readings"
     )
 

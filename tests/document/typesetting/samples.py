@@ -41,7 +41,7 @@ from zlmreport.evaluation.evaluation import (
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number
+from zlmreport.language.formatting import write_fixed_number
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import read_only_floats, read_only_integers
 from zlmreport.measurement.axis import Axis, AxisKind
@@ -284,7 +284,7 @@ class _Writer:
         return german if self.language is Language.GERMAN else english
 
     def number(self, value: float, decimals: int = 1) -> str:
-        return "–" if np.isnan(value) else fixed_number(value, decimals, self.language.decimal_sign)
+        return "–" if np.isnan(value) else write_fixed_number(value, decimals, self.language.decimal_sign)
 
     def cover(self, customer: str) -> tuple[Block, ...]:
         say = self.say

@@ -21,12 +21,12 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
     Verdict,
-    text_of,
+    write_cell_text,
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead, Party
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role
 from zlmreport.document.typesetting.compose import Setting, compose
-from zlmreport.document.typesetting.templates import symbol
+from zlmreport.document.typesetting.templates import set_symbol
 from zlmreport.language import Language, same
 
 #: Texts that mean something to some reader of a page; here they mean themselves.
@@ -198,7 +198,10 @@ def test_every_cell_of_every_table_is_set() -> None:
         if row.find("td") is not None
     ]
     cells = [
-        [text_of(cell) for cell in row] for table in tables for group in table.groups for row in group.rows
+        [write_cell_text(cell) for cell in row]
+        for table in tables
+        for group in table.groups
+        for row in group.rows
     ]
     assert rows == cells
 
@@ -213,7 +216,7 @@ def test_every_cell_of_every_table_is_set() -> None:
     ],
 )
 def test_symbols_are_set_in_italics_and_subscripts(notation: str, as_set: str) -> None:
-    assert symbol(notation) == f'<span class="symbol">{as_set}</span>'
+    assert set_symbol(notation) == f'<span class="symbol">{as_set}</span>'
 
 
 @pytest.mark.parametrize(

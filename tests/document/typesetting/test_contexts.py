@@ -14,7 +14,7 @@ from zlmreport.document.blocks import Facts
 from zlmreport.document.certificate import document
 from zlmreport.document.typesetting import overview, templates
 from zlmreport.document.typesetting.resources import PACKAGE
-from zlmreport.document.typesetting.templates import environment
+from zlmreport.document.typesetting.templates import make_environment
 from zlmreport.language.formatting import Span
 
 CONTEXTS = get_args(templates.Context)
@@ -43,18 +43,18 @@ PARTS = (
 
 
 def parsed(template: str) -> nodes.Template:
-    loader = environment().loader
+    loader = make_environment().loader
     assert loader is not None
-    return environment().parse(loader.get_source(environment(), template)[0])
+    return make_environment().parse(loader.get_source(make_environment(), template)[0])
 
 
 def test_each_template_has_one_context_and_each_context_its_template() -> None:
-    assert sorted([*map(templates.template_of, CONTEXTS), *MACROS]) == TEMPLATES
+    assert sorted([*map(templates.name_template_of, CONTEXTS), *MACROS]) == TEMPLATES
 
 
-@pytest.mark.parametrize("context", CONTEXTS, ids=templates.template_of)
+@pytest.mark.parametrize("context", CONTEXTS, ids=templates.name_template_of)
 def test_a_template_uses_what_its_context_documents_and_all_of_it(context: type) -> None:
-    used = meta.find_undeclared_variables(parsed(templates.template_of(context)))
+    used = meta.find_undeclared_variables(parsed(templates.name_template_of(context)))
     assert used == {field.name for field in dataclasses.fields(context)}
 
 
@@ -85,9 +85,9 @@ def test_a_template_never_trusts_a_value_of_its_context(template: str) -> None:
 
 def test_a_template_that_asks_for_what_it_is_not_given_fails() -> None:
     with pytest.raises(UndefinedError, match="nothing_such"):
-        environment().from_string("{{ nothing_such }}").render()
+        make_environment().from_string("{{ nothing_such }}").render()
 
 
 def test_a_template_cannot_reach_behind_its_values() -> None:
     with pytest.raises(SecurityError):
-        environment().from_string("{{ text.__class__.__mro__ }}").render(text="x")
+        make_environment().from_string("{{ text.__class__.__mro__ }}").render(text="x")

@@ -62,28 +62,28 @@ def test_the_page_names_no_address_elsewhere() -> None:
 
 
 def test_no_module_of_the_script_is_left_to_load() -> None:
-    assert re.search(r"^\s*(import|export)\b", resources.linked_script(), re.MULTILINE) is None
+    assert re.search(r"^\s*(import|export)\b", resources.read_linked_script(), re.MULTILINE) is None
 
 
 @pytest.mark.parametrize("end", ["</script", "<!--"])
 def test_nothing_in_the_script_ends_it(end: str) -> None:
-    assert end not in resources.linked_script().lower()
+    assert end not in resources.read_linked_script().lower()
 
 
 def test_nothing_in_the_script_ends_its_section_of_xml() -> None:
-    assert resources.linked_script().count("]]>") == 1
+    assert resources.read_linked_script().count("]]>") == 1
 
 
 @pytest.mark.parametrize("text", ["</script><script>alert(1)</script>", "<!--", "&amp;", "]]>", "\x00\u2028"])
 def test_hostile_text_is_text(text: str) -> None:
     hostile = replace(graphs(), texts={**graphs().texts, "measured": text})
-    written = resources.linked_values(hostile)
+    written = resources.write_linked_values(hostile)
     assert not set(written) & set("<>&\x00\u2028")
     assert json.loads(written)["texts"]["measured"] == text
 
 
 def test_it_is_the_same_twice() -> None:
-    resources.linked_script.cache_clear()
+    resources.read_linked_script.cache_clear()
     again = pipeline.compose(job(CONFIG / "job.yaml"), registry())
     assert HtmlRenderer().render(again).decode() == page()
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.correction.corrections import Air, Corrections, Expansion, corrected
+from zlmreport.evaluation.correction.corrections import Air, Corrections, Expansion, correct
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import simulated_test
@@ -31,14 +31,14 @@ def everywhere(measured: MeasurementSet, value: float) -> np.ndarray:
 
 def test_a_warm_axis_is_taken_back_to_20_degrees(measured):
     warm = Expansion(11.5e-6, everywhere(measured, 293.15 + 4))
-    found = corrected(measured, Corrections(datum=0.0, expansion=warm))
+    found = correct(measured, Corrections(datum=0.0, expansion=warm))
 
     expected = measured.deviation - displacement(measured, 0.0) * 11.5e-6 * 4
     np.testing.assert_allclose(found.deviation, expected, rtol=0, atol=EXACT)
 
 
 def test_at_20_degrees_nothing_expands(measured):
-    found = corrected(measured, Corrections(0.0, expansion=Expansion(11.5e-6, everywhere(measured, 293.15))))
+    found = correct(measured, Corrections(0.0, expansion=Expansion(11.5e-6, everywhere(measured, 293.15))))
 
     np.testing.assert_allclose(found.deviation, measured.deviation, rtol=0, atol=EXACT)
 
@@ -46,7 +46,7 @@ def test_at_20_degrees_nothing_expands(measured):
 def test_the_datum_is_not_moved_by_the_index_of_the_air(measured):
     at = float(measured.target_positions[2])
     air = Air(everywhere(measured, 1.000271), 1.000270)
-    found = corrected(measured, Corrections(datum=at, air=air))
+    found = correct(measured, Corrections(datum=at, air=air))
 
     change = found.deviation - measured.deviation
     np.testing.assert_allclose(
@@ -59,7 +59,7 @@ def test_corrections_follow_each_other_and_are_remembered_in_their_order(measure
     corrections = Corrections(
         0.0, Air(rising, 1.000270), 0.5, Expansion(11.5e-6, everywhere(measured, 294.15))
     )
-    found = corrected(measured, corrections)
+    found = correct(measured, corrections)
 
     names = [each.name.in_language(Language.ENGLISH) for each in found.provenance.corrections]
     assert names == ["Refractive index of air", "Dead path", "Thermal expansion, to 20 °C"]
@@ -72,7 +72,7 @@ def test_a_missing_reading_stays_missing(measured):
     deviation[3] = np.nan
     holed = replace(measured, deviation=deviation)
     air = Air(everywhere(measured, 1.000271), 1.0)
-    found = corrected(holed, Corrections(0.0, air))
+    found = correct(holed, Corrections(0.0, air))
 
     assert np.flatnonzero(np.isnan(found.deviation)).tolist() == [3]
     assert np.isfinite(found.provenance.corrections[0].largest)
@@ -80,7 +80,7 @@ def test_a_missing_reading_stays_missing(measured):
 
 def test_the_readings_themselves_are_left_as_they_were(measured):
     before = measured.deviation.copy()
-    corrected(measured, Corrections(0.0, Air(everywhere(measured, 1.000271), 1.0)))
+    correct(measured, Corrections(0.0, Air(everywhere(measured, 1.000271), 1.0)))
 
     np.testing.assert_array_equal(measured.deviation, before)
     assert measured.provenance.corrections == ()

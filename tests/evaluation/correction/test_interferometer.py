@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.correction.corrections import dead_path_error, displacement_in_air
+from zlmreport.evaluation.correction.corrections import compute_dead_path_error, correct_displacement_in_air
 
 WAVELENGTH = 632.991e-9
 #: Displacements, m, and the index of the air at each.
@@ -27,7 +27,7 @@ EXACT = 1e-15
 @pytest.mark.parametrize("assumed", [1.0, 1.00027])
 def test_the_displacement_is_found_again(assumed):
     np.testing.assert_allclose(
-        displacement_in_air(displayed(assumed, 0.0), INDEX, assumed), TRUE, rtol=0, atol=EXACT
+        correct_displacement_in_air(displayed(assumed, 0.0), INDEX, assumed), TRUE, rtol=0, atol=EXACT
     )
 
 
@@ -40,15 +40,15 @@ def test_vacuum_assumed_in_air_displays_a_length_too_long_by_n_minus_one():
 @pytest.mark.parametrize("grows", [True, False])
 def test_the_dead_path_is_taken_out_on_either_side_of_the_interferometer(grows):
     dead_path = 1.4
-    found = displacement_in_air(displayed(1.0, dead_path, grows=grows), INDEX, 1.0)
+    found = correct_displacement_in_air(displayed(1.0, dead_path, grows=grows), INDEX, 1.0)
     signed = dead_path if grows else -dead_path
 
     np.testing.assert_allclose(
-        found - dead_path_error(INDEX, float(INDEX[0]), signed), TRUE, rtol=0, atol=2 * EXACT
+        found - compute_dead_path_error(INDEX, float(INDEX[0]), signed), TRUE, rtol=0, atol=2 * EXACT
     )
 
 
 def test_half_a_metre_of_dead_path_and_one_millionth_of_index_are_half_a_micrometre():
     index = np.array([1.000270, 1.000271])
 
-    assert dead_path_error(index, 1.000270, 0.5)[1] == pytest.approx(0.5e-6, rel=3e-4)
+    assert compute_dead_path_error(index, 1.000270, 0.5)[1] == pytest.approx(0.5e-6, rel=3e-4)

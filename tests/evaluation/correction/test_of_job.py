@@ -11,7 +11,7 @@ import pytest
 
 from document.certificate.documents import COMPLETE, certificate, job, registry, text_of
 from zlmreport.errors import InputError
-from zlmreport.evaluation.correction.corrections import corrections_of
+from zlmreport.evaluation.correction.corrections import find_corrections_of
 from zlmreport.measurement.refractive_index import refractive_index
 from zlmreport.pipeline import read
 
@@ -59,7 +59,7 @@ def test_the_datum_is_where_the_readings_tell_or_else_the_first_target(tmp_path,
     chosen = job(tmp_path, keys(tmp_path, {"material": {"expansion_coefficient": 11.5}}))
     measured = replace(read(chosen, registry()), datum=told)
 
-    assert corrections_of(chosen, measured).datum == datum
+    assert find_corrections_of(chosen, measured).datum == datum
 
 
 def test_a_metre_of_steel_three_kelvin_too_warm_is_corrected_by_its_expansion(tmp_path):

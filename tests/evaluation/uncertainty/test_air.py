@@ -9,7 +9,7 @@ import pytest
 
 from document.certificate.documents import COMPLETE, job, registry
 from zlmreport import pipeline
-from zlmreport.evaluation.uncertainty.air import air_contributions
+from zlmreport.evaluation.uncertainty.air import list_air_contributions
 from zlmreport.evaluation.uncertainty.budget import Acts, Contribution
 from zlmreport.language import Language
 
@@ -30,7 +30,7 @@ def found_in(folder: Path, ranges: dict[str, float], *, air: bool = True) -> lis
         **({"corrections": {"air": {"assumed": "vacuum"}}} if air else {}),
     }
     asked = job(folder, keys)
-    return list(air_contributions(asked, pipeline.read(asked, registry()), 1.0))
+    return list(list_air_contributions(asked, pipeline.read(asked, registry()), 1.0))
 
 
 def contributions(folder: Path, ranges: dict[str, float], *, air: bool = True) -> dict[str, float]:

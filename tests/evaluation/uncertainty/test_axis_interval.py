@@ -17,7 +17,7 @@ from zlmreport.evaluation.uncertainty.axis_interval import (
     _pooled,
     _scatter_of,
     _trigamma,
-    axis_intervals,
+    compute_axis_intervals,
 )
 from zlmreport.job.types import Options
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -40,7 +40,7 @@ UNIT = np.tile([1.0, -1.0], RUNS // 2) * math.sqrt((RUNS - 1) / RUNS)
 def intervals(test: MeasurementSet) -> dict[str, tuple[float, float]]:
     """Return lower and upper ends, less the value, of every parameter of ISO 230-2, µm."""
     evaluation = evaluate(ISO, test, Options(), {})
-    (found,) = axis_intervals([(evaluation, partial(ISO.arithmetic, options=Options()))], PAIRS)
+    (found,) = compute_axis_intervals([(evaluation, partial(ISO.arithmetic, options=Options()))], PAIRS)
     value = {each.quantity.symbol: each.value for each in evaluation.parameters}
     return {
         name: ((low - value[name]) / MICROMETRE, (high - value[name]) / MICROMETRE)

@@ -9,7 +9,7 @@ import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, budget, contribution, expanded
 from zlmreport.evaluation.uncertainty import wording
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, effect_along
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, compute_effect_along
 from zlmreport.language import Language
 from zlmreport.testing import simulated_test
 
@@ -36,11 +36,11 @@ def test_shares_add_up_to_all() -> None:
 
 
 def test_an_error_along_the_length_grows_from_the_first_target_to_the_last() -> None:
-    assert effect_along(np.array([-0.1, 0.0, 0.3])) == pytest.approx([0.0, 0.25, 1.0])
+    assert compute_effect_along(np.array([-0.1, 0.0, 0.3])) == pytest.approx([0.0, 0.25, 1.0])
 
 
 def test_over_a_single_target_there_is_no_length() -> None:
-    assert effect_along(np.array([0.2])) == pytest.approx([0.0])
+    assert compute_effect_along(np.array([0.2])) == pytest.approx([0.0])
 
 
 def test_a_budget_of_nothing_leaves_no_uncertainty() -> None:
@@ -49,5 +49,7 @@ def test_a_budget_of_nothing_leaves_no_uncertainty() -> None:
 
 
 def test_a_sign_of_an_angle_follows_its_number_at_once() -> None:
-    assert wording.full_range("R", 0.1, "″").in_language(Language.GERMAN) == "R = 0,1″"
-    assert wording.expanded(0.5, "µm", 2).in_language(Language.ENGLISH) == "U = 0.5 µm (k = 2)"
+    assert wording.say_full_range("R", 0.1, "″").in_language(Language.GERMAN) == "R = 0,1″"
+    assert (
+        wording.say_expanded_uncertainty(0.5, "µm", 2).in_language(Language.ENGLISH) == "U = 0.5 µm (k = 2)"
+    )

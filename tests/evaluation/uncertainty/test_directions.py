@@ -10,7 +10,7 @@ import pytest
 from evaluation.uncertainty.budgets import BY_CHANCE, ISO, MICROMETRE, budget, contribution, uncertainties
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.expanded import mean_uncertainty
+from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.testing import bidirectional_test
 
@@ -57,6 +57,6 @@ def test_the_mean_deviations_have_their_part(
     acts: Acts, positive: float, negative: float, both: float
 ) -> None:
     evaluation = evaluate(ISO, TEST, Options(), {})
-    found = mean_uncertainty(evaluation, Budget((contribution(0.5, acts),)))
+    found = compute_mean_uncertainty(evaluation, Budget((contribution(0.5, acts),)))
     assert found.by_approach[:, 1] / MICROMETRE == pytest.approx([2 * positive, 2 * negative])
     assert found.bidirectional[1] / MICROMETRE == pytest.approx(2 * both)

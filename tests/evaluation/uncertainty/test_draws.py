@@ -9,7 +9,7 @@ import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
-from zlmreport.evaluation.uncertainty.monte_carlo import shortened, single_draws, stratified_draws
+from zlmreport.evaluation.uncertainty.monte_carlo import sample_singly, sample_stratified, shorten
 
 COUNT = 20_000
 #: Four standard deviations of a root mean square of so many draws: 1/√(2·COUNT) if they are normal, less
@@ -19,12 +19,12 @@ BY_CHANCE = 4 / math.sqrt(2 * COUNT)
 
 def drawn(*distributions: Distribution) -> np.ndarray:
     contributions = [contribution(0.5, Acts.AT_EACH_READING, each) for each in distributions]
-    return single_draws(contributions, (COUNT,), np.random.default_rng(7)) / MICROMETRE
+    return sample_singly(contributions, (COUNT,), np.random.default_rng(7)) / MICROMETRE
 
 
 def stratified(*distributions: Distribution) -> np.ndarray:
     contributions = [contribution(0.5, Acts.ALONG_THE_LENGTH, each) for each in distributions]
-    return stratified_draws(contributions, COUNT, np.random.default_rng(7)) / MICROMETRE
+    return sample_stratified(contributions, COUNT, np.random.default_rng(7)) / MICROMETRE
 
 
 @pytest.mark.parametrize("distribution", Distribution)
@@ -68,4 +68,4 @@ def test_without_contributions_there_is_no_error() -> None:
 
 
 def test_an_uncertainty_keeps_six_digits() -> None:
-    assert shortened(1.23456789e-6) == 1.23457e-6
+    assert shorten(1.23456789e-6) == 1.23457e-6

@@ -12,10 +12,10 @@ from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
 from zlmreport.evaluation.uncertainty.drift import (
     Drift,
-    drawn_drifts,
-    drift_range,
-    mean_drift_variance,
-    reading_times,
+    compute_mean_drift_variance,
+    compute_reading_times,
+    find_drift_range,
+    sample_drifts,
 )
 from zlmreport.testing import bidirectional_test
 
@@ -26,27 +26,27 @@ COUNT = 4_000
 
 
 def drawn(kind: Drift, times: np.ndarray) -> np.ndarray:
-    return drawn_drifts(kind, times, COUNT, np.random.default_rng(3))
+    return sample_drifts(kind, times, COUNT, np.random.default_rng(3))
 
 
 def test_a_range_is_that_of_the_rectangle_with_its_standard_uncertainty() -> None:
     drifting = contribution(1 / math.sqrt(12), Acts.IN_TIME, Distribution.RECTANGULAR)
-    assert drift_range(drifting) == pytest.approx(MICROMETRE)
+    assert find_drift_range(drifting) == pytest.approx(MICROMETRE)
 
 
 def test_readings_have_their_own_times_as_shares_of_the_test() -> None:
     timed = replace(TEST, time=np.array([100.0, 101.0, 102.0, 103.0, 109.0, 110.0]))
-    assert sorted(reading_times(timed).ravel()) == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.9, 1.0])
+    assert sorted(compute_reading_times(timed).ravel()) == pytest.approx([0.0, 0.1, 0.2, 0.3, 0.9, 1.0])
 
 
 def test_where_one_reading_has_no_time_their_order_counts() -> None:
     timed = replace(TEST, time=np.array([100.0, 101.0, np.nan, 103.0, 109.0, 110.0]))
-    assert sorted(reading_times(timed).ravel()) == pytest.approx(ORDER)
-    assert sorted(reading_times(replace(TEST, time=None)).ravel()) == pytest.approx(ORDER)
+    assert sorted(compute_reading_times(timed).ravel()) == pytest.approx(ORDER)
+    assert sorted(compute_reading_times(replace(TEST, time=None)).ravel()) == pytest.approx(ORDER)
 
 
 def test_a_test_that_took_no_time_drifts_nowhere() -> None:
-    assert not reading_times(replace(TEST, time=np.full(6, 7.0))).any()
+    assert not compute_reading_times(replace(TEST, time=np.full(6, 7.0))).any()
 
 
 def test_noise_fills_its_range_about_nothing_and_forgets_itself() -> None:
@@ -97,7 +97,7 @@ def test_a_single_reading_does_not_walk() -> None:
 def test_the_worst_kind_of_drift_is_left_in_a_mean() -> None:
     """At the beginning a ramp stands at half its range, always: no other kind leaves more than its 1/4."""
     times = np.array([[[0.0, 0.0], [0.5, 0.5]], [[0.0, 0.0], [1.0, 1.0]]])
-    by_approach, both = mean_drift_variance(times)
+    by_approach, both = compute_mean_drift_variance(times)
     assert by_approach[0] == pytest.approx(0.25)
     assert both[0] == pytest.approx(0.25)
     assert by_approach[1] >= 0.25
@@ -105,10 +105,10 @@ def test_the_worst_kind_of_drift_is_left_in_a_mean() -> None:
 
 
 def test_a_mean_is_of_the_readings_that_there_are() -> None:
-    by_approach, _ = mean_drift_variance(np.array([[[0.0, np.nan]], [[0.0, 0.0]]]))
+    by_approach, _ = compute_mean_drift_variance(np.array([[[0.0, np.nan]], [[0.0, 0.0]]]))
     assert by_approach == pytest.approx([0.25])
 
 
 def test_what_was_read_from_one_side_only_is_disturbed_there() -> None:
-    by_approach, _ = mean_drift_variance(np.array([[[0.0, 0.0]], [[np.nan, np.nan]]]))
+    by_approach, _ = compute_mean_drift_variance(np.array([[[0.0, 0.0]], [[np.nan, np.nan]]]))
     assert by_approach == pytest.approx([0.25])

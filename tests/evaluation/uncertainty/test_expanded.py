@@ -12,8 +12,8 @@ from evaluation.uncertainty.budgets import ISO, MICROMETRE, budget, contribution
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation, Least, Parameter
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, KnownError, NoBudget
-from zlmreport.evaluation.uncertainty.drift import mean_drift_variance, reading_times
-from zlmreport.evaluation.uncertainty.expanded import mean_uncertainty, with_uncertainty
+from zlmreport.evaluation.uncertainty.drift import compute_mean_drift_variance, compute_reading_times
+from zlmreport.evaluation.uncertainty.expanded import add_uncertainty, compute_mean_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.testing import simulated_test
@@ -24,7 +24,7 @@ TEST = simulated_test()
 def stated(of: Budget | NoBudget) -> Evaluation:
     options = Options()
     evaluation = evaluate(ISO, TEST, options, {})
-    (found,) = with_uncertainty([(evaluation, partial(ISO.arithmetic, options=options))], of)
+    (found,) = add_uncertainty([(evaluation, partial(ISO.arithmetic, options=options))], of)
     return found
 
 
@@ -33,7 +33,7 @@ def parameters(of: Budget | NoBudget) -> dict[str, Parameter]:
 
 
 def test_without_a_test_there_is_nothing_to_state() -> None:
-    assert with_uncertainty([], budget(0.5, Acts.AT_EACH_READING)) == ()
+    assert add_uncertainty([], budget(0.5, Acts.AT_EACH_READING)) == ()
 
 
 def test_without_a_budget_there_is_the_interval_of_the_next_test_and_no_uncertainty() -> None:
@@ -73,8 +73,8 @@ def test_only_what_compares_positions_has_the_uncertainty_of_the_instrument_at_l
 
 def test_what_drifts_adds_to_each_mean_by_the_worst_of_its_kinds() -> None:
     drifting = Budget((contribution(0.5, Acts.IN_TIME, Distribution.RECTANGULAR),))
-    found = mean_uncertainty(stated(drifting), drifting)
-    by_approach, both = mean_drift_variance(reading_times(TEST))
+    found = compute_mean_uncertainty(stated(drifting), drifting)
+    by_approach, both = compute_mean_drift_variance(compute_reading_times(TEST))
     width = 2 * 0.5e-6 * 12**0.5
     assert found.by_approach[0] == pytest.approx(width * by_approach**0.5)
     assert found.bidirectional == pytest.approx(width * both**0.5)
@@ -84,7 +84,7 @@ def test_a_known_error_adds_whole_to_the_uncertainty_of_a_mean() -> None:
     targets = TEST.target_positions
     correction = -0.5e-6 * ((targets - targets[0]) / np.ptp(targets))[TEST.target]
     known = KnownError(same("any"), correction, same(""), same(""))
-    found = mean_uncertainty(stated(NoBudget(same(""))), Budget((), known_errors=(known,)))
+    found = compute_mean_uncertainty(stated(NoBudget(same(""))), Budget((), known_errors=(known,)))
     assert found.bidirectional[-1] == pytest.approx(0.5e-6)
     assert found.bidirectional[0] == 0.0
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution
-from zlmreport.evaluation.uncertainty.flattest_axis import flattest
+from zlmreport.evaluation.uncertainty.flattest_axis import make_flattest
 from zlmreport.language import same
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -37,15 +37,15 @@ def spread(measurements: MeasurementSet) -> float:
 def test_an_instrument_finer_than_the_axis_leaves_it_as_it_was_read() -> None:
     test = simulated_test()
 
-    assert flattest(test, of_instrument(0.2 * spread(test))) is None
-    assert flattest(test, of_instrument(spread(test), Acts.ALONG_THE_LENGTH)) is None
+    assert make_flattest(test, of_instrument(0.2 * spread(test))) is None
+    assert make_flattest(test, of_instrument(spread(test), Acts.ALONG_THE_LENGTH)) is None
 
 
 def test_the_variance_that_the_errors_may_have_brought_is_taken_out() -> None:
     test = simulated_test()
     positions = len(test.target_positions)
 
-    flat = flattest(test, of_instrument(0.5 * spread(test)))
+    flat = make_flattest(test, of_instrument(0.5 * spread(test)))
 
     assert flat is not None
     # The upper limit of χ²/ν, 95 %, is 1.83 for 10 degrees of freedom, and nearer to 1 for more.
@@ -57,7 +57,7 @@ def test_the_variance_that_the_errors_may_have_brought_is_taken_out() -> None:
 def test_an_axis_that_errs_less_than_the_instrument_may_be_flat_and_keeps_its_scatter() -> None:
     test = simulated_test()
 
-    flat = flattest(test, of_instrument(3 * spread(test)))
+    flat = make_flattest(test, of_instrument(3 * spread(test)))
 
     assert flat is not None
     assert spread(flat) == pytest.approx(0, abs=1e-12)
@@ -69,7 +69,7 @@ def test_a_flat_axis_stays_one() -> None:
     test = simulated_test()
     nothing = replace(test, deviation=read_only_floats(np.zeros_like(test.deviation)))
 
-    flat = flattest(nothing, of_instrument(1e-6))
+    flat = make_flattest(nothing, of_instrument(1e-6))
 
     assert flat is not None
     assert spread(flat) == 0

@@ -15,7 +15,7 @@ from document.certificate.documents import COMPLETE, ROOT, job, registry
 from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, Distribution, NoBudget
-from zlmreport.evaluation.uncertainty.job_budget import budget_of
+from zlmreport.evaluation.uncertainty.job_budget import make_budget_of
 from zlmreport.language import Language
 from zlmreport.measurement.measurement_set import MeasurementSet
 
@@ -38,7 +38,7 @@ def made(
 ) -> Budget | NoBudget:
     checked = job(folder, stated)
     measurements: MeasurementSet = pipeline.read(checked, registry())
-    return budget_of(checked, replace(measurements, conditions=conditions or {}))
+    return make_budget_of(checked, replace(measurements, conditions=conditions or {}))
 
 
 def contributions(
@@ -369,7 +369,7 @@ def warm(folder: Path, example: str) -> list[Budget]:
         **IN_WARMTH,
     }
     checked = job(folder, extending)
-    found = pipeline.budget_of_job(checked, pipeline.read(checked, registry()), registry())
+    found = pipeline.make_budget_of_job(checked, pipeline.read(checked, registry()), registry())
     assert isinstance(found, Budget)
     return list(found.tests.values()) or [found]
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from zlmreport.evaluation.uncertainty.long_tails import long_tails
+from zlmreport.evaluation.uncertainty.long_tails import find_long_tails
 
 
 def residuals(seed: int, kind: str) -> np.ndarray:
@@ -21,7 +21,7 @@ def residuals(seed: int, kind: str) -> np.ndarray:
 
 def probability(kind: str) -> float:
     """Return the mean probability of long tails over some tests."""
-    found = [long_tails(residuals(seed, kind)) for seed in range(12)]
+    found = [find_long_tails(residuals(seed, kind)) for seed in range(12)]
     return float(np.mean([each.probability if each else 0.0 for each in found]))
 
 
@@ -32,7 +32,7 @@ def test_long_tails_are_seen_and_neither_chance_nor_places_are_taken_for_them() 
 
 
 def test_the_scale_goes_with_the_readings() -> None:
-    one, thousand = (long_tails(factor * residuals(1, "tails")) for factor in (1.0, 1000.0))
+    one, thousand = (find_long_tails(factor * residuals(1, "tails")) for factor in (1.0, 1000.0))
 
     assert one is not None
     assert thousand is not None
@@ -41,7 +41,7 @@ def test_the_scale_goes_with_the_readings() -> None:
 
 
 def test_the_axes_that_are_drawn_are_the_likely_ones() -> None:
-    tails = long_tails(residuals(1, "tails"))
+    tails = find_long_tails(residuals(1, "tails"))
     assert tails is not None
 
     freedom, scale = tails.draw(2000, np.random.default_rng(1))
@@ -54,9 +54,9 @@ def test_what_is_missing_is_left_out() -> None:
     gaps = residuals(1, "tails")
     gaps[2, 1] = np.nan
 
-    assert long_tails(gaps) is not None
+    assert find_long_tails(gaps) is not None
 
 
 def test_readings_that_do_not_scatter_and_pairs_of_runs_tell_nothing() -> None:
-    assert long_tails(np.zeros((22, 5))) is None
-    assert long_tails(residuals(1, "tails")[:, :2]) is None
+    assert find_long_tails(np.zeros((22, 5))) is None
+    assert find_long_tails(residuals(1, "tails")[:, :2]) is None

@@ -11,7 +11,7 @@ import pytest
 from document.certificate.documents import COMPLETE, job as job_of, registry
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.job_budget import demanded
+from zlmreport.evaluation.uncertainty.job_budget import list_demanded
 from zlmreport.job.job import Job
 
 HOURS = np.arange(0.0, 8.25, 0.25)
@@ -35,14 +35,14 @@ def job(folder: Path, **changed: Any) -> Job:
 
 
 def budget(of: Job) -> Budget:
-    found = pipeline.budget_of_job(of, pipeline.read(of, registry()), registry())
+    found = pipeline.make_budget_of_job(of, pipeline.read(of, registry()), registry())
     assert isinstance(found, Budget)
     return found.tests["Z"]
 
 
 def test_instrument_and_resolution_make_it_complete(tmp_path: Path) -> None:
     stated = job(tmp_path)
-    assert demanded(stated.tests["Z"]) == ("instrument", "resolution")
+    assert list_demanded(stated.tests["Z"]) == ("instrument", "resolution")
     assert budget(stated).missing == ()
 
 
@@ -66,7 +66,9 @@ def test_a_part_per_metre_has_no_metres_in_hours(tmp_path: Path) -> None:
 
 def test_a_drift_of_the_instrument_with_the_machine_s_is_within_its_uncertainty(tmp_path: Path) -> None:
     """The worst that U = 0.4 µm lets an instrument do: to go with the machine from end to end."""
-    evaluated = pipeline.evaluated(job(tmp_path), pipeline.read(job(tmp_path), registry()), registry(), 2000)
+    evaluated = pipeline.evaluate_all(
+        job(tmp_path), pipeline.read(job(tmp_path), registry()), registry(), 2000
+    )
     (drift,) = evaluated[0].evaluation.parameters
     assert drift.value == pytest.approx(8 * MICROMETRE)
     assert drift.expanded_uncertainty is not None

@@ -9,7 +9,7 @@ from evaluation.uncertainty.budgets import ISO, MICROMETRE, contribution
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.expanded import mean_uncertainty
+from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.testing import bidirectional_test, simulated_test
@@ -31,7 +31,7 @@ def evaluation_with_a_gap() -> Evaluation:
 
 
 def test_each_way_of_acting_has_its_part() -> None:
-    found = mean_uncertainty(evaluation_with_a_gap(), ALL_WAYS)
+    found = compute_mean_uncertainty(evaluation_with_a_gap(), ALL_WAYS)
 
     share = np.array([0.0, 0.25, 1.0])
     readings = np.array([[4, 4, 4], [4, 3, 4]])
@@ -41,7 +41,7 @@ def test_each_way_of_acting_has_its_part() -> None:
 
 
 def test_the_mean_of_both_directions_has_the_readings_of_both() -> None:
-    found = mean_uncertainty(evaluation_with_a_gap(), ALL_WAYS)
+    found = compute_mean_uncertainty(evaluation_with_a_gap(), ALL_WAYS)
 
     share = np.array([0.0, 0.25, 1.0])
     of_readings = (1 / np.array([4, 4, 4]) + 1 / np.array([4, 3, 4])) / 4
@@ -52,7 +52,7 @@ def test_the_mean_of_both_directions_has_the_readings_of_both() -> None:
 def test_where_there_is_no_mean_there_is_no_uncertainty_of_it() -> None:
     one_way = evaluate(ISO, simulated_test(approaches=[Approach.NEGATIVE]), Options(), {})
 
-    found = mean_uncertainty(one_way, ALL_WAYS)
+    found = compute_mean_uncertainty(one_way, ALL_WAYS)
 
     assert np.isnan(found.by_approach[Approach.POSITIVE.index]).all()
     assert np.isfinite(found.by_approach[Approach.NEGATIVE.index]).all()

@@ -76,7 +76,7 @@ def readings(of: Job) -> MeasurementSet:
 
 
 def budget(of: Job) -> Budget:
-    found = pipeline.budget_of_job(of, readings(of), registry())
+    found = pipeline.make_budget_of_job(of, readings(of), registry())
     assert isinstance(found, Budget)
     return found
 
@@ -86,7 +86,7 @@ def named(found: Budget) -> dict[str, Contribution]:
 
 
 def evaluation(of: Job, trials: int = 2000) -> Evaluation:
-    (found,) = pipeline.evaluated(of, readings(of), registry(), trials)
+    (found,) = pipeline.evaluate_all(of, readings(of), registry(), trials)
     return found.evaluation
 
 

@@ -10,10 +10,10 @@ import pytest
 
 from evaluation.uncertainty.budgets import ISO, MICROMETRE, contribution, expanded, uncertainties
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.axis_interval import axis_intervals
+from zlmreport.evaluation.uncertainty.axis_interval import compute_axis_intervals
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution
-from zlmreport.evaluation.uncertainty.expanded import mean_uncertainty
-from zlmreport.evaluation.uncertainty.rounding import drawn_axes, drawn_rounding, hiding_resolution
+from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
+from zlmreport.evaluation.uncertainty.rounding import find_hiding_resolution, sample_axes, sample_rounding
 from zlmreport.job.types import Options
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import simulated_test
@@ -51,7 +51,7 @@ def test_a_scatter_that_rounding_made_is_no_more_than_its_uncertainty() -> None:
 def test_runs_that_are_rounded_alike_do_not_average_it_away() -> None:
     """A mean of five equal readings is known to d/√12, and not to d/√60."""
     test = quiet(0.0)[1]
-    found = mean_uncertainty(evaluate(ISO, test, Options(), {}), BUDGET)
+    found = compute_mean_uncertainty(evaluate(ISO, test, Options(), {}), BUDGET)
 
     assert found.by_approach == pytest.approx(2 * STEP / 12**0.5 * MICROMETRE, rel=0.1)
     assert found.bidirectional == pytest.approx(2 * STEP / 24**0.5 * MICROMETRE, rel=0.1)
@@ -59,7 +59,7 @@ def test_runs_that_are_rounded_alike_do_not_average_it_away() -> None:
 
 def test_equal_readings_have_no_scatter_that_their_step_would_show() -> None:
     readings = quiet(0.0)[1].deviations()
-    axes = drawn_axes(RESOLUTION, readings, TRIALS, np.random.default_rng(1))
+    axes = sample_axes(RESOLUTION, readings, TRIALS, np.random.default_rng(1))
 
     assert np.quantile(axes.sigma, 0.9) < 0.1 * STEP * MICROMETRE
 
@@ -67,7 +67,7 @@ def test_equal_readings_have_no_scatter_that_their_step_would_show() -> None:
 @pytest.mark.parametrize("scatter", [0.2, 0.5, 1.0])
 def test_the_scatter_behind_rounded_readings_is_found_again(scatter: float) -> None:
     readings = quiet(scatter)[1].deviations()
-    axes = drawn_axes(RESOLUTION, readings, TRIALS, np.random.default_rng(1))
+    axes = sample_axes(RESOLUTION, readings, TRIALS, np.random.default_rng(1))
 
     assert float(np.median(axes.sigma)) == pytest.approx(scatter * MICROMETRE, rel=0.25)
 
@@ -75,15 +75,15 @@ def test_the_scatter_behind_rounded_readings_is_found_again(scatter: float) -> N
 def test_rounding_moves_no_reading_by_more_than_half_a_step() -> None:
     readings = quiet(0.3)[1].deviations()
     readings = np.where(np.arange(readings.size).reshape(readings.shape) % 7 == 0, np.nan, readings)
-    before, shown = drawn_rounding(RESOLUTION, readings, TRIALS, np.random.default_rng(1))
+    before, shown = sample_rounding(RESOLUTION, readings, TRIALS, np.random.default_rng(1))
 
     assert np.array_equal(np.isnan(before[0]), np.isnan(readings))
     assert np.nanmax(np.abs(shown - before)) <= STEP / 2 * MICROMETRE * (1 + 1e-9)
 
 
 def test_a_scatter_of_several_steps_hides_nothing() -> None:
-    assert hiding_resolution(BUDGET, quiet(3.0)[1].deviations()) is None
-    assert hiding_resolution(BUDGET, quiet(0.3)[1].deviations()) is RESOLUTION
+    assert find_hiding_resolution(BUDGET, quiet(3.0)[1].deviations()) is None
+    assert find_hiding_resolution(BUDGET, quiet(0.3)[1].deviations()) is RESOLUTION
 
 
 def test_the_next_test_is_rounded_too() -> None:
@@ -91,7 +91,7 @@ def test_the_next_test_is_rounded_too() -> None:
     shown = quiet(0.0)[1]
     evaluation = evaluate(ISO, shown, Options(), {})
     arithmetic = partial(ISO.arithmetic, options=Options())
-    (found,) = axis_intervals([(evaluation, arithmetic)], TRIALS, BUDGET)
+    (found,) = compute_axis_intervals([(evaluation, arithmetic)], TRIALS, BUDGET)
 
     low, high = found["R_fwd"]
     assert low == 0.0

@@ -8,10 +8,10 @@ import pytest
 
 from zlmreport.evaluation.uncertainty.budget import (
     Distribution,
-    expansion_range,
+    compute_expansion_range,
+    compute_misalignment_range,
+    compute_temperature_range,
     from_range,
-    misalignment_range,
-    temperature_range,
 )
 
 RECTANGULAR = Distribution.RECTANGULAR
@@ -36,33 +36,33 @@ def test_a_cosine_error_reaches_half_the_square_of_the_misalignment_over_the_len
     # The exact L − √(L² − R²), for 1 mm over 500 mm: the next term is (R/L)²/4 of it.
     exact = 0.5 - math.sqrt(0.5**2 - 0.001**2)
 
-    assert misalignment_range(1e-3, 0.5) == pytest.approx(exact, rel=(1e-3 / 0.5) ** 2)
+    assert compute_misalignment_range(1e-3, 0.5) == pytest.approx(exact, rel=(1e-3 / 0.5) ** 2)
 
 
 def test_the_expanded_uncertainty_of_a_cosine_error_about_its_mean_is_0_3_r_squared_over_l() -> None:
     # R = 1 mm, L = 1 m, as stated about the middle of the range: 0.3 µm.
-    about_mean = 2 * misalignment_range(1e-3, 1.0) / math.sqrt(12)
+    about_mean = 2 * compute_misalignment_range(1e-3, 1.0) / math.sqrt(12)
 
     assert about_mean == pytest.approx(0.3e-6, rel=ROUNDED)
 
 
 def test_a_single_target_has_no_length_that_could_be_misaligned() -> None:
-    assert misalignment_range(1e-3, 0.0) == 0.0
+    assert compute_misalignment_range(1e-3, 0.0) == 0.0
 
 
 def test_the_temperature_measurement_contributes_0_6_alpha_l_r() -> None:
     # α = 12 µm/(m·K), L = 1.5 m, R(θ) = 0.5 K.
-    found = 2 * from_range(temperature_range(12e-6, 1.5, 0.5), RECTANGULAR)
+    found = 2 * from_range(compute_temperature_range(12e-6, 1.5, 0.5), RECTANGULAR)
 
     assert found == pytest.approx(0.6 * 12e-6 * 1.5 * 0.5, rel=ROUNDED)
 
 
 def test_the_expansion_coefficient_contributes_0_6_l_delta_t_r() -> None:
     # L = 1.5 m, ΔT = −3 K, R(α) = 2 µm/(m·K).
-    found = 2 * from_range(expansion_range(1.5, -3.0, 2e-6), RECTANGULAR)
+    found = 2 * from_range(compute_expansion_range(1.5, -3.0, 2e-6), RECTANGULAR)
 
     assert found == pytest.approx(0.6 * 1.5 * 3.0 * 2e-6, rel=ROUNDED)
 
 
 def test_a_negative_coefficient_contributes_as_much_as_a_positive_one() -> None:
-    assert temperature_range(-1e-6, 1.0, 0.5) == temperature_range(1e-6, 1.0, 0.5)
+    assert compute_temperature_range(-1e-6, 1.0, 0.5) == compute_temperature_range(1e-6, 1.0, 0.5)

@@ -19,8 +19,8 @@ from zlmreport.live.capture.events import Event, Recorded
 from zlmreport.live.capture.journal import History, read_history
 from zlmreport.live.emulation.emulator import Scene
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.simulation.files import description_of
-from zlmreport.model.simulation.simulate import EmulatedMachine, emulated_machine
+from zlmreport.model.simulation.files import read_description_of
+from zlmreport.model.simulation.simulate import EmulatedMachine, make_emulated_machine
 from zlmreport.plugin.registry import Registry, find_plugins
 
 #: How long the machine rests before its program, s: µMD0 takes four of them to say what it
@@ -161,8 +161,8 @@ def calibration(
     effects = [_SCALE_ERROR] if method is Method.UNIDIRECTIONAL else [_SCALE_ERROR, _BACKLASH]
     keys = {"bench": bench, "method": method, "runs": runs}
     simulation.write_text(_SIMULATION.format(**keys, effects=", ".join(effects)), encoding="utf-8")
-    description = description_of(load_simulation(simulation, registry()), registry().effect)
-    machine = emulated_machine(description, _LEAD)
+    description = read_description_of(load_simulation(simulation, registry()), registry().effect)
+    machine = make_emulated_machine(description, _LEAD)
     positions = np.round(description.plan.targets * 1e3, 9).tolist()
     job.write_text(_JOB.format(**keys, positions=positions, port=PORT, standard=STANDARD), encoding="utf-8")
     emulator = registry().instrument(bench.instrument).emulator(Scene(machine))

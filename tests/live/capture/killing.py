@@ -19,7 +19,7 @@ from zlmreport.job.simulation import load_simulation
 from zlmreport.live.capture.journal import History, read_history
 from zlmreport.live.emulation.channels import PseudoTerminal, serve
 from zlmreport.live.emulation.emulator import Emulator, Scene, Troubles
-from zlmreport.model.simulation.files import description_of
+from zlmreport.model.simulation.files import read_description_of
 from zlmreport.plugin.registry import find_plugins
 
 #: The share of kills before a capture follows the axis, and how long it takes until then, s.
@@ -111,7 +111,7 @@ def killed_capture(folder: Path, kills: int, runs: int, seed: int = 1) -> Killed
     simulation, job = folder / "simulation.yaml", folder / "job.yaml"
     simulation.write_text(_SIMULATION.format(runs=runs), encoding="utf-8")
     registry = find_plugins()
-    axis = OperatedAxis(description_of(load_simulation(simulation, registry), registry.effect))
+    axis = OperatedAxis(read_description_of(load_simulation(simulation, registry), registry.effect))
     done = Killed(axis, job, folder / "x.journal")
     with _plugged_in(registry.instrument("umd1").emulator(Scene(axis))) as (port, now):
         job.write_text(_JOB.format(port=port, runs=runs), encoding="utf-8")

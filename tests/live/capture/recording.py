@@ -9,7 +9,7 @@ from pathlib import Path
 from live.capture.moves import SETTINGS, planned
 from zlmreport.live.capture.events import Event
 from zlmreport.live.capture.follower import Follower
-from zlmreport.live.capture.journal import Journal, captured
+from zlmreport.live.capture.journal import Journal, capture
 from zlmreport.live.capture.records import Header
 from zlmreport.live.capture.visits import visit_list
 from zlmreport.live.ports.reading import LiveReading
@@ -41,7 +41,7 @@ def header(plan: Plan | None = None, datum: float | None = None, **changes) -> H
 def recorded(readings: Iterable[LiveReading], journal: Journal) -> list[Event]:
     """Follow readings into a journal."""
     follower = Follower(journal.progress, SETTINGS)
-    return list(captured(readings, follower, journal, lambda time: time - BEGIN))
+    return list(capture(readings, follower, journal, lambda time: time - BEGIN))
 
 
 def written(path: Path, readings: Iterable[LiveReading], plan: Plan | None = None, **changes) -> Path:

@@ -53,10 +53,10 @@ def test_a_whole_test_is_taken_in_the_order_of_its_visits() -> None:
 @pytest.mark.parametrize("method", [Method.PENDULUM, Method.QUASI_PILGRIM, Method.UNIDIRECTIONAL])
 def test_every_method_is_taken_whole(method: Method) -> None:
 
-    from zlmreport.model.planning.methods import path
+    from zlmreport.model.planning.methods import plan_path
 
     plan, axis = planned(method, runs=2), Axis()
-    stops = path(method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan_path(method, plan.targets.tolist(), plan.runs, plan.overrun)
     moves = (
         axis.turn(stop.position / MM) if stop.target is None else axis.go(stop.position / MM)
         for stop in stops

@@ -13,7 +13,7 @@ from live.capture.recording import header, recorded, written
 from processes import PYTHON, run
 from zlmreport.errors import AccessError
 from zlmreport.live.capture.events import Ended, Interrupted, Resumed
-from zlmreport.live.capture.journal import Journal, read_history, sealed
+from zlmreport.live.capture.journal import Journal, read_history, seal
 from zlmreport.live.ports.reading import Fault
 from zlmreport.model.planning.methods import Method
 
@@ -196,8 +196,8 @@ def test_a_folder_is_no_journal(tmp_path: Path) -> None:
 
 
 def test_a_record_of_another_version_is_refused(tmp_path: Path) -> None:
-    first, before = sealed(header().to_record(), "")
-    second, _ = sealed({"elapsed": 1.0, "record": "of the future"}, before)
+    first, before = seal(header().to_record(), "")
+    second, _ = seal({"elapsed": 1.0, "record": "of the future"}, before)
     path = tmp_path / "x.journal"
     path.write_bytes(first + second)
     with pytest.raises(AccessError) as raised:

@@ -11,14 +11,14 @@ from zlmreport import pipeline
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.job.schema import job_schema
+from zlmreport.job.schema import make_job_schema
 from zlmreport.live.capture.journal import Journal, read_history
 from zlmreport.live.capture.of_job import (
     Assignment,
-    assignment_of,
     demand_same_test,
-    header_of,
-    instrument_of,
+    find_instrument_of,
+    make_assignment_of,
+    make_header_of,
 )
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import find_plugins
@@ -51,7 +51,7 @@ def loaded(folder: Path, *changes: tuple[str, str]) -> Job:
 
 
 def asked(job: Job) -> Assignment:
-    return assignment_of(job, propose(job, pipeline.standards(job, REGISTRY)).plan)
+    return make_assignment_of(job, propose(job, pipeline.choose_standards(job, REGISTRY)).plan)
 
 
 def problems(folder: Path, *changes: tuple[str, str]) -> list[str]:
@@ -122,7 +122,7 @@ def test_a_job_whose_readings_are_in_a_file_is_not_captured(tmp_path: Path) -> N
 def test_a_capture_needs_an_instrument(tmp_path: Path) -> None:
     job = loaded(tmp_path, ("    instrument: {plugin: umd1, port: /dev/ttyACM0}\n", ""))
     with pytest.raises(InputError, match=r"measurement\.source\.instrument is missing"):
-        instrument_of(job)
+        find_instrument_of(job)
 
 
 @pytest.mark.parametrize(
@@ -144,7 +144,7 @@ def test_the_instruments_own_keys_are_checked_with_their_places(
 
 
 def test_editors_know_the_keys_of_every_instrument() -> None:
-    schema = job_schema(REGISTRY)
+    schema = make_job_schema(REGISTRY)
     keys = schema["$defs"]["serial-interferometer.LiveInstrumentKeys"]["oneOf"]
     assert {each["properties"]["plugin"]["const"] for each in keys} == {
         instrument.identifier for instrument in REGISTRY.instruments
@@ -166,7 +166,7 @@ def test_a_journal_of_another_test_is_not_gone_on_with(
     job = loaded(tmp_path)
 
     path = tmp_path / "x.journal"
-    with Journal.begun(path, header_of(job, asked(job), dt.datetime(2026, 11, 20, 8, tzinfo=dt.UTC))):
+    with Journal.begun(path, make_header_of(job, asked(job), dt.datetime(2026, 11, 20, 8, tzinfo=dt.UTC))):
         pass
     other, history = loaded(tmp_path, change), read_history(path)
     assert history is not None

@@ -13,7 +13,7 @@ from zlmreport.live.capture.events import Event, Missed, Recorded
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.ports.reading import LiveReading
-from zlmreport.model.planning.methods import Method, path
+from zlmreport.model.planning.methods import Method, plan_path
 
 TARGETS = (0, 12, 20, 34, 40)
 RUNS = 3
@@ -60,7 +60,7 @@ class Machine:
 
     def _course(self) -> Iterator[LiveReading]:
         plan = planned(self.method, TARGETS, RUNS)
-        stops = path(self.method, plan.targets.tolist(), RUNS, plan.overrun)
+        stops = plan_path(self.method, plan.targets.tolist(), RUNS, plan.overrun)
         visited = [index for index, stop in enumerate(stops) if stop.target is not None]
         numbers = {stop: number for number, stop in enumerate(visited)}
         yield from self._stand(2.0)

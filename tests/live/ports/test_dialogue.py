@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from zlmreport.live.ports import dialogue
-from zlmreport.live.ports.dialogue import Lines, ask, at_rate, unreadable
+from zlmreport.live.ports.dialogue import Lines, ask, ask_at_rate, make_unreadable
 from zlmreport.live.ports.port import Framing, Port
 from zlmreport.live.ports.reading import Fault, LiveReading
 
@@ -56,14 +56,14 @@ def test_questions_keep_their_rate(
     def question() -> LiveReading:
         times.append(clock.now - 100.0)
         clock.now += next(durations)
-        return unreadable(clock.now, "")
+        return make_unreadable(clock.now, "")
 
-    list(islice(at_rate(10.0, question), len(lasts)))
+    list(islice(ask_at_rate(10.0, question), len(lasts)))
     assert times == pytest.approx(asked_at)
 
 
 def test_what_was_not_understood_is_void_and_keeps_the_zero() -> None:
-    reading = unreadable(1.0, "the display did not answer")
+    reading = make_unreadable(1.0, "the display did not answer")
     assert not reading.is_usable
     assert not reading.loses_zero
 

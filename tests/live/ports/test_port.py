@@ -14,7 +14,7 @@ from processes import PATIENCE
 from zlmreport.errors import AccessError, InputError
 from zlmreport.live.emulation.channels import PseudoTerminal
 from zlmreport.live.ports.dialogue import Patience
-from zlmreport.live.ports.port import Framing, Port, shown
+from zlmreport.live.ports.port import Framing, Port, show_beginning
 
 
 def test_a_port_that_is_not_there_is_named_with_those_that_are() -> None:
@@ -149,4 +149,4 @@ def test_parity_is_checked_where_there_is_one(parity: Literal["N", "E", "O"], ch
 
 
 def test_a_message_shows_the_beginning_of_long_nonsense() -> None:
-    assert shown(b"x" * 1000) == f"'{'x' * 24}'…"
+    assert show_beginning(b"x" * 1000) == f"'{'x' * 24}'…"

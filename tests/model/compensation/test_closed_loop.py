@@ -16,7 +16,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict, confirm
-from zlmreport.model.compensation.curve import ErrorCurve, table_of
+from zlmreport.model.compensation.curve import ErrorCurve, make_table_of
 
 sys.path.append(str(ROOT / "benchmarks"))
 import closed_loop
@@ -74,6 +74,6 @@ def test_a_second_test_between_the_targets_is_held_against_all_that_is_known() -
     before = curve(targets, 1.0)
     basis = TableBasis(before, wave, none, (), None, lambda _: wave)
     rows = np.linspace(0, 0.3, 61)
-    table = table_of(wave(rows), rows, axis, "TEST", place)
+    table = make_table_of(wave(rows), rows, axis, "TEST", place)
     assert confirm(basis, curve(between, 0.0), table, place).verdict is ConfirmationVerdict.HELD
     assert confirm(basis, curve(between, 1.0), table, place).verdict is ConfirmationVerdict.OTHER

@@ -9,7 +9,7 @@ from zlmreport.errors import Place
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.compensation.basis import ReadingScatter, TableBasis
 from zlmreport.model.compensation.curve import ErrorCurve
-from zlmreport.model.compensation.making import Grid, GridReason, grid_of
+from zlmreport.model.compensation.making import Grid, GridReason, make_grid_of
 
 PLACE = Place("test")
 UNEVEN = np.array([0.0, 0.04, 0.07, 0.13, 0.16, 0.22, 0.25, 0.3])
@@ -30,7 +30,7 @@ def known_by(single: float, **of_waves: object) -> TableBasis:
 
 
 def chosen(basis: TableBasis, **control: object) -> Grid:
-    return grid_of(basis, PLACE, **control)
+    return make_grid_of(basis, PLACE, **control)
 
 
 def test_rows_stand_at_the_targets_where_lines_between_them_are_within_u() -> None:

@@ -11,7 +11,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.fitting.estimate import InstrumentError
-from zlmreport.model.plane.surface import Surface, SurfaceLine, side_by_side, surface
+from zlmreport.model.plane.surface import Surface, SurfaceLine, fit_surface, join_side_by_side
 
 DESIGN = linear_test(targets=9, runs=4, axis=Axis("X", travel=(0.0, 1.0)))
 LINES = (0.1, 0.25, 0.3, 0.45, 0.5)
@@ -45,4 +45,4 @@ def fitted(
     lines: Sequence[SurfaceLine], approach: Approach = Approach.POSITIVE, instrument: InstrumentError = QUIET
 ) -> Surface:
     """Return the surface through lines."""
-    return surface(side_by_side(lines, approach, "Y"), instrument)
+    return fit_surface(join_side_by_side(lines, approach, "Y"), instrument)

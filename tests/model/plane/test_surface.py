@@ -14,8 +14,8 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.fitting.estimate import InstrumentError
-from zlmreport.model.fitting.noise import NoiseSource, noise_parts
-from zlmreport.model.plane.surface import Surface, SurfaceLine, coefficient_names, side_by_side
+from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
+from zlmreport.model.plane.surface import Surface, SurfaceLine, join_side_by_side, list_coefficient_names
 
 INSTRUMENT = InstrumentError(0.5e-6)
 #: Where nobody measured: P and R, m.
@@ -52,7 +52,7 @@ def test_the_covariance_is_that_of_the_textbook() -> None:
     surface = fitted(measured(), instrument=INSTRUMENT)
     noise, columns = surface.fit.noise, _columns(surface)
     variance = np.diag(noise.weights)
-    for part in noise_parts(surface.fit.design):
+    for part in list_noise_parts(surface.fit.design):
         variance = variance + noise.ratios.get(part.source, 0.0) * part.factor @ part.factor.T
     variance = noise.sigma**2 * variance + INSTRUMENT.common**2
     expected = np.linalg.inv(columns.T @ np.linalg.inv(variance) @ columns)
@@ -133,7 +133,7 @@ def test_lines_of_one_slope_show_no_interaction() -> None:
 )
 def test_fewer_lines_carry_fewer_powers(lines: tuple[float, ...], names: tuple[str, ...]) -> None:
     found = fitted(measured(lines=lines)).coefficients()
-    assert coefficient_names(found.orders) == names
+    assert list_coefficient_names(found.orders) == names
     assert len(found.values) == len(found.powers) == len(names)
 
 
@@ -184,7 +184,7 @@ def test_a_reading_that_stands_off_is_set_aside() -> None:
 
 def test_a_line_that_is_measured_again_shares_its_points_and_no_runs() -> None:
     lines = measured()
-    design = side_by_side([*lines, lines[0]], Approach.POSITIVE).design
+    design = join_side_by_side([*lines, lines[0]], Approach.POSITIVE).design
     points = len(LINES) * len(DESIGN.target_positions)
     assert len(np.unique(design.target)) == points
     assert len(np.unique(design.run)) == (len(LINES) + 1) * 4

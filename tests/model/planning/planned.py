@@ -8,7 +8,7 @@ from pathlib import Path
 from zlmreport import pipeline
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.model.planning.planned_test import PlannedTest, planned_test
+from zlmreport.model.planning.planned_test import PlannedTest, describe_planned_test
 from zlmreport.model.planning.visibility import SeenEffect
 from zlmreport.plugin.registry import Plugin, collect
 from zlmreport_plugins import effects, part_programs
@@ -53,7 +53,7 @@ def planned_job(*changes: tuple[str, str]) -> Job:
 @cache
 def plan_of_test(*changes: tuple[str, str]) -> PlannedTest:
     job = planned_job(*changes)
-    return planned_test(job, pipeline.standards(job, REGISTRY), REGISTRY.effects)
+    return describe_planned_test(job, pipeline.choose_standards(job, REGISTRY), REGISTRY.effects)
 
 
 def sight_of(planned: PlannedTest, effect: str) -> SeenEffect:

@@ -16,14 +16,18 @@ from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.model.planning.changes import within_travel
-from zlmreport.model.planning.deciding import deciding_experiment, deciding_text, experiment_values
+from zlmreport.model.planning.changes import keep_within_travel
+from zlmreport.model.planning.deciding import (
+    collect_experiment,
+    plan_deciding_experiment,
+    write_deciding_text,
+)
 from zlmreport.model.planning.experiment import Experiment
-from zlmreport.model.planning.methods import Method, half_way
+from zlmreport.model.planning.methods import Method, find_half_way
 from zlmreport.model.planning.plan import ExpectedTest, Pause, Plan, propose
-from zlmreport.model.planning.planned_test import model_of
-from zlmreport.model.planning.programs import motion_of
-from zlmreport.model.planning.visibility import expected_design, planned_visits
+from zlmreport.model.planning.planned_test import choose_model_of
+from zlmreport.model.planning.programs import plan_motion_of
+from zlmreport.model.planning.visibility import expect_design, list_planned_visits
 
 ON_WHOLE_PITCHES = ("plan: {}", WHOLE_PITCHES)
 ROOM_AT_THE_ENDS = ("[0, 600]", "[-10, 610]")
@@ -34,8 +38,8 @@ COOL = ("plan: {}", "plan: {temperature_change: 0.01}")
 @cache
 def _experiment(names: str, *changes: tuple[str, str]) -> Experiment:
     job = planned_job(*changes)
-    standards = pipeline.standards(job, REGISTRY)
-    return deciding_experiment(names.split(","), job, None, REGISTRY.effects, standards)
+    standards = pipeline.choose_standards(job, REGISTRY)
+    return plan_deciding_experiment(names.split(","), job, None, REGISTRY.effects, standards)
 
 
 def _said(experiment: Experiment) -> str:
@@ -65,10 +69,10 @@ def test_who_follows_the_advice_learns_the_truth(truth: str) -> None:
     found = _experiment("scale-error,scale-expansion", COOL)
     assert found.plan is not None
     job = planned_job(COOL)
-    design = expected_design(job.axis, found.plan, ExpectedTest(1e-6, 0.01))
+    design = expect_design(job.axis, found.plan, ExpectedTest(1e-6, 0.01))
     columns = EFFECTS[truth].columns(design, np.empty(0))
     deviation = 3e-6 * columns[:, 0] / np.std(columns[:, 0]) + noise(design, 5, 1e-6)
-    model = model_of(job, INSTALLED).without("scale-error")
+    model = choose_model_of(job, INSTALLED).without("scale-error")
     readings = np.arange(len(deviation))
     leading = diagnose(model, Observations(design, deviation, readings, ()), INSTALLED).candidates[0]
     named = {leading.identifier, *leading.equals}
@@ -83,7 +87,7 @@ def test_what_no_plan_decides_is_said_with_what_would() -> None:
     assert "To tell scale-error and cosine-error apart: none of the" in _said(found)
     assert "align the beam anew" in _said(found)
     job = planned_job()
-    assert experiment_values(found, job, Language.ENGLISH)["job"] is None
+    assert collect_experiment(found, job, Language.ENGLISH)["job"] is None
 
 
 def test_a_wave_that_whole_pitches_hide_is_shown_by_other_phases() -> None:
@@ -122,7 +126,7 @@ def test_experiment_stays_within_the_travel() -> None:
 
 def test_outermost_targets_move_in_by_the_overrun() -> None:
     plan = Plan(np.array([0.0, 0.3, 0.6]), overrun=0.01)
-    np.testing.assert_allclose(within_travel(planned_job().axis, plan).targets, [0.01, 0.3, 0.59])
+    np.testing.assert_allclose(keep_within_travel(planned_job().axis, plan).targets, [0.01, 0.3, 0.59])
 
 
 def test_job_of_an_experiment_is_planned_as_it_was_simulated(tmp_path: Path) -> None:
@@ -133,7 +137,7 @@ def test_job_of_an_experiment_is_planned_as_it_was_simulated(tmp_path: Path) -> 
     assert job.files[0].content is not None
     path.write_bytes(job.files[0].content)
     decide = tmp_path / "decide.yaml"
-    decide.write_text(deciding_text(found, job, "job.yaml"), encoding="utf-8")
+    decide.write_text(write_deciding_text(found, job, "job.yaml"), encoding="utf-8")
     planned = propose(load(decide, REGISTRY), ()).plan
     np.testing.assert_allclose(planned.targets, found.plan.targets, atol=1e-12)
     assert (planned.method, planned.runs, planned.pause) == (
@@ -158,10 +162,10 @@ def test_names_that_make_no_question_are_refused(names: str, message: str) -> No
 
 def test_pause_lies_between_the_halves_of_the_runs() -> None:
     plan = Plan(np.array([0.1, 0.3]), runs=3, pause=Pause(600.0, 3.0, "axis_temperature"))
-    visits = planned_visits(plan)
-    assert [visit.run for visit in visits[half_way(visits) :]] == [2] * 4 + [3] * 4
-    design = expected_design(planned_job().axis, plan, ExpectedTest(1e-6, 0.0))
-    without = expected_design(planned_job().axis, Plan(plan.targets, runs=3), ExpectedTest(1e-6, 0.0))
+    visits = list_planned_visits(plan)
+    assert [visit.run for visit in visits[find_half_way(visits) :]] == [2] * 4 + [3] * 4
+    design = expect_design(planned_job().axis, plan, ExpectedTest(1e-6, 0.0))
+    without = expect_design(planned_job().axis, Plan(plan.targets, runs=3), ExpectedTest(1e-6, 0.0))
     np.testing.assert_allclose(design.time - without.time, [0.0] * 4 + [600.0] * 8)
     change = design.conditions["axis_temperature"] - without.conditions["axis_temperature"]
     np.testing.assert_allclose(change, [0.0] * 4 + [3.0] * 8)
@@ -178,6 +182,6 @@ def test_pause_needs_two_runs_one_after_another() -> None:
 def test_programs_wait_in_the_pause() -> None:
     plan = Plan(np.array([0.1, 0.3]), runs=2, pause=Pause(600.0, 3.0, "axis_temperature"))
     job = planned_job()
-    motion = motion_of("P", job.axis, plan, job.place_of("plan"))
+    motion = plan_motion_of("P", job.axis, plan, job.place_of("plan"))
     assert [stop.begins for stop in motion.stops if stop.begins] == ["test", "second half"]
     assert plan.method is Method.LINEAR

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.planning.methods import Method, Stop, path, visits
+from zlmreport.model.planning.methods import Method, Stop, list_visits, plan_path
 
 TARGETS = (10.0, 20.0, 40.0)
 OVERRUN = 5.0
@@ -18,12 +18,12 @@ BOTH = [Method.LINEAR, Method.PENDULUM, Method.QUASI_PILGRIM]
 def _read(method: Method, runs: int = 2) -> str:
     """Return the readings in their order, as target (from 1), direction, run."""
     signs = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
-    listed = visits(path(method, TARGETS, runs, OVERRUN))
+    listed = list_visits(plan_path(method, TARGETS, runs, OVERRUN))
     return " ".join(f"{visit.target + 1}{signs[visit.approach]}{visit.run}" for visit in listed)
 
 
 def _since_reversal(method: Method) -> list[float]:
-    return [visit.since_reversal for visit in visits(path(method, TARGETS, 2, OVERRUN))]
+    return [visit.since_reversal for visit in list_visits(plan_path(method, TARGETS, 2, OVERRUN))]
 
 
 def test_linear_method_goes_up_and_down_in_each_run() -> None:
@@ -68,13 +68,16 @@ def test_quasi_pilgrim_method_comes_from_the_neighbour() -> None:
 
 
 def test_the_way_between_readings_holds_the_loops() -> None:
-    listed = visits(path(Method.LINEAR, TARGETS, 2, OVERRUN))
+    listed = list_visits(plan_path(Method.LINEAR, TARGETS, 2, OVERRUN))
     assert [visit.travelled for visit in listed] == [5, 10, 20, 10, 20, 10, 10, 10, 20, 10, 20, 10]
 
 
 def test_pendulum_has_the_shortest_way_for_targets_far_apart() -> None:
     ways = {
-        method: sum(visit.travelled for visit in visits(path(method, (0.0, 100.0, 200.0, 300.0), 5, OVERRUN)))
+        method: sum(
+            visit.travelled
+            for visit in list_visits(plan_path(method, (0.0, 100.0, 200.0, 300.0), 5, OVERRUN))
+        )
         for method in BOTH
     }
     assert min(ways, key=ways.__getitem__) is Method.PENDULUM
@@ -90,7 +93,7 @@ def test_every_reading_comes_from_its_side_whatever_the_targets(
     method: Method, intervals: list[int], overrun: int, runs: int
 ) -> None:
     targets = [float(position) for position in itertools.accumulate(intervals)]
-    listed = visits(path(method, targets, runs, float(overrun)))
+    listed = list_visits(plan_path(method, targets, runs, float(overrun)))
     approaches = [Approach.POSITIVE] if method is Method.UNIDIRECTIONAL else list(Approach)
     wanted = set(itertools.product(range(len(targets)), approaches, range(1, runs + 1)))
     assert {(visit.target, visit.approach, visit.run) for visit in listed} == wanted
@@ -100,7 +103,7 @@ def test_every_reading_comes_from_its_side_whatever_the_targets(
 
 @pytest.mark.parametrize("method", Method)
 def test_a_single_target_is_approached_from_its_overrun(method: Method) -> None:
-    listed = visits(path(method, (10.0,), 2, OVERRUN))
+    listed = list_visits(plan_path(method, (10.0,), 2, OVERRUN))
     assert {visit.since_reversal for visit in listed} == {OVERRUN}
 
 
@@ -108,15 +111,15 @@ def test_a_single_target_is_approached_from_its_overrun(method: Method) -> None:
 @pytest.mark.parametrize("method", Method)
 def test_overrun_that_leaves_no_approach_is_refused(method: Method, overrun: float) -> None:
     with pytest.raises(ValueError, match="leaves no approach"):
-        path(method, TARGETS, 2, overrun)
+        plan_path(method, TARGETS, 2, overrun)
 
 
 @pytest.mark.parametrize("targets", [(10.0, 10.0), (20.0, 10.0)])
 def test_targets_that_do_not_rise_are_refused(targets: tuple[float, ...]) -> None:
     with pytest.raises(ValueError, match="must rise"):
-        path(Method.LINEAR, targets, 1, OVERRUN)
+        plan_path(Method.LINEAR, targets, 1, OVERRUN)
 
 
 def test_a_reading_where_nothing_has_moved_has_no_direction() -> None:
     with pytest.raises(ValueError, match="no direction of approach"):
-        visits([Stop(1.0, 0, 1)])
+        list_visits([Stop(1.0, 0, 1)])

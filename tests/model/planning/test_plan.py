@@ -9,12 +9,12 @@ from model.planning.planned import REGISTRY, WHOLE_PITCHES, planned_job
 from zlmreport import pipeline
 from zlmreport.errors import InputError
 from zlmreport.model.planning.methods import Method
-from zlmreport.model.planning.plan import Proposal, as_measured, propose, seed_of
+from zlmreport.model.planning.plan import Proposal, make_as_measured, make_seed_of, propose
 
 
 def _proposed(*changes: tuple[str, str]) -> Proposal:
     job = planned_job(*changes)
-    return propose(job, pipeline.standards(job, REGISTRY))
+    return propose(job, pipeline.choose_standards(job, REGISTRY))
 
 
 def test_readings_need_not_exist() -> None:
@@ -54,9 +54,9 @@ def test_targets_are_eleven_at_least_and_no_more_than_100_mm_apart(
 @pytest.mark.parametrize("travel", ["[0, 100]", "[0, 600]", "[0, 1990]"])
 def test_proposed_test_meets_every_requirement_of_its_standard(standard: str, travel: str) -> None:
     job = planned_job(("iso230-2:2014", standard), ("[0, 600]", travel))
-    ((found, options),) = pipeline.standards(job, REGISTRY)
+    ((found, options),) = pipeline.choose_standards(job, REGISTRY)
     plan = propose(job, [(found, options)]).plan
-    measured = as_measured(job.axis, plan.method, plan.targets, plan.runs)
+    measured = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     assert [finding for finding in found.requirements(measured, options) if finding.met is False] == []
 
 
@@ -64,9 +64,9 @@ def test_full_turn_meets_every_requirement_of_iso_230_2() -> None:
     job = planned_job(
         ("name: X, travel: [0, 600], screw_pitch: 10", "name: C, kind: rotary, travel: [0, 360]")
     )
-    ((found, options),) = pipeline.standards(job, REGISTRY)
+    ((found, options),) = pipeline.choose_standards(job, REGISTRY)
     plan = propose(job, [(found, options)]).plan
-    measured = as_measured(job.axis, plan.method, plan.targets, plan.runs)
+    measured = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     assert [finding for finding in found.requirements(measured, options) if finding.met is False] == []
 
 
@@ -89,7 +89,7 @@ def test_seed_follows_from_the_number_of_the_certificate() -> None:
     one = _proposed()
     again = _proposed()
     other = _proposed(("PLAN-1", "PLAN-2"))
-    assert one.seed == seed_of("PLAN-1")
+    assert one.seed == make_seed_of("PLAN-1")
     np.testing.assert_array_equal(one.plan.targets, again.plan.targets)
     assert not np.any(one.plan.targets == other.plan.targets)
 

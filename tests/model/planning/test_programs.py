@@ -10,7 +10,7 @@ from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
-from zlmreport.model.planning.programs import motion_of, program_number
+from zlmreport.model.planning.programs import plan_motion_of, write_program_number
 from zlmreport.testing import sample_motion
 
 PLACE = Place("job.yaml", 3, 4)
@@ -73,11 +73,11 @@ def test_rate_that_no_control_takes_is_refused(rates: dict[str, float], key: str
     with pytest.raises(
         InputError, match=f"job.yaml:3:4: measurement.{key}: .* is less than can be programmed"
     ):
-        motion_of("N", Axis("X"), _slow(**rates), PLACE)
+        plan_motion_of("N", Axis("X"), _slow(**rates), PLACE)
 
 
 @pytest.mark.parametrize(
     ("value", "text"), [(2000.0, "2000"), (4.5, "4.5"), (1e6, "1000000"), (0.001, "0.001"), (100.0, "100")]
 )
 def test_numbers_are_written_without_exponent(value: float, text: str) -> None:
-    assert program_number(value) == text
+    assert write_program_number(value) == text

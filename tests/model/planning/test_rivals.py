@@ -14,13 +14,13 @@ from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.fitting.fit import fit
-from zlmreport.model.fitting.noise import NoiseSource, noise_parts
-from zlmreport.model.planning.deciding import deciding_job, experiment_values, question_of
-from zlmreport.model.planning.experiment import Experiment, next_experiment
+from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
+from zlmreport.model.planning.deciding import collect_experiment, make_deciding_job, make_question_of
+from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import ExpectedTest, Pause, Plan
 from zlmreport.model.planning.rivals import Question, Rival
-from zlmreport.model.planning.visibility import expected_design
+from zlmreport.model.planning.visibility import expect_design
 
 SLOPE, SIGMA = 10e-6, 0.5e-6
 PLAN = Plan(np.linspace(0.03, 0.57, 10), Method.PENDULUM, runs=3)
@@ -32,13 +32,13 @@ TIED = ("scale-error", "scale-expansion")
 @cache
 def _question() -> Question:
     """Return which of two effects makes an axis at a steady 22 °C too long."""
-    design = expected_design(planned_job().axis, PLAN, EXPECTED)
+    design = expect_design(planned_job().axis, PLAN, EXPECTED)
     temperature = design.conditions["axis_temperature"] + 2.0
     design = replace(design, conditions={"axis_temperature": temperature})
     deviation = SLOPE * design.position + noise(design, 3, SIGMA)
     base = fit(AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["backlash"]))), design, deviation)
     fits = [fit(base.model.with_effect(EFFECTS[name]), design, deviation) for name in TIED]
-    return question_of(base, [Rival.fitted(each, 0.5) for each in fits], fits)
+    return make_question_of(base, [Rival.fitted(each, 0.5) for each in fits], fits)
 
 
 def _second_sessions(truth: str) -> tuple[FloatArray, FloatArray]:
@@ -46,7 +46,7 @@ def _second_sessions(truth: str) -> tuple[FloatArray, FloatArray]:
     question = _question()
     design = question.design(WARMER, EXPECTED)
     rival = question.rivals[TIED.index(truth)]
-    readings = question.readings(design, noise_parts(design), rival, 50, np.random.default_rng(1))
+    readings = question.readings(design, list_noise_parts(design), rival, 50, np.random.default_rng(1))
     own = design.session == 0
     assert question.first is not None
     np.testing.assert_array_equal(readings[~own], np.tile(question.first.deviation[:, np.newaxis], 50))
@@ -73,12 +73,12 @@ def test_simulated_noise_is_drawn_from_what_the_readings_leave_open_of_it() -> N
 
 
 def test_the_place_of_a_joint_is_drawn_from_the_whole_gap_between_two_targets() -> None:
-    design = expected_design(planned_job().axis, PLAN, EXPECTED)
+    design = expect_design(planned_job().axis, PLAN, EXPECTED)
     deviation = np.where(design.position > 0.3, 10 * SIGMA, 0.0) + noise(design, 3, SIGMA)
     joint = Rival.fitted(
         fit(AxisModel((Term(EFFECTS["offset"]), Term(EFFECTS["scale-joint"]))), design, deviation), 1.0
     )
-    finer = expected_design(planned_job().axis, replace(PLAN, targets=np.linspace(0.03, 0.57, 55)), EXPECTED)
+    finer = expect_design(planned_job().axis, replace(PLAN, targets=np.linspace(0.03, 0.57, 55)), EXPECTED)
     grid, random = joint.effect.grid(finer), np.random.default_rng(1)
     steps = {
         float(finer.position[np.argmax(joint.deviation(finer, grid, random) > 5 * SIGMA)]) for _ in range(40)
@@ -109,7 +109,7 @@ def test_a_test_without_times_is_not_held_together_with_another() -> None:
 
 @cache
 def _experiment() -> Experiment:
-    return next_experiment(_question(), PLAN, EXPECTED, INSTALLED, 1)
+    return plan_next_experiment(_question(), PLAN, EXPECTED, INSTALLED, 1)
 
 
 def test_a_method_that_knows_no_pause_is_followed_by_a_warmer_session() -> None:
@@ -124,5 +124,7 @@ def test_a_method_that_knows_no_pause_is_followed_by_a_warmer_session() -> None:
 
 def test_job_of_a_second_session_names_the_first() -> None:
     job = planned_job()
-    assert deciding_job(_experiment(), job, "../job.yaml")["model"] == {"sessions": ["../job.yaml"]}
-    assert experiment_values(_experiment(), job, Language.ENGLISH)["job"]["model"]["sessions"] == ["job.yaml"]
+    assert make_deciding_job(_experiment(), job, "../job.yaml")["model"] == {"sessions": ["../job.yaml"]}
+    assert collect_experiment(_experiment(), job, Language.ENGLISH)["job"]["model"]["sessions"] == [
+        "job.yaml"
+    ]

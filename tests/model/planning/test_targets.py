@@ -12,12 +12,12 @@ from model.planning.planned import WHOLE_PITCHES, plan_of_test
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.model.planning.targets import (
-    drawn_targets,
+    compute_target_positions,
+    count_phases,
+    find_periods_at_phases,
+    find_usual_overrun,
     makes_whole_turns,
-    periods_at_phases,
-    phases,
-    target_positions,
-    usual_overrun,
+    sample_targets,
 )
 
 LINEAR = Axis("X", travel=(-0.1, 0.5), screw_pitch=0.01)
@@ -33,31 +33,31 @@ def _random(seed: int = 1) -> np.random.Generator:
 @given(seed=st.integers(0, 2**32), count=st.integers(2, 60), share=st.floats(0.0, 0.999))
 def test_targets_rise_within_the_travel(seed: int, count: int, share: float) -> None:
     period = share * 1.2 / count  # a period of 1.2 m / count just fits
-    targets = target_positions((-0.2, 1.0), count, period, _random(seed))
+    targets = compute_target_positions((-0.2, 1.0), count, period, _random(seed))
     assert np.all(np.diff(targets) > 0)
     assert targets[0] >= -0.2
     assert targets[-1] <= 1.0 + 1e-12
 
 
 def test_each_target_is_its_multiple_of_the_interval_and_a_fraction_of_the_period() -> None:
-    targets = target_positions((0.0, 1.0), 11, 0.01, _random())
+    targets = compute_target_positions((0.0, 1.0), 11, 0.01, _random())
     fraction = targets - 0.099 * np.arange(11)
     assert np.all((fraction >= 0) & (fraction < 0.01))
     assert len(set(fraction.round(12))) == 11
 
 
 def test_without_a_period_targets_are_even() -> None:
-    np.testing.assert_array_equal(target_positions((0.0, 4.0), 5, 0.0, _random()), [0, 1, 2, 3, 4])
+    np.testing.assert_array_equal(compute_target_positions((0.0, 4.0), 5, 0.0, _random()), [0, 1, 2, 3, 4])
 
 
 def test_the_same_seed_gives_the_same_targets() -> None:
-    one, other = (target_positions((0.0, 1.0), 11, 0.01, _random(5)) for _ in range(2))
+    one, other = (compute_target_positions((0.0, 1.0), 11, 0.01, _random(5)) for _ in range(2))
     np.testing.assert_array_equal(one, other)
 
 
 def test_too_many_targets_are_refused_with_how_many_would_fit() -> None:
     with pytest.raises(ValueError, match=r"101 targets .* do not fit into the travel; up to 100 do"):
-        target_positions((0.0, 1.0), 101, 0.01, _random())
+        compute_target_positions((0.0, 1.0), 101, 0.01, _random())
 
 
 def _phases(targets: np.ndarray, period: float) -> np.ndarray:
@@ -65,13 +65,13 @@ def _phases(targets: np.ndarray, period: float) -> np.ndarray:
 
 
 def test_targets_leave_room_to_turn_round_at_both_ends() -> None:
-    targets = drawn_targets(LINEAR, 11, OVERRUN, None, 1)
+    targets = sample_targets(LINEAR, 11, OVERRUN, None, 1)
     assert targets[0] >= -0.1 + OVERRUN
     assert targets[-1] <= 0.5 - OVERRUN
 
 
 def test_fractions_reach_over_one_pitch() -> None:
-    targets = drawn_targets(LINEAR, 11, OVERRUN, None, 1)
+    targets = sample_targets(LINEAR, 11, OVERRUN, None, 1)
     interval = (0.6 - 2 * OVERRUN - 0.01) / 10
     fractions = targets - (-0.1 + OVERRUN) - interval * np.arange(11)
     assert np.all((fractions > -1e-6) & (fractions < 0.01 + 1e-6))
@@ -79,18 +79,18 @@ def test_fractions_reach_over_one_pitch() -> None:
 
 
 def test_targets_have_as_many_digits_as_controls_take() -> None:
-    millimetres = 1e3 * drawn_targets(LINEAR, 11, OVERRUN, None, 1)
+    millimetres = 1e3 * sample_targets(LINEAR, 11, OVERRUN, None, 1)
     np.testing.assert_allclose(millimetres, np.round(millimetres, 3), atol=1e-12)
 
 
 @pytest.mark.parametrize("signal_period", [20e-6, 4e-6, 0.5e-6])
 def test_digits_do_not_hide_the_signal_period(signal_period: float) -> None:
     axis = Axis("X", travel=(0.0, 1.0), signal_period=signal_period, screw_pitch=0.01)
-    assert len(_phases(drawn_targets(axis, 41, OVERRUN, None, 1), signal_period)) > 10
+    assert len(_phases(sample_targets(axis, 41, OVERRUN, None, 1), signal_period)) > 10
 
 
 def test_without_a_known_period_fractions_reach_over_a_quarter_of_the_interval() -> None:
-    targets = drawn_targets(Axis("X", travel=(0.0, 1.0)), 11, 0.0, None, 1)
+    targets = sample_targets(Axis("X", travel=(0.0, 1.0)), 11, 0.0, None, 1)
     intervals = np.diff(targets)
     assert np.ptp(intervals) > 0.005
     assert np.all(np.abs(intervals - 0.1) <= 0.025 + 0.0025 + 1e-6)
@@ -98,37 +98,37 @@ def test_without_a_known_period_fractions_reach_over_a_quarter_of_the_interval()
 
 def test_fractions_of_a_long_period_are_shortened_where_many_targets_are_to_fit() -> None:
     axis = Axis("X", travel=(0.0, 0.1), screw_pitch=0.02)
-    targets = drawn_targets(axis, 21, 0.001, None, 1)
+    targets = sample_targets(axis, 21, 0.001, None, 1)
     assert np.all(np.diff(targets) > 0)
 
 
 def test_targets_of_a_tiny_travel_are_told_apart() -> None:
-    targets = drawn_targets(Axis("Z", travel=(0.0, 5e-6)), 11, 1e-7, None, 1)
+    targets = sample_targets(Axis("Z", travel=(0.0, 5e-6)), 11, 1e-7, None, 1)
     assert np.all(np.diff(targets) > 0)
 
 
 def test_stated_fractions_that_do_not_fit_are_refused() -> None:
     with pytest.raises(ValueError, match=r"21 targets .* do not fit"):
-        drawn_targets(LINEAR, 21, OVERRUN, 0.1, 1)
+        sample_targets(LINEAR, 21, OVERRUN, 0.1, 1)
 
 
 def test_travel_shorter_than_both_overruns_is_refused() -> None:
     with pytest.raises(ValueError, match="shorter than the overrun"):
-        drawn_targets(LINEAR, 5, 0.31, None, 1)
+        sample_targets(LINEAR, 5, 0.31, None, 1)
 
 
 def test_fractions_of_zero_give_even_targets() -> None:
-    targets = drawn_targets(LINEAR, 11, OVERRUN, 0.0, 1)
+    targets = sample_targets(LINEAR, 11, OVERRUN, 0.0, 1)
     np.testing.assert_allclose(np.diff(targets), 0.059, atol=1e-9)
 
 
 def test_other_seed_gives_other_targets() -> None:
-    one, other = (drawn_targets(LINEAR, 11, OVERRUN, None, seed) for seed in (1, 2))
+    one, other = (sample_targets(LINEAR, 11, OVERRUN, None, seed) for seed in (1, 2))
     assert not np.any(one == other)
 
 
 def test_full_turn_is_covered_from_end_to_end_with_its_quarters_among_the_targets() -> None:
-    degrees = np.degrees(drawn_targets(FULL_TURN, 13, math.radians(5), None, 1))
+    degrees = np.degrees(sample_targets(FULL_TURN, 13, math.radians(5), None, 1))
     for quarter in (0, 90, 180, 270, 360):
         assert np.min(np.abs(degrees - quarter)) < 1e-9
     assert len(degrees) == 13
@@ -137,7 +137,7 @@ def test_full_turn_is_covered_from_end_to_end_with_its_quarters_among_the_target
 
 def test_part_of_a_turn_has_the_quarters_that_it_can_reach_from_both_sides() -> None:
     axis = Axis("A", AxisKind.ROTARY, (math.radians(-110), math.radians(90)))
-    degrees = np.degrees(drawn_targets(axis, 11, math.radians(4), None, 1))
+    degrees = np.degrees(sample_targets(axis, 11, math.radians(4), None, 1))
     assert np.min(np.abs(degrees + 90)) < 1e-9
     assert np.min(np.abs(degrees)) < 1e-9
     assert degrees[-1] <= 86 + 1e-9
@@ -149,7 +149,7 @@ def test_part_of_a_turn_has_the_quarters_that_it_can_reach_from_both_sides() -> 
     ids=["usual", "short travel", "no travel"],
 )
 def test_usual_overrun_is_5_mm_or_a_fiftieth_of_a_short_travel(axis: Axis, expected: float) -> None:
-    assert usual_overrun(axis) == pytest.approx(expected)
+    assert find_usual_overrun(axis) == pytest.approx(expected)
 
 
 def test_only_a_full_turn_has_no_ends() -> None:
@@ -170,18 +170,18 @@ def test_only_a_full_turn_has_no_ends() -> None:
     ],
 )
 def test_phases_of_a_period_are_counted(targets: list[float], number: int) -> None:
-    assert phases(np.array(targets), 10.0) == number
+    assert count_phases(np.array(targets), 10.0) == number
 
 
 def test_position_before_whole_turn_is_at_the_phase_of_its_beginning() -> None:
-    assert phases(np.array([0.0, 9.99, 20.01]), 10.0) == 1
+    assert count_phases(np.array([0.0, 9.99, 20.01]), 10.0) == 1
 
 
 def test_each_known_period_is_named() -> None:
     axis = Axis("X", screw_pitch=0.01, signal_period=0.004)
-    (only,) = periods_at_phases(axis, np.array([0.0, 0.02, 0.04]), 1)[:1]
+    (only,) = find_periods_at_phases(axis, np.array([0.0, 0.02, 0.04]), 1)[:1]
     assert only.in_language(Language.ENGLISH) == "the pitch of 10 mm"
-    assert len(periods_at_phases(axis, np.array([0.0, 0.02, 0.04]), 1)) == 2
+    assert len(find_periods_at_phases(axis, np.array([0.0, 0.02, 0.04]), 1)) == 2
 
 
 def test_plan_at_half_pitches_is_known_to_see_a_part_only() -> None:

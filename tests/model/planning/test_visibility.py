@@ -8,8 +8,8 @@ import pytest
 from model.planning.planned import REGISTRY, WHOLE_PITCHES, plan_of_test, sight_of
 from zlmreport.errors import InputError
 from zlmreport.language import Language, Words
-from zlmreport.model.planning.plan import expected_conditions
-from zlmreport.model.planning.visibility import Sight, logs_of
+from zlmreport.model.planning.plan import expect_conditions
+from zlmreport.model.planning.visibility import Sight, list_logs_of
 
 PENDULUM = ("method: linear", "method: pendulum")
 ONE_WAY = ("method: linear", "method: unidirectional")
@@ -156,7 +156,7 @@ def test_turning_round_beyond_the_travel_is_seen() -> None:
 
 def test_expected_temperatures_rise_by_what_the_job_says() -> None:
     time = np.linspace(0, 1200, 50)
-    for name, course in expected_conditions(2.0, time).items():
+    for name, course in expect_conditions(2.0, time).items():
         if name.endswith("temperature"):
             assert np.ptp(course) == pytest.approx(2.0)
 
@@ -164,7 +164,8 @@ def test_expected_temperatures_rise_by_what_the_job_says() -> None:
 def test_only_conditions_that_an_effect_asks_for_are_its_logs() -> None:
     design = plan_of_test().design
     found = {
-        name: logs_of(REGISTRY.effect(name), design) for name in ("offset", "dead-path", "screw-expansion")
+        name: list_logs_of(REGISTRY.effect(name), design)
+        for name in ("offset", "dead-path", "screw-expansion")
     }
     assert found == {
         "offset": (),

@@ -7,7 +7,7 @@ from pathlib import Path
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.simulation import SimulationFile, load_simulation
 from zlmreport.model.simulation.description import Description
-from zlmreport.model.simulation.files import description_of
+from zlmreport.model.simulation.files import read_description_of
 from zlmreport.plugin.registry import Plugin, collect
 from zlmreport_plugins import effects
 from zlmreport_plugins.sources import laser_csv
@@ -43,7 +43,7 @@ def loaded(text: str, folder: Path) -> SimulationFile:
 
 
 def described(text: str, folder: Path) -> Description:
-    return description_of(loaded(text, folder), REGISTRY.effect)
+    return read_description_of(loaded(text, folder), REGISTRY.effect)
 
 
 def mistakes(text: str, folder: Path) -> list[str]:

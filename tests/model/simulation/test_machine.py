@@ -8,9 +8,14 @@ import numpy as np
 import pytest
 
 from model.simulation.describing import described, hidden
-from zlmreport.model.planning.methods import Method, path, visits
+from zlmreport.model.planning.methods import Method, list_visits, plan_path
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
-from zlmreport.model.simulation.simulate import EmulatedMachine, StartedMachine, emulated_machine, simulate
+from zlmreport.model.simulation.simulate import (
+    EmulatedMachine,
+    StartedMachine,
+    make_emulated_machine,
+    simulate,
+)
 
 LEAD = 3.0
 NOISY = SimulatedNoise(reading=0.5e-6, drift=0.2e-6, outlier_share=0.1, outlier_size=5e-6)
@@ -27,7 +32,7 @@ def _at(machine: EmulatedMachine, times: np.ndarray) -> np.ndarray:
 
 @pytest.mark.parametrize("method", Method)
 def test_it_rests_at_each_visit_as_long_as_the_plan_says(method: Method) -> None:
-    machine = emulated_machine(_erring(method), LEAD)
+    machine = make_emulated_machine(_erring(method), LEAD)
     np.testing.assert_allclose(machine.leaves - machine.arrives, 5.0)
     for moments in (machine.arrives, machine.leaves):
         np.testing.assert_allclose(_at(machine, moments), _at(machine, machine.leaves), atol=1e-15)
@@ -35,7 +40,7 @@ def test_it_rests_at_each_visit_as_long_as_the_plan_says(method: Method) -> None
 
 @pytest.mark.parametrize("method", Method)
 def test_at_each_visit_it_stands_at_the_target_and_errs_by_the_truth(method: Method) -> None:
-    machine = emulated_machine(_erring(method), LEAD)
+    machine = make_emulated_machine(_erring(method), LEAD)
     truth = machine.truth
     stands = truth.target_positions[truth.target] + truth.deviation
     # positions are sums of up to 1 m: rounding is that of a double
@@ -44,20 +49,20 @@ def test_at_each_visit_it_stands_at_the_target_and_errs_by_the_truth(method: Met
 
 def test_its_errors_are_those_of_the_simulated_readings() -> None:
     simulated = simulate(_erring()).measurements
-    np.testing.assert_array_equal(emulated_machine(_erring(), LEAD).truth.deviation, simulated.deviation)
+    np.testing.assert_array_equal(make_emulated_machine(_erring(), LEAD).truth.deviation, simulated.deviation)
 
 
 def test_what_the_description_says_of_an_instrument_is_left_to_the_instrument() -> None:
     coarse = replace(_erring(), noise=replace(NOISY, resolution=1e-6, missing_share=0.5))
-    truth = emulated_machine(coarse, LEAD).truth.deviation
+    truth = make_emulated_machine(coarse, LEAD).truth.deviation
     np.testing.assert_array_equal(truth, simulate(_erring()).measurements.deviation)
 
 
 @pytest.mark.parametrize("method", Method)
 def test_it_comes_to_each_target_from_the_side_of_the_visit(method: Method) -> None:
     description = _erring(method)
-    machine = emulated_machine(description, LEAD)
-    listed = visits(path(method, description.plan.targets.tolist(), 2, description.plan.overrun))
+    machine = make_emulated_machine(description, LEAD)
+    listed = list_visits(plan_path(method, description.plan.targets.tolist(), 2, description.plan.overrun))
     before = _at(machine, machine.arrives - 0.05)
     assert [visit.target for visit in listed] == machine.truth.target.tolist()
     np.testing.assert_array_equal(
@@ -67,7 +72,7 @@ def test_it_comes_to_each_target_from_the_side_of_the_visit(method: Method) -> N
 
 def test_it_rests_before_its_program_where_it_does_not_err_and_after_it() -> None:
     description = _erring()
-    machine = emulated_machine(description, LEAD)
+    machine = make_emulated_machine(description, LEAD)
     start = description.plan.targets[0] - description.plan.overrun
     assert {machine.position(time) for time in (0.0, 1.0, LEAD)} == {start}
     assert machine.position(machine.duration) == machine.position(machine.duration + 1e6)
@@ -75,7 +80,7 @@ def test_it_rests_before_its_program_where_it_does_not_err_and_after_it() -> Non
 
 def test_it_moves_at_the_feed() -> None:
     description = described(targets=5, runs=1)
-    machine = emulated_machine(description, LEAD)
+    machine = make_emulated_machine(description, LEAD)
     begins = machine.leaves[0]
     way = machine.position(begins + 1.0) - machine.position(begins)
     assert way == pytest.approx(description.plan.feed)
@@ -83,7 +88,7 @@ def test_it_moves_at_the_feed() -> None:
 
 def test_conditions_follow_their_course() -> None:
     course = ConditionCourse(293.15, 295.15, sensor_noise=1.0, resolution=0.5, is_logged=False)
-    machine = emulated_machine(replace(_erring(), conditions={"air_temperature": course}), LEAD)
+    machine = make_emulated_machine(replace(_erring(), conditions={"air_temperature": course}), LEAD)
     first, last = machine.leaves[0], machine.leaves[-1]
     times = [0.0, first, (first + last) / 2, last, last + 100]
     seen = [machine.conditions(time)["air_temperature"] for time in times]
@@ -91,7 +96,7 @@ def test_conditions_follow_their_course() -> None:
 
 
 def test_a_machine_that_waits_begins_when_it_is_started_and_not_again() -> None:
-    machine = emulated_machine(_erring(), LEAD)
+    machine = make_emulated_machine(_erring(), LEAD)
     waiting = StartedMachine(machine)
     assert {waiting.position(time) for time in (0.0, 50.0, 99.0)} == {machine.position(0.0)}
     assert waiting.elapsed is None

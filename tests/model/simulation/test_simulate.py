@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from model.simulation.describing import described, hidden
-from zlmreport.model.fitting.observations import observations_of
+from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import ConditionCourse, SimulatedNoise
 from zlmreport.model.simulation.simulate import simulate
@@ -191,7 +191,7 @@ def test_the_origin_of_the_readings_is_said() -> None:
 @pytest.mark.parametrize("method", Method)
 def test_the_error_model_sees_the_readings_as_they_were_planned(method: Method) -> None:
     test = simulate(described(method=method))
-    seen = observations_of(test.measurements, overrun=5e-3).design
+    seen = make_observations_of(test.measurements, overrun=5e-3).design
     for name in ("position", "direction", "run", "target", "time"):
         np.testing.assert_array_equal(getattr(seen, name), getattr(test.design, name))
     np.testing.assert_allclose(seen.since_reversal, test.design.since_reversal, atol=1e-12)

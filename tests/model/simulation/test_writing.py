@@ -10,7 +10,7 @@ import pytest
 from model.simulation.files import REGISTRY, SOUND, described, loaded, with_line
 from zlmreport.errors import Place
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.model.simulation.files import job_text, readings_table
+from zlmreport.model.simulation.files import write_job_text, write_readings_table
 from zlmreport.model.simulation.simulate import simulate
 from zlmreport.plugin.protocols import SourceContext
 
@@ -21,7 +21,7 @@ def _there_and_back(text: str, folder: Path) -> tuple[MeasurementSet, Measuremen
     """Return the simulated readings, and the same out of their file."""
     made = simulate(described(text, folder)).measurements
     path = folder / "readings.csv"
-    path.write_text(readings_table(made, ["made up"]), encoding="utf-8")
+    path.write_text(write_readings_table(made, ["made up"]), encoding="utf-8")
     source = REGISTRY.source("laser-csv")
     options = source.options.model_validate({"file": path})
     return made, source.read(options, SourceContext(made.axis, Place("job.yaml")))
@@ -53,12 +53,12 @@ def test_readings_without_times_have_no_column_of_times(tmp_path: Path) -> None:
 
 def test_the_head_of_the_table_says_where_it_comes_from(tmp_path: Path) -> None:
     made = simulate(described(SOUND, tmp_path)).measurements
-    lines = readings_table(made, ["one", "two"]).splitlines()
+    lines = write_readings_table(made, ["one", "two"]).splitlines()
     assert lines[:3] == ["# one", "# two", "target,direction,run,deviation,time,axis_temperature"]
 
 
 def test_the_job_has_the_axis_of_the_simulation_and_a_model(tmp_path: Path) -> None:
-    text = job_text(loaded(SOUND, tmp_path), tmp_path, "x.csv")
+    text = write_job_text(loaded(SOUND, tmp_path), tmp_path, "x.csv")
     assert "axis: {name: X, travel: [0, 600], screw_pitch: 10} # mm\n" in text
     assert "  source: {plugin: laser-csv, file: x.csv}\n" in text
     assert "  effects:\n    - offset\n    - scale-error\n    - backlash\n" in text
@@ -66,7 +66,7 @@ def test_the_job_has_the_axis_of_the_simulation_and_a_model(tmp_path: Path) -> N
 
 def test_the_job_has_the_model_that_the_simulation_states(tmp_path: Path) -> None:
     model = "model: {effects: [{polynomial: {order: 5}}, {backlash: {lost_motion: -2.5}}]}\n"
-    text = job_text(loaded(SOUND + model, tmp_path), tmp_path, "x.csv")
+    text = write_job_text(loaded(SOUND + model, tmp_path), tmp_path, "x.csv")
     assert "    - {polynomial: {order: 5}}\n    - {backlash: {lost_motion: -2.5}}\n" in text
 
 
@@ -76,6 +76,6 @@ def test_tables_of_the_axis_are_named_from_the_folder_of_the_job(tmp_path: Path)
         with_line(3, "axis: {name: X 1, travel: [0, 600], screw_pitch: 10, compensation_table: comp.csv}"),
         tmp_path,
     )
-    text = job_text(file, tmp_path / "deep" / "below", "x.csv")
+    text = write_job_text(file, tmp_path / "deep" / "below", "x.csv")
     assert 'name: "X 1"' in text
     assert 'compensation_table: "../../comp.csv"' in text

@@ -29,7 +29,7 @@ from zlmreport.fleet.issuing import What
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.plugin.boundary import guarded
+from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.kinds import CONTROLLER, EFFECT, EXTENSION, INSTRUMENT, PART_PROGRAM, SOURCE, STANDARD
 from zlmreport.plugin.protocols import SourceContext
 from zlmreport.plugin.registry import Plugin, Registry, collect
@@ -132,7 +132,7 @@ def test_plugin_that_exits_fails_its_job_of_a_fleet_and_no_other(
     )
     versions = {**VERSIONS, "house-plugins": "2.0 code"}
     monkeypatch.setattr(making, "_versions", lambda _: versions)
-    monkeypatch.setattr(night, "program_versions", lambda **_: versions)
+    monkeypatch.setattr(night, "find_program_versions", lambda **_: versions)
     fleet = Fleet.of(tmp_path, "a", "b")
     fleet.job("b", ("exemplary:1", "house:1"), ("{E: 20}", "{R: 20}"))
     witness = fleet.spend()
@@ -275,14 +275,14 @@ def test_program_that_no_control_reads_is_refused(text: Any) -> None:
         def write(self, _motion: Any, _options: Any) -> str:
             return text  # type: ignore[no-any-return]
 
-    program = guarded(PART_PROGRAM, Sinful(), "plugin house")
+    program = guard(PART_PROGRAM, Sinful(), "plugin house")
     with pytest.raises(PluginError, match="part program 'exemplary-steps' of plugin house: write returns"):
         program.write(sample_motion(), None)
 
 
 @pytest.mark.parametrize("files", [None, {}, {".comp": ""}, {".comp": b"x"}, {"/../x": "y"}, {5: "y"}])
 def test_tables_that_are_no_files_are_refused(files: Any) -> None:
-    controller = guarded(
+    controller = guard(
         CONTROLLER, SimpleNamespace(identifier="house", files=lambda *_: files), "plugin house"
     )
     with pytest.raises(PluginError, match="controller 'house' of plugin house: files returns"):
@@ -296,14 +296,14 @@ def test_tables_that_are_no_files_are_refused(files: Any) -> None:
 def test_answers_of_an_extension_are_looked_at(method: str, answer: Any) -> None:
     offered = SimpleNamespace(identifier="house", **{method: lambda *_: answer})
     with pytest.raises(PluginError, match=f"extension 'house' of plugin house: {method} returns"):
-        getattr(guarded(EXTENSION, offered, "plugin house"), method)()
+        getattr(guard(EXTENSION, offered, "plugin house"), method)()
 
 
 def test_command_of_an_extension_that_exits_is_told() -> None:
     from zlmreport.plugin.extension import Command
 
     command = Command("trace", "", "", (), _raising(SystemExit(0)))
-    extension = guarded(EXTENSION, SimpleNamespace(identifier="house", commands=(command,)), "plugin house")
+    extension = guard(EXTENSION, SimpleNamespace(identifier="house", commands=(command,)), "plugin house")
     with pytest.raises(PluginError, match="command trace raised SystemExit: 0"):
         extension.commands[0].run({}, None)
 
@@ -326,7 +326,7 @@ def test_instrument_is_looked_after_while_it_is_read() -> None:
             raise InputError.at(Place("COM1"), "cannot")
 
     offered = SimpleNamespace(identifier="dial", open=lambda _: Line())
-    instrument = guarded(INSTRUMENT, offered, "plugin house")
+    instrument = guard(INSTRUMENT, offered, "plugin house")
     connection = instrument.open(None)
     readings = connection.readings()
     assert next(readings) == 1
@@ -339,13 +339,13 @@ def test_instrument_is_looked_after_while_it_is_read() -> None:
 
 
 def test_instrument_that_opens_nothing_is_told() -> None:
-    instrument = guarded(INSTRUMENT, SimpleNamespace(identifier="dial", open=lambda _: None), "plugin house")
+    instrument = guard(INSTRUMENT, SimpleNamespace(identifier="dial", open=lambda _: None), "plugin house")
     with pytest.raises(PluginError, match="open returns nothing without __enter__, __exit__, readings, zero"):
         instrument.open(None)
 
 
 def test_file_that_a_source_cannot_open_is_the_users() -> None:
-    source = guarded(
+    source = guard(
         SOURCE, SimpleNamespace(identifier="x", read=_raising(FileNotFoundError(2, "no", "a.csv"))), "plugin"
     )
     with pytest.raises(FileNotFoundError):
@@ -354,7 +354,7 @@ def test_file_that_a_source_cannot_open_is_the_users() -> None:
 
 def test_user_who_stops_and_memory_that_ends_are_no_fault_of_a_plugin() -> None:
     for error in (KeyboardInterrupt(), MemoryError()):
-        standard = guarded(STANDARD, _with(arithmetic=_raising(error)), "plugin house")
+        standard = guard(STANDARD, _with(arithmetic=_raising(error)), "plugin house")
         with pytest.raises(type(error)):
             standard.arithmetic(None, None)
 
@@ -422,7 +422,7 @@ def test_duplicate_effect_is_named_as_one_that_cannot_be_tested() -> None:
 
 def test_guarded_object_is_equal_to_the_object() -> None:
     standard = ExemplaryStandard()
-    one, other = (guarded(STANDARD, standard, "plugin") for _ in range(2))
+    one, other = (guard(STANDARD, standard, "plugin") for _ in range(2))
     assert one == other == standard
     assert len({one, other}) == 1
     assert repr(one) == repr(standard)

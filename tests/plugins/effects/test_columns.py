@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from plugins.effects.installed import EFFECTS, design_for
 from plugins.effects.plain import EQUATIONS, readings
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Effect, Parameter, unit_of
+from zlmreport.model.effects.effect import Effect, Parameter, find_unit_of
 from zlmreport.testing import full_designs
 
 #: Vapour pressures of the two arithmetics differ by 5e-5 of 1200 Pa at most, which is 2e-5 ppm of about 1.
@@ -17,7 +17,7 @@ TOLERANCE = {"air-index": 1e-4, "dead-path": 1e-4}
 
 
 def _in_users_units(parameter: Parameter, value: float, design: Design) -> float:
-    return value * unit_of(parameter.dimension, design.axis.kind).per_si
+    return value * find_unit_of(parameter.dimension, design.axis.kind).per_si
 
 
 def _compared(effect: Effect, design: Design) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -16,7 +16,7 @@ from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
-from zlmreport.model.simulation.simulate import deviation_by, simulate
+from zlmreport.model.simulation.simulate import compute_deviation_by, simulate
 
 SIGMA = 0.5e-6
 #: Which face of a gauge is touched is no course of a condition, and no plan pauses: nothing simulates these.
@@ -80,7 +80,7 @@ def test_searched_parameter_is_recovered_from_the_grid(identifier: str) -> None:
     place = len(grid) // 2
     sizes = dict.fromkeys((each.name for each in effect.linear), 1.0)
     searched = dict(zip((each.name for each in effect.searched), grid[place].tolist(), strict=True))
-    unit = deviation_by(effect, design, {**sizes, **searched})
+    unit = compute_deviation_by(effect, design, {**sizes, **searched})
     factor = 10 * SIGMA / np.sqrt(np.mean((unit - unit.mean()) ** 2))
     hidden = Term(effect, {**dict.fromkeys(sizes, factor), **searched})
     deviation = simulate(replace(description, effects=(hidden,))).measurements.deviation

@@ -11,7 +11,7 @@ import pytest
 from plugins.effects.installed import EFFECTS, ROTARY_ONLY, design_for
 from zlmreport.language import Language
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 
 LINEAR_ONLY = {
     *("cosine-error", "screw-pitch", "abbe", "scale-expansion", "screw-expansion", "thermal-growth"),
@@ -43,7 +43,7 @@ def _reason(identifier: str, design: Design, language: Language = Language.ENGLI
 
 
 def _only(design: Design, rows: Iterable[bool]) -> Design:
-    return of_readings(design, np.flatnonzero(np.array(rows)))
+    return select_readings(design, np.flatnonzero(np.array(rows)))
 
 
 @pytest.mark.parametrize(

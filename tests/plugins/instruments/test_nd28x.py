@@ -28,19 +28,19 @@ def _at(millimetres: float, *troubles: Trouble) -> Nd28xEmulator:
 def test_documented_answers_are_understood(host: bytes, display: bytes, says: str) -> None:  # noqa: ARG001
     kind, _, rest = says.partition(" ")
     if kind == "position":
-        assert spoken.position_in(display) == int(rest.split()[0])
+        assert spoken.find_position_in(display) == int(rest.split()[0])
     elif kind == "printed":
         value, unit = rest.split()
-        assert spoken.printed_in(display) == spoken.Printed(float(value), _UNITS[unit])
+        assert spoken.find_printed_in(display) == spoken.Printed(float(value), _UNITS[unit])
     else:
-        assert spoken.text_in(display) == rest
+        assert spoken.find_text_in(display) == rest
 
 
 @pytest.mark.parametrize(("host", "display", "says"), dialogue())
 def test_an_answer_that_is_not_whole_is_none(host: bytes, display: bytes, says: str) -> None:  # noqa: ARG001
     for end in range(len(display)):
-        assert spoken.position_in(display[:end]) is None
-        assert spoken.printed_in(display[:end]) is None
+        assert spoken.find_position_in(display[:end]) is None
+        assert spoken.find_printed_in(display[:end]) is None
 
 
 def test_the_questions_are_those_of_the_manual() -> None:

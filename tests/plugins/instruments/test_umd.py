@@ -13,8 +13,8 @@ from zlmreport.live.emulation.emulator import MovingAxis, Planned, Scene, Troubl
 from zlmreport.live.ports.dialogue import WrongDeviceError
 from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.measurement.refractive_index import index_change
-from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, cycle_length
-from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, UmdEmulator, UmdFrame, frame_in
+from zlmreport_plugins.instruments.umd import Setup, UmdDecoder, UmdOptions, compute_cycle_length
+from zlmreport_plugins.instruments.umd.lines import MODELS, AxisCounts, UmdEmulator, UmdFrame, find_frame_in
 
 UMD = {model.identifier: model for model in MODELS}
 #: λ/2 in standard air, m.
@@ -46,13 +46,13 @@ def _spoilt(data: bytes, line: int, old: bytes, new: bytes) -> bytes:
 
 
 def test_a_line_of_one_axis_is_read_field_by_field() -> None:
-    assert frame_in(b"3932 3530 10173 402 45 49 0 0") == UmdFrame(
+    assert find_frame_in(b"3932 3530 10173 402 45 49 0 0") == UmdFrame(
         3932, (AxisCounts(3530, 10173, 402, 45),), 49, 0, 0
     )
 
 
 def test_a_line_of_three_axes_is_read_field_by_field() -> None:
-    frame = frame_in(b"2400 2401 10 1 5 7 8 100000 2402 20 2 6 2403 -30 -3 -4")
+    frame = find_frame_in(b"2400 2401 10 1 5 7 8 100000 2402 20 2 6 2403 -30 -3 -4")
     assert frame == UmdFrame(
         2400,
         (AxisCounts(2401, 10, 1, 5), AxisCounts(2402, 20, 2, 6), AxisCounts(2403, -30, -3, -4)),
@@ -75,7 +75,7 @@ def test_a_line_of_three_axes_is_read_field_by_field() -> None:
     ],
 )
 def test_what_is_no_line_is_left_out(line: bytes) -> None:
-    assert frame_in(line) is None
+    assert find_frame_in(line) is None
 
 
 @pytest.mark.parametrize("model", ["umd0", "umd1", "umd2"])
@@ -104,7 +104,7 @@ def _preface() -> list[tuple[int, int, int]]:
 )
 def test_optics_divide_the_half_wave_in_standard_air(optics: str, fold: int) -> None:
     # Refractive index of air at 20 °C, 1013.25 hPa, 50 %: 1.000 271 37 (Edlén, Birch and Downs)
-    length = cycle_length(UmdOptions(port="COM3", optics=optics))
+    length = compute_cycle_length(UmdOptions(port="COM3", optics=optics))
     assert length == pytest.approx(632.991372e-9 / 1.00027137 / 2 / fold, rel=2e-8)
 
 

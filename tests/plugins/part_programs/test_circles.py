@@ -16,7 +16,7 @@ from processes import run
 from zlmreport.errors import InputError
 from zlmreport.measurement.circle import PLANES
 from zlmreport.model.planning.circle_path import CirclePath
-from zlmreport.plugin.protocols import circle_writer
+from zlmreport.plugin.protocols import find_circle_writer
 from zlmreport.testing import CIRCLE_PROGRAM_CHECKS, sample_circle_path
 
 controls = pytest.mark.parametrize("control", CONTROLS)
@@ -24,7 +24,7 @@ controls = pytest.mark.parametrize("control", CONTROLS)
 
 def written(identifier: str, path: CirclePath | None = None, **keys: Any) -> str:
     program = REGISTRY.part_program(identifier)
-    write = circle_writer(program)
+    write = find_circle_writer(program)
     assert write is not None
     return write(path or sample_circle_path(), program.options(**keys))
 

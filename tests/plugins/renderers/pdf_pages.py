@@ -12,7 +12,7 @@ from pypdf import PageObject, PdfReader
 from pypdf.generic import DictionaryObject
 
 from document.typesetting import samples
-from zlmreport.document.blocks import Table, text_of
+from zlmreport.document.blocks import Table, write_cell_text
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.language import Language
 from zlmreport_plugins.renderers.pdf import PdfRenderer
@@ -48,7 +48,11 @@ def numbers_of(certificate: Certificate) -> Counter[str]:
     blocks = (*certificate.cover, *(block for section in certificate.sections for block in section.blocks))
     tables = [block for block in blocks if isinstance(block, Table)]
     cells = (
-        text_of(cell) for table in tables for group in table.groups for row in group.rows for cell in row
+        write_cell_text(cell)
+        for table in tables
+        for group in table.groups
+        for row in group.rows
+        for cell in row
     )
     return Counter(cell for cell in cells if NUMBER.fullmatch(cell))
 

@@ -19,7 +19,7 @@ from plugins.renderers.test_dcc import KEYS, NAMES, ROTARY
 from zlmreport.document.blocks import Facts, Notice, Paragraph, Table
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError, Place
-from zlmreport.evaluation.evaluation import changes
+from zlmreport.evaluation.evaluation import compare_parameters
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.protocols import SourceContext
@@ -168,7 +168,7 @@ def test_the_changes_from_as_found_to_as_left_stand_with_their_uncertainty(both)
         for each in root.iterfind(".//dcc:results/dcc:result", NAMES)
         if "as left − as found" in "".join(each.find("dcc:name", NAMES).itertext())
     ]
-    expected = changes(made.evaluations_as_found[0], made.evaluations[0])
+    expected = compare_parameters(made.evaluations_as_found[0], made.evaluations[0])
 
     for path, values in (
         ("si:value", [each.value for each in expected]),

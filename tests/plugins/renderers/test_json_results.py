@@ -21,7 +21,7 @@ from zlmreport.document.certificate.attachments import Source, SourceRole
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Distribution, NoBudget
-from zlmreport.evaluation.uncertainty.expanded import with_uncertainty
+from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.language import Language, Words
 from zlmreport.measurement.approach import Approach
@@ -111,7 +111,7 @@ def with_budget() -> Any:
     )
     bare = samples.certificate(standards=1)
     arithmetic = partial(samples.SampleStandard().arithmetic, options=Options())
-    (uncertain,) = with_uncertainty([(bare.evaluations[0], arithmetic)], budget)
+    (uncertain,) = add_uncertainty([(bare.evaluations[0], arithmetic)], budget)
     return render(replace(bare, evaluations=(uncertain,), budget=budget))
 
 

@@ -139,7 +139,7 @@ def test_each_element_looks_as_by_the_style_sheet_of_weasyprint_which_is_left_ou
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     certificate = samples.certificate()
-    pdf = press.press().print(certificate)
+    pdf = press.find_press().print(certificate)
     ours = press.style_sheet
     monkeypatch.setattr(
         press,

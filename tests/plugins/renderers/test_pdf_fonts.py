@@ -13,8 +13,8 @@ from fontTools.ttLib import TTFont
 
 from document.certificate.documents import certificate
 from zlmreport.plugin import FONT_FACES, font_file
-from zlmreport_plugins.renderers.pdf.press import press
-from zlmreport_plugins.renderers.pdf.subset import with_glyphs
+from zlmreport_plugins.renderers.pdf.press import find_press
+from zlmreport_plugins.renderers.pdf.subset import keep_glyphs
 
 
 def test_a_document_is_the_same_where_the_system_has_no_library_of_subsets(
@@ -22,10 +22,10 @@ def test_a_document_is_the_same_where_the_system_has_no_library_of_subsets(
 ) -> None:
     """`libharfbuzz-subset` is hidden in the way in which WeasyPrint finds it missing."""
     document = certificate(tmp_path)
-    usual = press().print(document)
+    usual = find_press().print(document)
     for library in (None, object()):
         monkeypatch.setattr(weasyprint.pdf.fonts, "harfbuzz_subset", library)
-        assert press().print(document) == usual
+        assert find_press().print(document) == usual
     assert "fontTools" not in caplog.text
 
 
@@ -35,7 +35,7 @@ def test_glyphs_keep_their_numbers_outlines_and_widths_and_others_are_empty(face
     whole = TTFont(BytesIO(content))
     letters = "0123456789µ±Å"
     numbers = [whole.getGlyphID(whole.getBestCmap()[ord(each)]) for each in letters]
-    part = TTFont(BytesIO(with_glyphs(content, numbers)))
+    part = TTFont(BytesIO(keep_glyphs(content, numbers)))
     for number in numbers:
         assert _drawn(part, number) == _drawn(whole, number)
         assert part["hmtx"][part.getGlyphName(number)] == whole["hmtx"][whole.getGlyphName(number)]

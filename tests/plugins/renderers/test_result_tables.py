@@ -17,7 +17,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.uncertainty.budget import NoBudget
 from zlmreport.language import Language, Words
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
-from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, harmless
+from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, make_harmless
 
 FORMULA = '=HYPERLINK("http://example.com";"1")'
 
@@ -100,7 +100,7 @@ def test_a_complete_u_has_no_such_rows_and_no_such_column() -> None:
 
 @pytest.mark.parametrize("text", [FORMULA, "+1", "-1", "@x", "\t=1"])
 def test_no_text_of_a_table_begins_a_formula(text: str) -> None:
-    assert harmless(text) == f"'{text}"
+    assert make_harmless(text) == f"'{text}"
 
 
 def test_the_workbook_holds_the_numbers_of_the_results_file() -> None:

@@ -13,7 +13,7 @@ from plugins.renderers.typst_pages import read, sample
 from zlmreport.document.blocks import Align, Column, Facts, Notice, Paragraph, RowGroup, Section, Table
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.metrics import advance
+from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.language import Language
 
 _POINTS = 72 / 25.4
@@ -29,7 +29,7 @@ def _ends(reader: PdfReader) -> float:
     places = []
 
     def visit(text: str, _cm: object, matrix: list[float], _font: object, size: float) -> None:
-        widest = max(advance(line, TypeFace.REGULAR) for line in text.strip().split("\n"))
+        widest = max(measure_advance(line, TypeFace.REGULAR) for line in text.strip().split("\n"))
         places.append(matrix[4] + abs(matrix[0]) * size * widest)
 
     for page in reader.pages:

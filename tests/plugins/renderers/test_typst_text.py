@@ -23,7 +23,7 @@ from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
-from zlmreport_plugins.renderers.pdf_typst.words import AS_WORDS, MARKED, SYMBOL, fitted_with_symbols
+from zlmreport_plugins.renderers.pdf_typst.words import AS_WORDS, MARKED, SYMBOL, fit_text_with_symbols
 
 
 def _letters(reader: PdfReader, running: tuple[str, ...]) -> Counter[str]:
@@ -161,7 +161,7 @@ def _unspaced(text: str) -> str:
 
 
 def test_a_symbol_in_a_text_is_set_as_one_and_the_name_of_a_standard_stays_whole() -> None:
-    assert fitted_with_symbols("Umax by VDI/VDE 2617", ["U_{max}"], 50.0) == [
+    assert fit_text_with_symbols("Umax by VDI/VDE 2617", ["U_{max}"], 50.0) == [
         ([[[True, False, "U"], [False, True, "max"]]], SYMBOL),
         (" by ", AS_WORDS),
         ((("VDI/VDE",),), MARKED),

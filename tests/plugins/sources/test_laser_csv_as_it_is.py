@@ -16,7 +16,7 @@ from plugins.sources.reading import UM, File, said
 from plugins.sources.test_any_file import WIDE, damaged
 from plugins.sources.untidy_files import FILES
 from zlmreport.errors import InputError
-from zlmreport.looking import looked_at
+from zlmreport.looking import look_at
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.plugin.registry import find_plugins
 from zlmreport_plugins.sources.laser_csv import LaserCsv
@@ -214,4 +214,4 @@ def test_whatever_is_in_a_file_it_is_looked_at_or_refused(
     ]
     path.write_bytes(data.draw(damaged(data.draw(st.sampled_from(samples)))).encode("utf-8", "replace"))
     with contextlib.suppress(InputError):
-        looked_at(path, REGISTRY)
+        look_at(path, REGISTRY)

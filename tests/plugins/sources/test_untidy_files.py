@@ -12,7 +12,7 @@ from hypothesis import given, settings, strategies as st
 from plugins.sources import untidy_files
 from plugins.sources.untidy_files import FILES, Untidy, german, rows, text
 from zlmreport.cli import main
-from zlmreport.looking import looked_at
+from zlmreport.looking import look_at
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins({})
@@ -27,7 +27,7 @@ def untidy(request: pytest.FixtureRequest) -> Untidy:
 def test_a_file_is_read_as_it_is(untidy: Untidy, tmp_path: Path) -> None:
     path = tmp_path / untidy.name
     path.write_bytes(untidy.content)
-    looked = looked_at(path, REGISTRY)
+    looked = look_at(path, REGISTRY)
     axis = looked.read.axis
     np.testing.assert_allclose(
         axis.deviation_unit.from_si(looked.read.deviations()), untidy.grid, rtol=0, atol=1e-5
@@ -53,10 +53,10 @@ def test_the_sheet_that_is_named_is_looked_at(tmp_path: Path) -> None:
     path.write_bytes(
         untidy_files.workbook(Before=[head, [0, 1, 2], [9, 1, 2]], After=[head, [0, 3, 4], [9, 3, 4]])
     )
-    assert [question for question in looked_at(path, REGISTRY).proposal.asks if "Before" in question] == [
+    assert [question for question in look_at(path, REGISTRY).proposal.asks if "Before" in question] == [
         "Is 'Before' the right sheet? 'After' holds a table, too."
     ]
-    after = looked_at(path, REGISTRY, "After")
+    after = look_at(path, REGISTRY, "After")
     assert after.proposal.keys["sheet"] == "After"
     np.testing.assert_allclose(after.read.deviations()[:, 0, 0], [3e-6, 4e-6])
 
@@ -64,7 +64,7 @@ def test_the_sheet_that_is_named_is_looked_at(tmp_path: Path) -> None:
 def test_deviations_beside_positions_tell_their_sign(tmp_path: Path) -> None:
     path = tmp_path / "both.csv"
     path.write_text("Soll;Ist;Richtung;Lauf;Abw. (µm)\n0;0,002;+;1;2\n9;9,003;+;1;3\n", encoding="utf-8")
-    proposal = looked_at(path, REGISTRY).proposal
+    proposal = look_at(path, REGISTRY).proposal
     assert "sign" not in proposal.keys
     assert not [question for question in proposal.asks if "nominal" in question]
 
@@ -75,13 +75,13 @@ def test_deviations_beside_positions_tell_their_sign(tmp_path: Path) -> None:
 def test_a_unit_that_stands_above_the_table_is_taken(line: str, unit: str, tmp_path: Path) -> None:
     path = tmp_path / "above.csv"
     path.write_text(f"{line}\ntarget;1+;1-\n0;0,001;0,002\n9;0,001;0,002\n", encoding="utf-8")
-    assert looked_at(path, REGISTRY).proposal.keys["units"] == {"deviation": unit}
+    assert look_at(path, REGISTRY).proposal.keys["units"] == {"deviation": unit}
 
 
 def test_values_too_small_for_micrometres_are_taken_for_millimetres_and_asked(tmp_path: Path) -> None:
     path = tmp_path / "small.csv"
     path.write_text("target,1+,1-\n0,0.0012,0.0003\n50,0.0018,0.0011\n", encoding="utf-8")
-    proposal = looked_at(path, REGISTRY).proposal
+    proposal = look_at(path, REGISTRY).proposal
     assert proposal.keys["units"] == {"deviation": "mm"}
     assert [question for question in proposal.asks if "rarely in µm" in question]
 
@@ -89,7 +89,7 @@ def test_values_too_small_for_micrometres_are_taken_for_millimetres_and_asked(tm
 def test_a_whole_turn_of_an_unnamed_axis_is_asked(tmp_path: Path) -> None:
     path = tmp_path / "turn.csv"
     path.write_text("target,1+,1-\n0,1,2\n180,3,4\n360,5,6\n", encoding="utf-8")
-    assert [question for question in looked_at(path, REGISTRY).proposal.asks if "kind: rotary" in question]
+    assert [question for question in look_at(path, REGISTRY).proposal.asks if "kind: rotary" in question]
 
 
 #: What tables of the same readings differ in.
@@ -138,5 +138,5 @@ def test_tables_that_differ_in_all_that_does_not_matter_are_read_alike(
     )
     path = tmp_path_factory.mktemp("alike") / "table.txt"
     path.write_bytes(written)
-    grid = looked_at(path, REGISTRY).read.deviations()
+    grid = look_at(path, REGISTRY).read.deviations()
     np.testing.assert_allclose(grid * 1e6, untidy_files.GRID, rtol=0, atol=1e-6)

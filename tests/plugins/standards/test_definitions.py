@@ -9,7 +9,7 @@ import pytest
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.evaluation import Group, Quantity
 from zlmreport.language import Language
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 
 ISO_1988 = "A A_fwd A_bwd R R_fwd R_bwd B B_mean"
 ISO_SINCE_1997 = "A A_fwd A_bwd E E_fwd E_bwd M R R_fwd R_bwd B B_mean"
@@ -155,7 +155,7 @@ def test_names_follow_the_edition(identifier: str, symbol: str, english: str, ge
     ],
 )
 def test_formulas_carry_the_factor_of_the_standard(identifier: str, symbol: str, formula: str) -> None:
-    assert plain(quantity(identifier, symbol).formula) == formula
+    assert write_plain(quantity(identifier, symbol).formula) == formula
 
 
 def test_only_the_edition_of_1988_prints_the_mean_reversal_with_the_other_sign() -> None:
@@ -167,7 +167,7 @@ def test_only_the_edition_of_1988_prints_the_mean_reversal_with_the_other_sign()
     ]
 
     assert opposite == [("iso230-2:1988", "B_mean")]
-    assert plain(quantity("iso230-2:1988", "B_mean").formula) == "(1/n) · ∑ (x̄j↓ − x̄j↑)"
+    assert write_plain(quantity("iso230-2:1988", "B_mean").formula) == "(1/n) · ∑ (x̄j↓ − x̄j↑)"
 
 
 def test_the_opposite_sign_is_said_in_a_note() -> None:

@@ -13,7 +13,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurand import DISPLACEMENT
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport_plugins.standards.iso230_3 import Iso230Part3
 from zlmreport_plugins.standards.iso230_3.quantities import DRIFT
 
@@ -38,7 +38,7 @@ def sensor(name: str, values: np.ndarray, hours: np.ndarray = HOURS) -> Measurem
 def together(*sensors: MeasurementSet, **keys: object) -> Evaluation:
     options = STANDARD.options.model_validate(keys)
     tests = {each.axis.name: each for each in sensors}
-    return evaluate(STANDARD, joined(Axis(" ".join(tests), quantity=DRIFT), tests), options, {})
+    return evaluate(STANDARD, join_lines(Axis(" ".join(tests), quantity=DRIFT), tests), options, {})
 
 
 def values(evaluation: Evaluation) -> dict[str, float]:

@@ -13,11 +13,11 @@ from plugins.standards.circle_oracle import least_squares, minimum_zone_width
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport_plugins.standards.iso230_4 import Iso230Part4, Iso230Part4Options
 from zlmreport_plugins.standards.iso230_4.circles import (
-    covered_arc,
+    find_minimum_zone,
+    find_zone_about,
+    fit_least_squares_circle,
     is_full_turn,
-    least_squares_circle,
-    minimum_zone,
-    zone_about,
+    measure_covered_arc,
 )
 
 STANDARD = Iso230Part4()
@@ -65,7 +65,7 @@ def test_the_case_that_was_worked_out() -> None:
 
 def test_the_set_up_of_that_case_is_found() -> None:
     angles, paths = circle_of_the_note()
-    found = least_squares_circle(paths.ravel(), np.tile(angles, 2))
+    found = fit_least_squares_circle(paths.ravel(), np.tile(angles, 2))
     np.testing.assert_allclose(found.centre, [30, -15], atol=1e-9)
 
 
@@ -78,7 +78,7 @@ def test_the_minimum_zone_is_that_of_its_dual(seed: int) -> None:
         [chance.gauss(0, 1) + 20 * math.cos(t - 1) for t in angles] for _ in range(chance.choice([1, 2]))
     ]
     points = [(t, r) for path in paths for t, r in zip(angles, path, strict=True)]
-    zone = minimum_zone(np.array([r for _, r in points]), np.array([t for t, _ in points]))
+    zone = find_minimum_zone(np.array([r for _, r in points]), np.array([t for t, _ in points]))
     assert float(zone.width) == pytest.approx(minimum_zone_width(points), rel=1e-9)
 
 
@@ -88,7 +88,7 @@ def test_two_paths_far_apart_are_held_by_the_widest_gap_at_least(apart: float) -
     angles, noise = np.linspace(0, 2 * np.pi, 24, endpoint=False), np.random.default_rng(5)
     first = noise.normal(0, 0.2, 24)
     second = first + apart + noise.normal(0, 0.2, 24)
-    zone = minimum_zone(np.concatenate([first, second]), np.tile(angles, 2))
+    zone = find_minimum_zone(np.concatenate([first, second]), np.tile(angles, 2))
     points = [(t, r) for path in (first, second) for t, r in zip(angles.tolist(), path.tolist(), strict=True)]
     assert float(zone.width) == pytest.approx(minimum_zone_width(points), rel=1e-9)
     assert zone.width >= np.abs(first - second).max() * (1 - 1e-12)
@@ -99,7 +99,7 @@ def test_the_circle_of_least_squares_is_that_of_the_normal_equations(seed: int) 
     chance = random.Random(seed)
     points = [(chance.uniform(0, 6), chance.gauss(3, 5)) for _ in range(chance.randint(3, 40))]
     x, y, radius = least_squares(points)
-    found = least_squares_circle(np.array([r for _, r in points]), np.array([t for t, _ in points]))
+    found = fit_least_squares_circle(np.array([r for _, r in points]), np.array([t for t, _ in points]))
     assert (*found.centre, found.radius) == pytest.approx((x, y, radius), rel=1e-8, abs=1e-8)
 
 
@@ -167,7 +167,7 @@ def test_an_arc_has_no_mean_radius_and_radial_deviations_about_the_centre_of_the
     assert found["F_max_ccw"] == pytest.approx(paths[0, on_arc].max())
     assert found["G_ccw"] <= parameters(paths, angles)["G_ccw"]
     assert not is_full_turn(angles[on_arc])
-    assert np.degrees(covered_arc(angles[on_arc])) == pytest.approx(219.0)
+    assert np.degrees(measure_covered_arc(angles[on_arc])) == pytest.approx(219.0)
 
 
 def test_several_turns_are_one_mean_path() -> None:
@@ -182,8 +182,8 @@ def test_a_missing_reading_is_left_out_of_its_path_only() -> None:
     paths[0, 100] = np.nan
     found = parameters(paths, angles)
     points = [(t, r) for t, r in zip(angles.tolist(), paths[0].tolist(), strict=True) if not math.isnan(r)]
-    zone = zone_about(
-        least_squares_circle(np.array([r for _, r in points]), np.array([t for t, _ in points])).centre,
+    zone = find_zone_about(
+        fit_least_squares_circle(np.array([r for _, r in points]), np.array([t for t, _ in points])).centre,
         np.array([r for _, r in points]),
         np.array([t for t, _ in points]),
     )

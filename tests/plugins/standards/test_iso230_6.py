@@ -15,7 +15,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.language import Language
 from zlmreport.machines.kinematics import Chain, deviation
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.iso230_6 import Iso230Part6
 from zlmreport_plugins.standards.iso230_6.quantities import BODY, DIAGONAL, DIAGONALS, FACES
@@ -34,7 +34,7 @@ def line(name: str, up: np.ndarray, down: np.ndarray | None = None, length: floa
 def together(tests: dict[str, MeasurementSet], space: dict[str, tuple[float, float]] = SPACE) -> Evaluation:
     standard = Iso230Part6()
     options = standard.options.model_validate({"axes": space})
-    return evaluate(standard, joined(Axis("space", quantity=DIAGONALS), tests), options, {})
+    return evaluate(standard, join_lines(Axis("space", quantity=DIAGONALS), tests), options, {})
 
 
 def values(evaluation: Evaluation) -> dict[str, float]:

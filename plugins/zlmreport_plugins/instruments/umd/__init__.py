@@ -39,7 +39,7 @@ from zlmreport_plugins.instruments.umd.lines import (
     UmdEmulator,
     UmdFrame,
     UmdModel,
-    frame_in,
+    find_frame_in,
 )
 
 #: Hz: nearer to 0, or to twice the reference, the measurement signal cannot be counted.
@@ -93,7 +93,7 @@ class UmdDecoder:
         """
         readings = []
         for line in self._lines.feed(data):
-            frame = frame_in(line)
+            frame = find_frame_in(line)
             if frame is None or frame == self._before:  # a banner, debug text, a line that came twice
                 continue
             self.understood += 1
@@ -252,16 +252,16 @@ class Umd:
                 "look whether it is that instrument",
                 time.monotonic(),
             )
-            return streamed_readings(port, UmdDecoder(self._model, _setup(options)), patience, _WAIT)
+            return streamed_readings(port, UmdDecoder(self._model, _make_setup(options)), patience, _WAIT)
 
         return LiveConnection(port, readings)
 
     def emulator(self, scene: Scene) -> Emulator:
         """Return one with a retroreflector, in standard air, whose sensors say so."""
-        return UmdEmulator(self._model, scene, cycle_length(UmdOptions(port="emulated")))
+        return UmdEmulator(self._model, scene, compute_cycle_length(UmdOptions(port="emulated")))
 
 
-def cycle_length(options: UmdOptions) -> float:
+def compute_cycle_length(options: UmdOptions) -> float:
     """Return the displacement for an optical cycle in standard air, m: λ/2 divided by the fold."""
     vacuum = options.wavelength * _NANOMETRE
     index = refractive_index(
@@ -273,8 +273,8 @@ def cycle_length(options: UmdOptions) -> float:
 _FOLDS = {"retroreflector": 1, "plane mirror": 2, "double plane mirror": 4}
 
 
-def _setup(options: UmdOptions) -> Setup:
-    return Setup(options.axis - 1, cycle_length(options) * options.factor, options.temperatures)
+def _make_setup(options: UmdOptions) -> Setup:
+    return Setup(options.axis - 1, compute_cycle_length(options) * options.factor, options.temperatures)
 
 
 @hookimpl

@@ -75,7 +75,7 @@ class UmdFrame(NamedTuple):
     data: int
 
 
-def frame_in(line: bytes) -> UmdFrame | None:
+def find_frame_in(line: bytes) -> UmdFrame | None:
     """Return what a line without its end says; None if it is none, such as a banner or debug text (``!``)."""
     if not _DIGITS.fullmatch(line):  # or a number might be written in a way that only Python takes for one
         return None

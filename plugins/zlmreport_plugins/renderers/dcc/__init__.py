@@ -5,9 +5,9 @@ from __future__ import annotations
 from zlmreport.plugin import InputError, Place, Words, hookimpl
 from zlmreport.plugin.renderer import Certificate, Relationship
 from zlmreport.plugin.source import DataSource
-from zlmreport_plugins.renderers.dcc.administrative import administrative_data
-from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, dcc, written
-from zlmreport_plugins.renderers.dcc.results import measurement_results
+from zlmreport_plugins.renderers.dcc.administrative import make_administrative_data
+from zlmreport_plugins.renderers.dcc.elements import SCHEMA_LOCATION, dcc, write_document
+from zlmreport_plugins.renderers.dcc.results import make_measurement_results
 from zlmreport_plugins.renderers.dcc.source import DccSource
 
 _VERSION = "3.3.0"
@@ -35,12 +35,12 @@ class DccRenderer:
             raise InputError.at(Place(certificate.number), "a DCC can only be made of a job")
         root = dcc(
             "digitalCalibrationCertificate",
-            administrative_data(certificate, job),
-            measurement_results(certificate, job),
+            make_administrative_data(certificate, job),
+            make_measurement_results(certificate, job),
             schemaVersion=_VERSION,
         )
         root.attrib.update(SCHEMA_LOCATION)
-        return written(root)
+        return write_document(root)
 
 
 @hookimpl

@@ -40,8 +40,8 @@ from zlmreport_plugins.renderers.dcc.elements import (
     PERCENT,
     dcc,
     group,
-    quantity,
-    real,
+    make_quantity,
+    make_real,
 )
 
 #: The DCC's words for whose place it is.
@@ -74,13 +74,13 @@ class AdministrativeWriter:
         return dcc(element, self.content(words))
 
 
-def software(certificate: Certificate, writer: AdministrativeWriter) -> ET.Element:
+def make_software(certificate: Certificate, writer: AdministrativeWriter) -> ET.Element:
     """Return the program; its release with the letter that PTB's rules ask for."""
     name, _, release = certificate.generator.partition(" ")
     return dcc("software", writer.named("name", name), dcc("release", f"v{release or '0'}"))
 
 
-def serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
+def make_serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
     """Return the identification by which a manufacturer tells one piece from another."""
     return dcc(
         "identification",
@@ -91,12 +91,12 @@ def serial_number(value: str, writer: AdministrativeWriter) -> ET.Element:
     )
 
 
-def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
+def make_administrative_data(certificate: Certificate, job: Job) -> ET.Element:
     """Return the administrative data.
 
     Raises `InputError` with everything that a DCC must state and the job does not.
     """
-    missing = list(_missing(job))
+    missing = list(_find_missing(job))
     if missing:
         raise InputError(missing)
     writer = AdministrativeWriter(certificate.language)
@@ -105,17 +105,20 @@ def administrative_data(certificate: Certificate, job: Job) -> ET.Element:
     assert keys.customer is not None  # noqa: S101 - likewise
     return dcc(
         "administrativeData",
-        dcc("dccSoftware", software(certificate, writer)),
-        _core_data(certificate, job),
-        dcc("items", _item(job, writer)),
-        dcc("calibrationLaboratory", _contact("contact", keys.laboratory, writer, keys.laboratory.country)),
-        _persons(job, writer),
-        _contact("customer", keys.customer, writer),
-        dcc("statements", *statements(certificate)),
+        dcc("dccSoftware", make_software(certificate, writer)),
+        _make_core_data(certificate, job),
+        dcc("items", _make_item(job, writer)),
+        dcc(
+            "calibrationLaboratory",
+            _make_contact("contact", keys.laboratory, writer, keys.laboratory.country),
+        ),
+        _make_persons(job, writer),
+        _make_contact("customer", keys.customer, writer),
+        dcc("statements", *make_statements(certificate)),
     )
 
 
-def _missing(job: Job) -> Iterator[Problem]:
+def _find_missing(job: Job) -> Iterator[Problem]:
     """Yield what a DCC must state and the job leaves out."""
     keys = job.keys
     stated = {
@@ -133,7 +136,7 @@ def _missing(job: Job) -> Iterator[Problem]:
             )
 
 
-def _core_data(certificate: Certificate, job: Job) -> ET.Element:
+def _make_core_data(certificate: Certificate, job: Job) -> ET.Element:
     keys = job.keys
     taken = (keys.measurement, *([keys.as_found.measurement] if keys.as_found else []))
     days = [day for each in taken for day in (each.date, each.end) if day]
@@ -177,7 +180,7 @@ def _digest(certificate: Certificate) -> ET.Element | None:
     )
 
 
-def _item(job: Job, writer: AdministrativeWriter) -> ET.Element:
+def _make_item(job: Job, writer: AdministrativeWriter) -> ET.Element:
     machine = job.keys.machine
     of = {"axis": job.axis.name, "machine": machine.type}
     name = (_AXIS_OF if machine.type else _AXIS).given(**of)
@@ -188,7 +191,7 @@ def _item(job: Job, writer: AdministrativeWriter) -> ET.Element:
         dcc("model", machine.model) if machine.model else None,
         dcc(
             "identifications",
-            serial_number(machine.serial or "", writer),
+            make_serial_number(machine.serial or "", writer),
             dcc(
                 "identification",
                 dcc("issuer", "other"),
@@ -199,7 +202,7 @@ def _item(job: Job, writer: AdministrativeWriter) -> ET.Element:
     )
 
 
-def _contact(
+def _make_contact(
     element: str, party: Laboratory | Customer, writer: AdministrativeWriter, country: str | None = None
 ) -> ET.Element:
     """Return a party with its address line by line: the job does not tell a street from a town."""
@@ -208,7 +211,7 @@ def _contact(
     return dcc(element, writer.named("name", party.name), location)
 
 
-def _persons(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
+def _make_persons(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
     person = job.keys.certificate.authorised_by
     if person is None:
         return None
@@ -247,7 +250,7 @@ _REMARKS = Words("Remarks on the environment")
 _CALIBRATION = Words("Calibration certificate: {number}")
 
 
-def equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
+def make_equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
     """Return the measuring instrument with its calibration certificate; None where none is stated."""
     instrument = job.keys.instrument
     if instrument is None:
@@ -260,7 +263,7 @@ def equipment(job: Job, writer: AdministrativeWriter) -> ET.Element | None:
         dcc("manufacturer", writer.named("name", instrument.manufacturer))
         if instrument.manufacturer
         else None,
-        dcc("identifications", serial_number(instrument.serial, writer)) if instrument.serial else None,
+        dcc("identifications", make_serial_number(instrument.serial, writer)) if instrument.serial else None,
     )
 
 
@@ -280,7 +283,7 @@ def state(when: str, work: str | None, writer: AdministrativeWriter) -> ET.Eleme
     )
 
 
-def influences(job: Job, writer: AdministrativeWriter) -> Iterator[ET.Element]:
+def make_influences(job: Job, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the conditions that the job states."""
     environment = job.keys.environment
     if environment is None:
@@ -292,16 +295,16 @@ def influences(job: Job, writer: AdministrativeWriter) -> Iterator[ET.Element]:
         stated = (
             dcc("text", writer.content(value))
             if isinstance(value, str)
-            else quantity(writer.named("name", name), real(value, unit))
+            else make_quantity(writer.named("name", name), make_real(value, unit))
         )
         whose = {"environment", f"environment.{key}"} & set(job.keys.provided_by_customer)
-        yield _condition(name, stated, writer, kind, _BY_CUSTOMER if whose else None)
+        yield _make_condition(name, stated, writer, kind, _BY_CUSTOMER if whose else None)
     for name, text in ((_SENSORS, environment.sensors), (_REMARKS, environment.remarks)):
         if text:
-            yield _condition(name, dcc("text", writer.content(text)), writer)
+            yield _make_condition(name, dcc("text", writer.content(text)), writer)
 
 
-def _condition(
+def _make_condition(
     name: Words, stated: ET.Element, writer: AdministrativeWriter, kind: str = "", remark: Words | None = None
 ) -> ET.Element:
     return dcc(
@@ -313,7 +316,7 @@ def _condition(
     )
 
 
-def statements(certificate: Certificate) -> Iterator[ET.Element]:
+def make_statements(certificate: Certificate) -> Iterator[ET.Element]:
     """Yield the statements, in the order of the pages and each once."""
     language = certificate.language.value
     instrument = certificate.job.keys.instrument if certificate.job else None
@@ -337,14 +340,14 @@ def statements(certificate: Certificate) -> Iterator[ET.Element]:
     if letterhead and letterhead.accreditation:
         yield statement(letterhead.laboratory.name, letterhead.accreditation)
     said: set[tuple[str, tuple[str, ...]]] = {("", ())}
-    for title, blocks in _parts(certificate):
-        for name, text, items in (each for block in blocks for each in _said(block, title)):
+    for title, blocks in _list_parts(certificate):
+        for name, text, items in (each for block in blocks for each in _list_said(block, title)):
             if (text, items) not in said:
                 said.add((text, items))
                 yield statement(name, text, items)
 
 
-def _parts(certificate: Certificate) -> Iterator[tuple[str, tuple[Block, ...]]]:
+def _list_parts(certificate: Certificate) -> Iterator[tuple[str, tuple[Block, ...]]]:
     """Yield the title and the blocks of each part, without the tables of results."""
     yield "", tuple(each for each in certificate.cover if not isinstance(each, Table))
     for section in certificate.sections:
@@ -361,7 +364,7 @@ def _is_by_position(table: Table) -> bool:
     return isinstance(table.columns[0].heading, Symbol)
 
 
-def _said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+def _list_said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, ...]]]:
     """Yield what a block says: name, text, items; a graph says nothing that a table does not."""
     match block:
         case Paragraph(text, verdict=verdict):
@@ -374,10 +377,12 @@ def _said(block: Block, title: str) -> Iterator[tuple[str, str, tuple[str, ...]]
             yield (
                 title,
                 caption,
-                tuple(f"{_cell(left)} = {_cell(right)} ({name})" for left, right, name in rows),
+                tuple(f"{_write_cell(left)} = {_write_cell(right)} ({name})" for left, right, name in rows),
             )
         case Table(caption, columns, groups):
-            headings = tuple(" ".join(filter(None, (_cell(each.heading), each.unit))) for each in columns)
+            headings = tuple(
+                " ".join(filter(None, (_write_cell(each.heading), each.unit))) for each in columns
+            )
             yield title, caption, tuple(row for group in groups for row in _rows(group, headings))
 
 
@@ -386,11 +391,11 @@ def _rows(group: RowGroup, headings: tuple[str, ...]) -> Iterator[str]:
     if group.note:
         yield before + group.note
     for row in group.rows:
-        cells = ((heading, _cell(cell)) for heading, cell in zip(headings, row, strict=True))
+        cells = ((heading, _write_cell(cell)) for heading, cell in zip(headings, row, strict=True))
         yield before + "; ".join(f"{heading}: {cell}" for heading, cell in cells if cell)
 
 
-def _cell(cell: Cell) -> str:
+def _write_cell(cell: Cell) -> str:
     match cell:
         case Symbol(notation):
             return "".join(span.text for span in notation_spans(notation))

@@ -53,12 +53,12 @@ TRAITS = {
 }
 
 
-def unit_of(unit: Unit) -> str:
+def write_unit_of(unit: Unit) -> str:
     """Return a unit of the axis as D-SI writes it."""
     return _UNITS[unit.ascii]
 
 
-def real(
+def make_real(
     value: float,
     unit: str,
     *,
@@ -69,7 +69,7 @@ def real(
     """Return one value, with its expanded uncertainty if it has one."""
     uncertainty = None
     if expanded_uncertainty is not None and coverage_factor is not None:
-        uncertainty = _uncertainty(number(expanded_uncertainty), coverage_factor)
+        uncertainty = _make_uncertainty(number(expanded_uncertainty), coverage_factor)
     return si(
         "real",
         si("label", label) if label else None,
@@ -79,7 +79,7 @@ def real(
     )
 
 
-def real_list(
+def make_real_list(
     values: Sequence[float],
     unit: str,
     *,
@@ -92,11 +92,11 @@ def real_list(
     """
     uncertainty = None
     if expanded_uncertainty:
-        uncertainty = _uncertainty(_list(expanded_uncertainty), coverage_factor, "XMLList")
+        uncertainty = _make_uncertainty(_list(expanded_uncertainty), coverage_factor, "XMLList")
     return si("realListXMLList", si("valueXMLList", _list(values)), si("unitXMLList", unit), uncertainty)
 
 
-def _uncertainty(values: str, coverage_factor: float, of: str = "") -> ET.Element:
+def _make_uncertainty(values: str, coverage_factor: float, of: str = "") -> ET.Element:
     expanded = si(
         f"expandedMU{of}",
         si(f"valueExpandedMU{of}", values),
@@ -110,7 +110,9 @@ def _list(values: Sequence[float]) -> str:
     return " ".join(map(number, values))
 
 
-def quantity(name: ET.Element, value: ET.Element, *further: ET.Element | None, kind: str = "") -> ET.Element:
+def make_quantity(
+    name: ET.Element, value: ET.Element, *further: ET.Element | None, kind: str = ""
+) -> ET.Element:
     """Return a quantity with its name and value; `kind` is its refType."""
     return dcc("quantity", name, value, *further, **({"refType": kind} if kind else {}))
 
@@ -139,12 +141,12 @@ SCHEMA_LOCATION = {f"{{{_INSTANCE}}}schemaLocation": f"{DCC} {DCC}/v3.3.0/dcc.xs
 
 def dcc(name: str, *content: Content, **attributes: str) -> ET.Element:
     """Return an element of the DCC with a text, or with elements inside."""
-    return _filled(ET.Element(f"{{{DCC}}}{name}", attributes), content)
+    return _fill_element(ET.Element(f"{{{DCC}}}{name}", attributes), content)
 
 
 def si(name: str, *content: Content) -> ET.Element:
     """Return an element of D-SI with a text, or with elements inside."""
-    return _filled(ET.Element(f"{{{SI}}}{name}"), content)
+    return _fill_element(ET.Element(f"{{{SI}}}{name}"), content)
 
 
 def group(name: str, *content: Content) -> ET.Element | None:
@@ -153,22 +155,22 @@ def group(name: str, *content: Content) -> ET.Element | None:
     return dcc(name, *held) if held else None
 
 
-def text_of_xml(text: str) -> str:
+def clean_for_xml(text: str) -> str:
     """Return a text as XML can hold it: on one line, and U+FFFD for what XML has no way to write."""
     return " ".join(_IMPOSSIBLE.sub("\N{REPLACEMENT CHARACTER}", text).split())
 
 
-def written(root: ET.Element) -> bytes:
+def write_document(root: ET.Element) -> bytes:
     """Return a document, indented, UTF-8."""
     ET.indent(root)
     content: bytes = ET.tostring(root, encoding="UTF-8", xml_declaration=True)
     return content + b"\n"
 
 
-def _filled(element: ET.Element, content: tuple[Content, ...]) -> ET.Element:
+def _fill_element(element: ET.Element, content: tuple[Content, ...]) -> ET.Element:
     for each in content:
         if isinstance(each, str):
-            element.text = text_of_xml(each)
+            element.text = clean_for_xml(each)
         elif each is not None:
             element.append(each)
     return element

@@ -31,9 +31,9 @@ from zlmreport.plugin.renderer import (
 from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.dcc.administrative import (
     AdministrativeWriter,
-    equipment,
-    influences,
-    software,
+    make_equipment,
+    make_influences,
+    make_software,
     state,
 )
 from zlmreport_plugins.renderers.dcc.elements import (
@@ -51,10 +51,10 @@ from zlmreport_plugins.renderers.dcc.elements import (
     TRAITS,
     dcc,
     group,
-    quantity,
-    real,
-    real_list,
-    unit_of,
+    make_quantity,
+    make_real,
+    make_real_list,
+    write_unit_of,
 )
 
 _RESULTS = Words("{subject} by {designation}")
@@ -125,7 +125,7 @@ class _Test:
     line: MeasurementSet | None = None
 
 
-def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
+def make_measurement_results(certificate: Certificate, job: Job) -> ET.Element:
     """Return the results by every standard of the job: as found, where there are such, and as left.
 
     Of one document of several measurements those of each, one after the other.
@@ -136,12 +136,12 @@ def measurement_results(certificate: Certificate, job: Job) -> ET.Element:
         *(
             each
             for part, of_part, named in parts or [(certificate, job, "")]
-            for each in _of_measurement(part, of_part, named)
+            for each in _make_results_of_measurement(part, of_part, named)
         ),
     )
 
 
-def _of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[ET.Element]:
+def _make_results_of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[ET.Element]:
     """Yield the results of one measurement; `named` is what its document calls it."""
     writer, before = AdministrativeWriter(certificate.language), job.as_found
     work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
@@ -162,33 +162,33 @@ def _of_measurement(certificate: Certificate, job: Job, named: str) -> Iterator[
     )
     for test in tests:
         for index in range(len(test.evaluations)):
-            yield _measurement_result(index, test, certificate, writer)
+            yield _make_measurement_result(index, test, certificate, writer)
         if test.line and not test.evaluations and not test.job.keys.agreement.simplified:
-            yield _readings_alone(test, test.line, certificate, writer)
+            yield _make_readings_alone(test, test.line, certificate, writer)
 
 
-def _readings_alone(
+def _make_readings_alone(
     test: _Test, line: MeasurementSet, certificate: Certificate, writer: AdministrativeWriter
 ) -> ET.Element:
     """Return a measured line that no standard evaluates but together with others."""
     return dcc(
         "measurementResult",
         writer.named("name", _OF_LINE.given(name=test.name, said=line.axis.subject)),
-        _used_methods(certificate.evaluations, writer),  # what evaluates it together with others
-        dcc("usedSoftware", software(certificate, writer)),
-        group("measuringEquipments", equipment(test.job, writer)),
-        group("influenceConditions", *influences(test.job, writer)),
-        dcc("results", _result_of_readings(test, line, writer)),
-        group("measurementMetaData", *_budget(test, writer)),
+        _make_used_methods(certificate.evaluations, writer),  # what evaluates it together with others
+        dcc("usedSoftware", make_software(certificate, writer)),
+        group("measuringEquipments", make_equipment(test.job, writer)),
+        group("influenceConditions", *make_influences(test.job, writer)),
+        dcc("results", _make_result_of_readings(test, line, writer)),
+        group("measurementMetaData", *_make_budget(test, writer)),
     )
 
 
-def _result_of_readings(test: _Test, line: MeasurementSet, writer: AdministrativeWriter) -> ET.Element:
+def _make_result_of_readings(test: _Test, line: MeasurementSet, writer: AdministrativeWriter) -> ET.Element:
     named = {"id": f"{TEST}{test.name}"} if test.name else {}
-    return _result(_READINGS, _readings(line, writer), writer, refType=READINGS, **named)
+    return _make_result(_READINGS, _make_readings(line, writer), writer, refType=READINGS, **named)
 
 
-def _measurement_result(
+def _make_measurement_result(
     index: int, test: _Test, certificate: Certificate, writer: AdministrativeWriter
 ) -> ET.Element:
     """Return the results by one standard; the first of a test has its readings, too.
@@ -202,30 +202,30 @@ def _measurement_result(
     name = by.given(subject=measurements.axis.subject, designation=evaluation.designation)
     if test.name:
         name = _OF_LINE.given(name=test.name, said=name)
-    parameters = (_parameter(each, evaluation, writer) for each in evaluation.parameters)
+    parameters = (_make_parameter(each, evaluation, writer) for each in evaluation.parameters)
     is_continuous = measurements.axis.measurand.is_continuous
-    based_on = {} if job.keys.agreement.simplified else _reference(test, measurements)
-    results = [_result(_OF_NO_AXIS if is_continuous else _PARAMETERS, parameters, writer, **based_on)]
+    based_on = {} if job.keys.agreement.simplified else _make_reference(test, measurements)
+    results = [_make_result(_OF_NO_AXIS if is_continuous else _PARAMETERS, parameters, writer, **based_on)]
     if test.earlier:
-        results.append(_result(_CHANGES, _changes(test.earlier[index], evaluation, writer), writer))
+        results.append(_make_result(_CHANGES, _make_changes(test.earlier[index], evaluation, writer), writer))
     if not measurements.tests:
         heading = _CURVES if is_continuous else _POSITIONS
-        results.append(_result(heading, _positions(evaluation, writer), writer))
+        results.append(_make_result(heading, _make_positions(evaluation, writer), writer))
         if index == 0 and not job.keys.agreement.simplified:
-            results.append(_result_of_readings(test, measurements, writer))
+            results.append(_make_result_of_readings(test, measurements, writer))
     return dcc(
         "measurementResult",
         writer.named("name", name),
-        _used_methods([evaluation], writer),
-        dcc("usedSoftware", software(certificate, writer)),
-        group("measuringEquipments", equipment(job, writer)),
-        group("influenceConditions", test.state, *influences(job, writer)),
+        _make_used_methods([evaluation], writer),
+        dcc("usedSoftware", make_software(certificate, writer)),
+        group("measuringEquipments", make_equipment(job, writer)),
+        group("influenceConditions", test.state, *make_influences(job, writer)),
         dcc("results", *results),
-        group("measurementMetaData", *_budget(test, writer), *_findings(evaluation, writer)),
+        group("measurementMetaData", *_make_budget(test, writer), *_make_findings(evaluation, writer)),
     )
 
 
-def _used_methods(evaluations: Iterable[Evaluation], writer: AdministrativeWriter) -> ET.Element:
+def _make_used_methods(evaluations: Iterable[Evaluation], writer: AdministrativeWriter) -> ET.Element:
     """Return the standards and methods by which something was measured."""
     return dcc(
         "usedMethods",
@@ -240,25 +240,27 @@ def _used_methods(evaluations: Iterable[Evaluation], writer: AdministrativeWrite
     )
 
 
-def _reference(test: _Test, measurements: MeasurementSet) -> dict[str, str]:
+def _make_reference(test: _Test, measurements: MeasurementSet) -> dict[str, str]:
     """Return the reference from parameters to the readings of which they are, where these have names."""
     names = ["-".join(filter(None, (test.name, line))) for line in measurements.tests] or [test.name]
     return {"refId": " ".join(f"{TEST}{each}" for each in names)} if all(names) else {}
 
 
-def _result(name: Words, of: Iterable[ET.Element], writer: AdministrativeWriter, **kind: str) -> ET.Element:
+def _make_result(
+    name: Words, of: Iterable[ET.Element], writer: AdministrativeWriter, **kind: str
+) -> ET.Element:
     return dcc("result", writer.named("name", name), dcc("data", dcc("list", *of)), **kind)
 
 
-def _parameter(
+def _make_parameter(
     parameter: EvaluatedParameter, evaluation: Evaluation, writer: AdministrativeWriter
 ) -> ET.Element:
     axis_unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
-    unit = unit_of(axis_unit)
+    unit = write_unit_of(axis_unit)
     uncertainty = parameter.expanded_uncertainty
-    return quantity(
+    return make_quantity(
         writer.named("name", parameter.quantity.name),
-        real(
+        make_real(
             axis_unit.from_si(parameter.value),
             unit,
             label=parameter.quantity.symbol,
@@ -267,24 +269,26 @@ def _parameter(
         ),
         group(
             "measurementMetaData",
-            _conformity(parameter, axis_unit, writer),
-            _interval(parameter, axis_unit, writer),
+            _make_conformity(parameter, axis_unit, writer),
+            _make_interval(parameter, axis_unit, writer),
         ),
     )
 
 
-def _changes(before: Evaluation, after: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
+def _make_changes(
+    before: Evaluation, after: Evaluation, writer: AdministrativeWriter
+) -> Iterator[ET.Element]:
     """Yield by how much each parameter changed, with its U where both are known."""
     usual = after.measurements.axis.deviation_unit
     for each in changes(before, after):
         unit = each.either.quantity.unit_or(usual)
         if each.value is not None:
             uncertainty = each.expanded_uncertainty
-            yield quantity(
+            yield make_quantity(
                 writer.named("name", each.either.quantity.name),
-                real(
+                make_real(
                     unit.from_si(each.value),
-                    unit_of(unit),
+                    write_unit_of(unit),
                     label=each.either.quantity.symbol,
                     expanded_uncertainty=None if uncertainty is None else unit.from_si(uncertainty),
                     coverage_factor=each.coverage_factor,
@@ -292,7 +296,7 @@ def _changes(before: Evaluation, after: Evaluation, writer: AdministrativeWriter
             )
 
 
-def _interval(
+def _make_interval(
     parameter: EvaluatedParameter, axis_unit: Unit, writer: AdministrativeWriter
 ) -> ET.Element | None:
     """Return where another test of the axis would find a parameter; None where that is not known."""
@@ -304,14 +308,16 @@ def _interval(
         dcc(
             "data",
             *(
-                quantity(writer.named("name", name), real(axis_unit.from_si(end), unit_of(axis_unit)))
+                make_quantity(
+                    writer.named("name", name), make_real(axis_unit.from_si(end), write_unit_of(axis_unit))
+                )
                 for name, end in zip((_LOWEST, _HIGHEST), parameter.axis_interval, strict=True)
             ),
         ),
     )
 
 
-def _conformity(
+def _make_conformity(
     parameter: EvaluatedParameter, axis_unit: Unit, writer: AdministrativeWriter
 ) -> ET.Element | None:
     """Return what is stated of a parameter's limit, with the limits; None where it has none."""
@@ -324,47 +330,47 @@ def _conformity(
         "metaData",
         dcc("declaration", writer.content(statement)),
         dcc("conformity", stated) if stated else None,
-        dcc("data", *_limits(decision, limit, axis_unit, writer)),
+        dcc("data", *_make_limits(decision, limit, axis_unit, writer)),
         refType="basic_conformity",
     )
 
 
-def _limits(
+def _make_limits(
     decision: Decision, limit: float, axis_unit: Unit, writer: AdministrativeWriter
 ) -> Iterator[ET.Element]:
-    unit = unit_of(axis_unit)
-    yield quantity(writer.named("name", _LIMIT), real(axis_unit.from_si(limit), unit))
+    unit = write_unit_of(axis_unit)
+    yield make_quantity(writer.named("name", _LIMIT), make_real(axis_unit.from_si(limit), unit))
     accepted = decision.acceptance_limit
     if accepted is not None:
-        yield quantity(writer.named("name", _ACCEPTED), real(axis_unit.from_si(accepted), unit))
+        yield make_quantity(writer.named("name", _ACCEPTED), make_real(axis_unit.from_si(accepted), unit))
     if decision.risk is not None:
-        yield quantity(writer.named("name", _RISK), real(decision.risk, ONE))
+        yield make_quantity(writer.named("name", _RISK), make_real(decision.risk, ONE))
 
 
-def _positions(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
+def _make_positions(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the columns by target position that the test defines."""
     axis = evaluation.measurements.axis
     targets = axis.position_unit.from_si(evaluation.measurements.target_positions).tolist()
-    yield quantity(
+    yield make_quantity(
         writer.named("name", axis.measurand.target),
-        real_list(targets, unit_of(axis.position_unit)),
+        make_real_list(targets, write_unit_of(axis.position_unit)),
         kind="basic_nominalValue",
     )
     unit, uncertain = axis.deviation_unit, evaluation.mean_uncertainty
-    for name, values, uncertainty in _columns(evaluation):
+    for name, values, uncertainty in _list_columns(evaluation):
         if np.any(np.isfinite(values)):
-            yield quantity(
+            yield make_quantity(
                 writer.named("name", name),
-                real_list(
+                make_real_list(
                     unit.from_si(values).tolist(),
-                    unit_of(unit),
+                    write_unit_of(unit),
                     expanded_uncertainty=() if uncertainty is None else unit.from_si(uncertainty).tolist(),
                     coverage_factor=uncertain.coverage_factor if uncertain else 0.0,
                 ),
             )
 
 
-def _columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, FloatArray | None]]:
+def _list_columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, FloatArray | None]]:
     """Yield each column's name, its values by target position, m or rad, and their U where that is known."""
     statistics, uncertain = evaluation.statistics, evaluation.mean_uncertainty
     measurand = evaluation.measurements.axis.measurand
@@ -382,7 +388,7 @@ def _columns(evaluation: Evaluation) -> Iterator[tuple[Words, FloatArray, FloatA
         yield column.quantity.name, column.values, None
 
 
-def _findings(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
+def _make_findings(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the requirements of the standard: met, not met, open."""
     for finding in evaluation.findings:
         found = _FOUND.given(requirement=finding.requirement, found=finding.found)
@@ -393,29 +399,29 @@ def _findings(evaluation: Evaluation, writer: AdministrativeWriter) -> Iterator[
         )
 
 
-def _budget(test: _Test, writer: AdministrativeWriter) -> Iterator[ET.Element]:
+def _make_budget(test: _Test, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the contributions to the uncertainty of a test; what they leave out is among the statements."""
     budget = test.budget
     if not isinstance(budget, Budget) or budget.tests:  # each line has its own
         return
     unit, has_length = test.job.axis.deviation_unit, test.job.axis.has_length
     contributions = (
-        quantity(
+        make_quantity(
             writer.named("name", each.name),
             dcc("description", writer.content(each.stated), writer.content(each.source)),
-            real(unit.from_si(each.standard_uncertainty), unit_of(unit)),
+            make_real(unit.from_si(each.standard_uncertainty), write_unit_of(unit)),
         )
         for each in budget.contributions
     )
-    combined = real(unit.from_si(budget.standard_uncertainty), unit_of(unit))
+    combined = make_real(unit.from_si(budget.standard_uncertainty), write_unit_of(unit))
     yield dcc(
         "metaData",
         writer.named("name", _BUDGET if has_length else _BUDGET_OF_NO_LENGTH),
-        dcc("data", *contributions, quantity(writer.named("name", _COMBINED), combined)),
+        dcc("data", *contributions, make_quantity(writer.named("name", _COMBINED), combined)),
     )
 
 
-def _readings(measurements: MeasurementSet, writer: AdministrativeWriter) -> Iterator[ET.Element]:
+def _make_readings(measurements: MeasurementSet, writer: AdministrativeWriter) -> Iterator[ET.Element]:
     """Yield the readings as columns; direction is 1 and −1, and NaN stands for what is missing.
 
     Of a test with an artefact, kinds beside that of the deviation say how it is to be understood.
@@ -424,15 +430,15 @@ def _readings(measurements: MeasurementSet, writer: AdministrativeWriter) -> Ite
     targets = axis.position_unit.from_si(measurements.target_positions[measurements.target])
 
     def column(name: Words | str, values: Iterable[float], unit: str, kind: str) -> ET.Element:
-        return quantity(writer.named("name", name), real_list(tuple(values), unit), kind=kind)
+        return make_quantity(writer.named("name", name), make_real_list(tuple(values), unit), kind=kind)
 
-    yield column(axis.measurand.target, targets, unit_of(axis.position_unit), TARGET)
+    yield column(axis.measurand.target, targets, write_unit_of(axis.position_unit), TARGET)
     sense = _SENSE.given(first=axis.measurand.senses[0])
     yield column(sense if axis.measurand.is_continuous else _DIRECTION, measurements.approach, ONE, DIRECTION)
     yield column(_RUN, measurements.run, ONE, RUN)
     deviation = axis.deviation_unit.from_si(measurements.deviation)
     kinds = [DEVIATION, *(kind for kind, attribute in TRAITS.items() if getattr(measurements, attribute))]
-    yield column(_DEVIATION, deviation, unit_of(axis.deviation_unit), " ".join(kinds))
+    yield column(_DEVIATION, deviation, write_unit_of(axis.deviation_unit), " ".join(kinds))
     if measurements.time is not None:
         yield column(_TIME, measurements.time, SECOND, TIME)
     for key, values in measurements.conditions.items():

@@ -37,7 +37,7 @@ from zlmreport_plugins.renderers.dcc.elements import (
     TEST,
     TIME,
     TRAITS,
-    unit_of,
+    write_unit_of,
 )
 
 _FROM = Words("Readings of the digital calibration certificate {number}, corrected as it states.")
@@ -68,14 +68,14 @@ class DccSource:
     def read(self, options: DccOptions, context: SourceContext) -> MeasurementSet:
         """Read the readings; raise `InputError` with every defect."""
         text = read_text(options.file)
-        root = _root(text)
-        columns = _columns(_readings(root, options, text), text)
+        root = _read_root(text)
+        columns = _find_columns(_find_readings(root, options, text), text)
         axis, place = context.axis, text.place()
-        position = _unit(columns[TARGET], axis.position_unit, place)
-        deviation = _unit(columns[DEVIATION], axis.deviation_unit, place)
+        position = _find_unit(columns[TARGET], axis.position_unit, place)
+        deviation = _find_unit(columns[DEVIATION], axis.deviation_unit, place)
         number = root.findtext(f".//{{{DCC}}}uniqueIdentifier", "–")
         measurements = collect_readings(
-            _each(columns, position, deviation, place),
+            _read_each(columns, position, deviation, place),
             axis,
             Provenance(self.identifier, (text.source,), (_FROM.given(number=number),)),
             place=place,
@@ -96,7 +96,7 @@ class _Column:
     name: str
 
 
-def _root(text: TextFile) -> ET.Element:
+def _read_root(text: TextFile) -> ET.Element:
     if any("<!DOCTYPE" in line for line in text.lines):
         raise InputError.at(text.place(), "declares a document type; a DCC declares none")
     try:
@@ -109,7 +109,7 @@ def _root(text: TextFile) -> ET.Element:
     return root
 
 
-def _readings(root: ET.Element, options: DccOptions, text: TextFile) -> ET.Element:
+def _find_readings(root: ET.Element, options: DccOptions, text: TextFile) -> ET.Element:
     """Return the readings of the measurement that is meant."""
     found = root.findall(f".//{{{DCC}}}result[@refType='{READINGS}']")
     if not found:
@@ -128,7 +128,7 @@ def _readings(root: ET.Element, options: DccOptions, text: TextFile) -> ET.Eleme
     return found[0 if options.state == "as found" else -1]
 
 
-def _columns(readings: ET.Element, text: TextFile) -> Mapping[str, _Column]:
+def _find_columns(readings: ET.Element, text: TextFile) -> Mapping[str, _Column]:
     """Return the columns by their kinds; of a condition without a kind of its own, by CONDITION and name."""
     columns: dict[str, _Column] = {}
     problems: list[Problem] = []
@@ -160,17 +160,20 @@ def _columns(readings: ET.Element, text: TextFile) -> Mapping[str, _Column]:
     return columns
 
 
-def _unit(column: _Column, unit: Unit, place: Place) -> Unit:
+def _find_unit(column: _Column, unit: Unit, place: Place) -> Unit:
     """Return the unit of a column, which must be that of the axis."""
-    if column.unit != unit_of(unit):
+    if column.unit != write_unit_of(unit):
         raise InputError.at(
             place,
-            f"{quoted(column.name)} is in {column.unit}, this axis has {unit_of(unit)}; is axis.kind right?",
+            f"{quoted(column.name)} is in {column.unit}, this axis has {write_unit_of(unit)}; "
+            "is axis.kind right?",
         )
     return unit
 
 
-def _each(columns: Mapping[str, _Column], position: Unit, deviation: Unit, place: Place) -> Iterator[Reading]:
+def _read_each(
+    columns: Mapping[str, _Column], position: Unit, deviation: Unit, place: Place
+) -> Iterator[Reading]:
     conditions = {
         kind.removeprefix(CONDITION): column for kind, column in columns.items() if kind.startswith(CONDITION)
     }
@@ -186,11 +189,11 @@ def _each(columns: Mapping[str, _Column], position: Unit, deviation: Unit, place
             columns[RUN].values[index],
             deviation.to_si(columns[DEVIATION].values[index]),
             times[index] if times else None,
-            {name: _condition(name, column, index, place) for name, column in conditions.items()},
+            {name: _read_condition(name, column, index, place) for name, column in conditions.items()},
         )
 
 
-def _condition(name: str, column: _Column, index: int, place: Place) -> float:
+def _read_condition(name: str, column: _Column, index: int, place: Place) -> float:
     value = column.values[index]
     known = CONDITIONS.get(name)
     if known is None or math.isnan(value):

@@ -54,51 +54,51 @@ class JsonResultsRenderer:
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the file, UTF-8."""
-        text = json.dumps(results(certificate), indent=2, ensure_ascii=False, allow_nan=False)
+        text = json.dumps(collect_results(certificate), indent=2, ensure_ascii=False, allow_nan=False)
         # Half a surrogate pair has no UTF-8, but an escape that JSON knows.
         return f"{text}\n".encode("utf-8", "backslashreplace")
 
 
-def results(certificate: Certificate) -> Json:
+def collect_results(certificate: Certificate) -> Json:
     """Return the results as values of JSON."""
     if certificate.parts:
-        return _results_of_parts(certificate)
+        return _collect_parts(certificate)
     measurements = certificate.measurements
     return {
         "schema": SCHEMA,
-        "certificate": _certificate(certificate),
+        "certificate": _collect_certificate(certificate),
         "evaluations": [
             report_evaluation(evaluation, certificate.language) for evaluation in certificate.evaluations
         ],
-        **_as_found(certificate),
-        **_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
-        **_doubtful(certificate),
-        "model": _model(certificate),
-        "measurements": _measurements(measurements, certificate.job),
-        **_tests(certificate),
-        "provenance": _provenance(certificate),
+        **_collect_as_found(certificate),
+        **_collect_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
+        **_collect_doubtful(certificate),
+        "model": _collect_model(certificate),
+        "measurements": _collect_measurements(measurements, certificate.job),
+        **_collect_tests(certificate),
+        "provenance": _collect_provenance(certificate),
     }
 
 
-def _results_of_parts(certificate: Certificate) -> Json:
+def _collect_parts(certificate: Certificate) -> Json:
     """Return the results of one document of several measurements: all of them, and each by itself."""
-    whole = {name: results(part) for name, part in certificate.parts.items()}
+    whole = {name: collect_results(part) for name, part in certificate.parts.items()}
     return {
         "schema": SCHEMA,
-        "certificate": _certificate(certificate),
+        "certificate": _collect_certificate(certificate),
         "evaluations": [
             {**evaluation, "measurement": name}
             for name, part in whole.items()
             for evaluation in part["evaluations"]
         ],
-        **_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
-        **_doubtful(certificate),
-        "model": _model(certificate),
+        **_collect_uncertainty(certificate.budget, certificate.measurements.axis, certificate.language),
+        **_collect_doubtful(certificate),
+        "model": _collect_model(certificate),
         "parts": {
             name: {key: value for key, value in part.items() if key in _OF_A_PART}
             for name, part in whole.items()
         },
-        "provenance": _provenance(certificate),
+        "provenance": _collect_provenance(certificate),
     }
 
 
@@ -106,7 +106,7 @@ def _results_of_parts(certificate: Certificate) -> Json:
 _OF_A_PART = ("evaluations", "as_found", "uncertainty", "model", "measurements", "tests")
 
 
-def _certificate(certificate: Certificate) -> Json:
+def _collect_certificate(certificate: Certificate) -> Json:
     identity: Json = {
         "number": certificate.number,
         "title": certificate.title,
@@ -122,7 +122,7 @@ def _certificate(certificate: Certificate) -> Json:
     return identity
 
 
-def _as_found(certificate: Certificate) -> Json:
+def _collect_as_found(certificate: Certificate) -> Json:
     """Return the results of the axis before it was adjusted; nothing where it was not."""
     found = certificate.evaluations_as_found
     if not found:
@@ -134,36 +134,36 @@ def _as_found(certificate: Certificate) -> Json:
         "as_found": {
             "evaluations": [report_evaluation(evaluation, certificate.language) for evaluation in found],
             "changes": [report_changes(*pair) for pair in zip(found, certificate.evaluations, strict=True)],
-            **_uncertainty(certificate.budget_as_found, measurements.axis, certificate.language),
-            "measurements": _measurements(measurements, job),
+            **_collect_uncertainty(certificate.budget_as_found, measurements.axis, certificate.language),
+            "measurements": _collect_measurements(measurements, job),
             "source": provenance.source,
-            "files": [_file(file) for file in provenance.files],
+            "files": [_collect_file(file) for file in provenance.files],
         }
     }
 
 
-def _tests(certificate: Certificate) -> Json:
+def _collect_tests(certificate: Certificate) -> Json:
     """Return what is known of each of several measured lines; nothing where there is only one."""
     found = {
         each.name: {
             "evaluations": [report_evaluation(of.evaluation, certificate.language) for of in each.evaluated],
-            **_uncertainty(each.budget, each.measurements.axis, certificate.language),
-            "measurements": _measurements(each.measurements, each.job),
+            **_collect_uncertainty(each.budget, each.measurements.axis, certificate.language),
+            "measurements": _collect_measurements(each.measurements, each.job),
             "source": each.measurements.provenance.source,
-            "files": [_file(file) for file in each.measurements.provenance.files],
+            "files": [_collect_file(file) for file in each.measurements.provenance.files],
         }
         for each in certificate.tests
     }
     return {"tests": found} if found else {}
 
 
-def _doubtful(certificate: Certificate) -> Json:
+def _collect_doubtful(certificate: Certificate) -> Json:
     """Return what the first page marks as doubtful; nothing where it marks nothing."""
     said = [each.in_language(certificate.language) for each in (*certificate.doubts, *certificate.evidence)]
     return {"doubtful": said} if said else {}
 
 
-def _uncertainty(budget: Budget | NoBudget | None, axis: Axis, language: Language) -> Json:
+def _collect_uncertainty(budget: Budget | NoBudget | None, axis: Axis, language: Language) -> Json:
     """Return an uncertainty budget, or why there is none; nothing where nobody asked for one."""
     if budget is None:
         return {}
@@ -212,7 +212,7 @@ def _uncertainty(budget: Budget | NoBudget | None, axis: Axis, language: Languag
     }
 
 
-def _model(certificate: Certificate) -> Json:
+def _collect_model(certificate: Certificate) -> Json:
     """Return the error model with its parameters and its error; empty where the job names none."""
     diagnosis = certificate.diagnosis
     if diagnosis is None:
@@ -233,7 +233,7 @@ def _model(certificate: Certificate) -> Json:
     }
 
 
-def _measurements(measurements: MeasurementSet, job: Job | None) -> Json:
+def _collect_measurements(measurements: MeasurementSet, job: Job | None) -> Json:
     axis = measurements.axis
     stated = job.keys.measurement.at.items() if job else ()
     at = {name: list(each) if isinstance(each, tuple) else each for name, each in stated}
@@ -243,31 +243,31 @@ def _measurements(measurements: MeasurementSet, job: Job | None) -> Json:
         "units": {"position": axis.position_unit.ascii, "deviation": axis.deviation_unit.ascii},
         **({} if axis.measurand.is_position else {"measurand": axis.measurand.identifier}),
         **({"error": axis.error} if axis.error else {}),
-        **({"circle": _circle(axis.circle)} if axis.circle else {}),
+        **({"circle": _collect_circle(axis.circle)} if axis.circle else {}),
         **({"at": at} if at else {}),
         "runs": len(measurements.runs),
         "readings": sum(not math.isnan(value) for value in measurements.deviation.tolist()),
-        "missing": list(_missing(measurements)),
-        "excluded": list(_excluded(measurements)),
+        "missing": list(_list_missing(measurements)),
+        "excluded": list(_list_excluded(measurements)),
     }
 
 
-def _circle(circle: NominalCircle) -> Json:
+def _collect_circle(circle: NominalCircle) -> Json:
     return {
         "plane": circle.plane,
-        "radius": _typed(MILLIMETRE.from_si(circle.radius)),
-        "feed": _typed(MILLIMETRE.from_si(circle.feed) * _SECONDS),
-        "centre": [_typed(MILLIMETRE.from_si(each)) for each in circle.centre],
+        "radius": _round_as_typed(MILLIMETRE.from_si(circle.radius)),
+        "feed": _round_as_typed(MILLIMETRE.from_si(circle.feed) * _SECONDS),
+        "centre": [_round_as_typed(MILLIMETRE.from_si(each)) for each in circle.centre],
         "calibrated_length": circle.is_calibrated,
     }
 
 
-def _typed(value: float) -> float:
+def _round_as_typed(value: float) -> float:
     """Return a number as somebody wrote it, which SI and back may have changed in its last digit."""
     return float(f"{value:.12g}")
 
 
-def _missing(measurements: MeasurementSet) -> Iterator[Json]:
+def _list_missing(measurements: MeasurementSet) -> Iterator[Json]:
     for reading in measurements.missing():
         yield {
             "target": measurements.axis.typed(reading.target_position),
@@ -276,7 +276,7 @@ def _missing(measurements: MeasurementSet) -> Iterator[Json]:
         }
 
 
-def _excluded(measurements: MeasurementSet) -> Iterator[Json]:
+def _list_excluded(measurements: MeasurementSet) -> Iterator[Json]:
     for each in measurements.provenance.exclusions:
         yield {
             "target": measurements.axis.typed(each.target_position),
@@ -287,7 +287,7 @@ def _excluded(measurements: MeasurementSet) -> Iterator[Json]:
         }
 
 
-def _provenance(certificate: Certificate) -> Json:
+def _collect_provenance(certificate: Certificate) -> Json:
     parts = tuple(certificate.parts.values()) or (certificate,)
     read = [line for part in parts for line in part.measurements.lines]
     files = dict.fromkeys(file for each in read for file in each.provenance.files)
@@ -296,8 +296,8 @@ def _provenance(certificate: Certificate) -> Json:
         "generator": certificate.generator,
         "plugins": dict(sorted(certificate.plugins.items())),
         "source": ", ".join(dict.fromkeys(each.provenance.source for each in read)),
-        "files": [_file(file) for file in files],
-        "sources": [_source(source) for source in certificate.sources],
+        "files": [_collect_file(file) for file in files],
+        "sources": [_collect_source(source) for source in certificate.sources],
         "remarks": [words.in_language(language) for each in read for words in each.provenance.remarks],
         "corrections": [
             {
@@ -312,11 +312,11 @@ def _provenance(certificate: Certificate) -> Json:
     }
 
 
-def _file(file: SourceFile) -> Json:
+def _collect_file(file: SourceFile) -> Json:
     return {"name": file.name, "sha256": file.sha256, "size": file.size}
 
 
-def _source(source: CertificateSource) -> Json:
+def _collect_source(source: CertificateSource) -> Json:
     """Return a file that the certificate was made from, under its name as an attachment."""
     return {
         "role": source.role.key,

@@ -18,7 +18,7 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.json_results.document import Json, results
+from zlmreport_plugins.renderers.json_results.document import Json, collect_results
 
 _HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
 _NO_UNIT = "1"
@@ -103,27 +103,27 @@ class CsvRenderer:
         table = io.StringIO()
         writer = csv.writer(table, lineterminator="\n")
         writer.writerow(_HEADER)
-        for each in values(certificate):
+        for each in list_values(certificate):
             target = "" if each.target is None else repr(each.target)
-            names = map(harmless, (each.standard, each.symbol))
+            names = map(make_harmless, (each.standard, each.symbol))
             writer.writerow((*names, target, each.quantity, repr(each.value), each.unit))
         return table.getvalue().encode()
 
 
-def values(certificate: Certificate) -> Iterator[Value]:
+def list_values(certificate: Certificate) -> Iterator[Value]:
     """Yield every number of the evaluations and of the error model."""
-    found = results(certificate)
-    for test, prefix in measured(found):
+    found = collect_results(certificate)
+    for test, prefix in list_measured(found):
         unit = test["measurements"]["units"]["deviation"]
         for evaluation in test["evaluations"]:
-            yield from _of_evaluation(evaluation, unit, prefix)
-        for contributor in _missing(test):
+            yield from _list_values_of_evaluation(evaluation, unit, prefix)
+        for contributor in _list_missing(test):
             yield Value("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
     for part in found.get("parts", {"": found}).values():
-        yield from _of_model(part["model"])
+        yield from _list_values_of_model(part["model"])
 
 
-def measured(found: Json) -> Iterator[tuple[Json, str]]:
+def list_measured(found: Json) -> Iterator[tuple[Json, str]]:
     """Yield what has evaluations of its own, with what its quantities begin with.
 
     The measurement itself with nothing; ``as_found.`` before an adjustment; of several measured lines, and of
@@ -138,18 +138,18 @@ def measured(found: Json) -> Iterator[tuple[Json, str]]:
             yield test, f"{prefix}{line}."
 
 
-def _missing(test: Json) -> Sequence[str]:
+def _list_missing(test: Json) -> Sequence[str]:
     """Return the contributors that U does not consider, by their keys."""
     missing: Sequence[str] = test.get("uncertainty", {}).get("missing", ())
     return missing
 
 
-def harmless(text: str) -> str:
+def make_harmless(text: str) -> str:
     """Return a text that no spreadsheet takes for a formula."""
     return f"'{text}" if text.startswith(_FORMULA) else text
 
 
-def _of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[Value]:
+def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[Value]:
     standard = evaluation["standard"]
     for parameter in evaluation["parameters"]:
         numbers = {key: parameter[key] for key in _OF_PARAMETER if key in parameter}
@@ -166,7 +166,7 @@ def _of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[Value]:
                 yield Value(standard, key, position["target"], prefix + key, value, own)
 
 
-def _of_model(model: Json) -> Iterator[Value]:
+def _list_values_of_model(model: Json) -> Iterator[Value]:
     for parameter in model["parameters"]:
         symbol = f"{parameter['effect']}.{parameter['name']}"
         for key in ("value", "expanded_uncertainty"):
@@ -198,7 +198,7 @@ class XlsxRenderer:
         book.properties.creator = certificate.generator
         file = io.BytesIO()
         book.save(file)
-        return _without_clock(file.getvalue(), moment)
+        return _remove_clock(file.getvalue(), moment)
 
 
 class _Sheets:
@@ -210,10 +210,10 @@ class _Sheets:
 
     def fill(self) -> None:
         """Add every sheet that has something to say."""
-        found = results(self._certificate)
-        for test, prefix in measured(found):
+        found = collect_results(self._certificate)
+        for test, prefix in list_measured(found):
             if test["evaluations"]:  # a line of several may have none of its own
-                self._evaluations(test, self._title(prefix), _targets(test["measurements"]))
+                self._evaluations(test, self._title(prefix), _name_targets(test["measurements"]))
         parts = self._certificate.parts or {"": self._certificate}
         for name, part in parts.items():
             for line, measurements in (part.measurements.tests or {"": part.measurements}).items():
@@ -230,7 +230,7 @@ class _Sheets:
         return self._say(_AS_FOUND).replace("{sheet}", title) if is_before else title
 
     def _evaluations(self, found: Json, title: str, target: Words) -> None:
-        missing = ", ".join(_missing(found))
+        missing = ", ".join(_list_missing(found))
         rows = [
             [
                 self._certificate.number,
@@ -354,7 +354,7 @@ class _Sheets:
         return words.in_language(self._certificate.language)
 
 
-def _targets(measurements: Json) -> Words:
+def _name_targets(measurements: Json) -> Words:
     """Return what positions are of a measurement in a results file."""
     return CIRCLE.target if measurements.get("measurand") == CIRCLE.identifier else _TARGET
 
@@ -363,7 +363,7 @@ def _clean(text: str) -> str:
     return _NOT_IN_CELLS.sub("\N{REPLACEMENT CHARACTER}", text)[:_LONGEST_TEXT]
 
 
-def _without_clock(workbook: bytes, moment: datetime) -> bytes:
+def _remove_clock(workbook: bytes, moment: datetime) -> bytes:
     """Return a workbook whose archive and properties tell of no other time than this."""
     stated = moment.isoformat().encode() + b"Z"
     file = io.BytesIO()

@@ -20,14 +20,14 @@ class PdfRenderer:
         Raises `AccessError` if WeasyPrint cannot be loaded, because the system lacks Pango.
         """
         try:
-            from zlmreport_plugins.renderers.pdf.press import press
+            from zlmreport_plugins.renderers.pdf.press import find_press
         except (ImportError, OSError) as error:
             raise AccessError.at(
                 Place("pdf"),
                 f"WeasyPrint cannot be loaded: {error}; it needs the library Pango "
                 "(Debian, Ubuntu: apt-get install libpango-1.0-0 libpangoft2-1.0-0)",
             ) from error
-        return press().print(certificate)
+        return find_press().print(certificate)
 
 
 @hookimpl

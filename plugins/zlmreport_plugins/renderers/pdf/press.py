@@ -110,7 +110,7 @@ class Press:
                     GRAPH_ADDRESS.format(number): PageGraph(figure, certificate.language)
                     for number, figure in graphs
                 },
-                attachments=list(enclosures(certificate)),
+                attachments=list(list_enclosures(certificate)),
                 pdf_variant=VARIANT,
                 finisher=partial(_finish, certificate),
             )
@@ -133,7 +133,7 @@ class Press:
 
 
 @cache
-def press() -> Press:
+def find_press() -> Press:
     """Return the press of this process."""
     return Press()
 
@@ -172,7 +172,7 @@ _ENCLOSURE_ADDRESS = "attachment:{}"
 _UNKNOWN = date(1970, 1, 1)
 
 
-def enclosures(certificate: Certificate) -> Iterator[Attachment]:
+def list_enclosures(certificate: Certificate) -> Iterator[Attachment]:
     """Yield the attachments; each is loaded by an address, for only so WeasyPrint takes its media type."""
     moment = datetime.combine(certificate.issued or _UNKNOWN, time())
     for number, attachment in enumerate(certificate.attachments):
@@ -280,7 +280,7 @@ class StreamCanvas:
         del kind
         self._take_fill(Fill(colour))
         cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
-        self._stream.begin_marked_content("Span", _meant(runs))
+        self._stream.begin_marked_content("Span", _write_meant(runs))
         self._stream.begin_text()
         for run in runs:
             self._style["font_style"], self._style["font_weight"] = _FACES[run.face]
@@ -305,7 +305,7 @@ class StreamCanvas:
             self._fill = fill
 
 
-def _meant(runs: Sequence[TextRun]) -> Any:
+def _write_meant(runs: Sequence[TextRun]) -> Any:
     """Return what a symbol reads as: some readers see a space where a bar ends or an index begins."""
     return pydyf.Dictionary({"ActualText": pydyf.String("".join(run.text for run in runs))})
 

@@ -27,15 +27,15 @@ def mend(pdf: Any, link_texts: Mapping[str, str]) -> None:
 
     `pdf`: A pydyf PDF, complete but for its trailer.
     """
-    root = _dereferenced(pdf, pdf.catalog["StructTreeRoot"])
-    elements = list(_elements(pdf, root))
+    root = _dereference(pdf, pdf.catalog["StructTreeRoot"])
+    elements = list(_walk_elements(pdf, root))
     _take_page_margins_out(pdf, root, {root.reference, *(element.reference for element in elements)})
     for element in elements:
         if element["S"] == "/Table":
             _name_headings(pdf, element)
         elif element["S"] == "/Figure":
             _place(pdf, element)
-    for annotation in _annotations(pdf):
+    for annotation in _list_annotations(pdf):
         target = annotation["Contents"].string
         annotation["Contents"] = pydyf.String(link_texts.get(target, target))
 
@@ -62,15 +62,15 @@ def _take_page_margins_out(pdf: Any, root: Element, reachable: set[bytes]) -> No
 
     It is tagged as if it were text of the document, but by elements that no reader ever reaches.
     """
-    places = _dereferenced(pdf, root["ParentTree"])["Nums"]
+    places = _dereference(pdf, root["ParentTree"])["Nums"]
     of_pages = dict(zip(places[::2], places[1::2], strict=True))
     for number, reference in enumerate(pdf.page_references):
         elements = of_pages[number]
         marginal = {place for place, element in enumerate(elements) if element not in reachable}
         for place in marginal:
             elements[place] = "null"
-        page = _dereferenced(pdf, reference)
-        operators = _dereferenced(pdf, page["Contents"]).stream
+        page = _dereference(pdf, reference)
+        operators = _dereference(pdf, page["Contents"]).stream
         for index, (_, operand) in enumerate(pairwise(operators)):
             if isinstance(operand, pydyf.Dictionary) and operand.get("MCID") in marginal:
                 operators[index : index + 2] = "/Artifact", pydyf.Dictionary({"Type": "/Pagination"})
@@ -86,12 +86,12 @@ def _name_headings(pdf: Any, table: Element) -> None:
     A group of rows is a body of its own, whose first row is its heading; no cell spans two rows.
     """
     columns: dict[int, list[Any]] = defaultdict(list)
-    for part in _children(pdf, table):
+    for part in _list_children(pdf, table):
         heads_of_group: list[Any] = []
-        for row in _children(pdf, part) if part["S"] in {"/THead", "/TBody"} else ():
+        for row in _list_children(pdf, part) if part["S"] in {"/THead", "/TBody"} else ():
             if row["S"] != "/TR":  # a body without rows holds a body of its own
                 continue
-            cells = list(_placed(pdf, row))
+            cells = list(_place_cells(pdf, row))
             headings = [cell for cell, _ in cells if cell["S"] == "/TH"]
             heads_columns = len(headings) == len(cells)
             for cell, places in cells:
@@ -108,10 +108,10 @@ def _name_headings(pdf: Any, table: Element) -> None:
                     cell["A"]["Headers"] = pydyf.Array([*of_columns, *heads_of_group, *of_row])
 
 
-def _placed(pdf: Any, row: Element) -> Iterator[tuple[Element, range]]:
+def _place_cells(pdf: Any, row: Element) -> Iterator[tuple[Element, range]]:
     """Yield the cells of a row with the columns that each takes."""
     start = 0
-    for cell in _children(pdf, row):
+    for cell in _list_children(pdf, row):
         places = range(start, start + cell["A"].get("ColSpan", 1))
         yield cell, places
         start = places.stop
@@ -119,33 +119,33 @@ def _placed(pdf: Any, row: Element) -> Iterator[tuple[Element, range]]:
 
 def _place(pdf: Any, figure: Element) -> None:
     """State where a figure lies on its page in points from below, not in CSS pixels from above."""
-    height = _dereferenced(pdf, figure["Pg"])["MediaBox"][3]
+    height = _dereference(pdf, figure["Pg"])["MediaBox"][3]
     left, top, right, bottom = (_POINTS_PER_PIXEL * length for length in figure["A"]["BBox"])
     figure["A"]["BBox"] = pydyf.Array([left, height - bottom, right, height - top])
 
 
-def _annotations(pdf: Any) -> Iterator[Element]:
+def _list_annotations(pdf: Any) -> Iterator[Element]:
     for reference in pdf.page_references:
-        for annotation in _dereferenced(pdf, reference).get("Annots", ()):
-            yield _dereferenced(pdf, annotation)
+        for annotation in _dereference(pdf, reference).get("Annots", ()):
+            yield _dereference(pdf, annotation)
 
 
-def _elements(pdf: Any, root: Element) -> Iterator[Element]:
+def _walk_elements(pdf: Any, root: Element) -> Iterator[Element]:
     """Yield all elements below one, in reading order."""
-    for child in _children(pdf, root):
+    for child in _list_children(pdf, root):
         yield child
-        yield from _elements(pdf, child)
+        yield from _walk_elements(pdf, child)
 
 
-def _children(pdf: Any, element: Element) -> Iterator[Element]:
+def _list_children(pdf: Any, element: Element) -> Iterator[Element]:
     for child in element["K"]:
         if isinstance(child, bytes):  # and no number of a stretch of the page
-            found = _dereferenced(pdf, child)
+            found = _dereference(pdf, child)
             if "S" in found:
                 yield found
 
 
-def _dereferenced(pdf: Any, reference: bytes) -> Element:
+def _dereference(pdf: Any, reference: bytes) -> Element:
     return pdf.objects[int(reference.split()[0])]
 
 

@@ -21,10 +21,10 @@ _NOT_DRAWN_BY = ("BASE", "DSIG", "GDEF", "GPOS", "GSUB", "JSTF", "SVG ", "kern")
 
 def settle() -> None:
     """Make WeasyPrint take glyphs out of fonts by fontTools in this process."""
-    Font.subset = _subset
+    Font.subset = _subset_font
 
 
-def with_glyphs(
+def keep_glyphs(
     content: bytes,
     glyphs: Collection[int],
     number: int = 0,
@@ -55,10 +55,10 @@ def with_glyphs(
     return packed.getvalue()
 
 
-def _subset(font: Any, to_unicode: dict[int, str], hinting: bool) -> None:  # noqa: FBT001 - as WeasyPrint has it
+def _subset_font(font: Any, to_unicode: dict[int, str], hinting: bool) -> None:  # noqa: FBT001 - as WeasyPrint has it
     """Take out of a font of WeasyPrint what a document does not use."""
     if to_unicode:
-        font.file_content = with_glyphs(
+        font.file_content = keep_glyphs(
             font.file_content,
             to_unicode,
             font.index,

@@ -29,13 +29,13 @@ class TypstRenderer:
                 "(certificate.style.templates) of your own; ask for the format pdf",
             )
         try:
-            from zlmreport_plugins.renderers.pdf_typst.press import press
+            from zlmreport_plugins.renderers.pdf_typst.press import find_press
         except ImportError as error:
             raise AccessError.at(
                 Place("pdf-typst"),
                 f"Typst cannot be loaded: {error}; install it with: pip install 'zlmreport[typst]'",
             ) from error
-        return press().print(certificate)
+        return find_press().print(certificate)
 
 
 @hookimpl

@@ -45,7 +45,12 @@ from zlmreport.plugin.renderer import (
     numbered_blocks,
     table_layout,
 )
-from zlmreport_plugins.renderers.pdf_typst.words import fitted, fitted_with_symbols, parted, symbol_data
+from zlmreport_plugins.renderers.pdf_typst.words import (
+    collect_symbol,
+    fit_text,
+    fit_text_with_symbols,
+    part_text,
+)
 
 #: What JSON knows.
 Data: TypeAlias = dict[str, Any]
@@ -68,10 +73,11 @@ _FACTS = {1: (15.0, 36.0), 2: (10.4, 13.5)}
 _WHOLE = 2000
 
 
-def contents(certificate: Certificate) -> Data:
+def collect_contents(certificate: Certificate) -> Data:
     """Return all that is printed, and what the file says of itself."""
     cover, *sections = (
-        [_block(each, certificate.language) for each in blocks] for blocks in numbered_blocks(certificate)
+        [_make_block(each, certificate.language) for each in blocks]
+        for blocks in numbered_blocks(certificate)
     )
     letterhead, words = certificate.letterhead, certificate.page_words
     ended = endings(certificate)
@@ -85,26 +91,26 @@ def contents(certificate: Certificate) -> Data:
             "description": certificate.description,
             "keywords": certificate.keywords,
         },
-        "title": fitted(certificate.title, _TITLE, FontFace.SEMIBOLD),
-        "subtitle": fitted(certificate.subtitle, _SUBTITLE),
-        "number": fitted(certificate.number, _SUBTITLE, FontFace.SEMIBOLD),
-        "letterhead": _letterhead(letterhead) if letterhead else None,
+        "title": fit_text(certificate.title, _TITLE, FontFace.SEMIBOLD),
+        "subtitle": fit_text(certificate.subtitle, _SUBTITLE),
+        "number": fit_text(certificate.number, _SUBTITLE, FontFace.SEMIBOLD),
+        "letterhead": _make_letterhead(letterhead) if letterhead else None,
         "accent": certificate.look.accent,
         "logo": certificate.look.logo,
         "words": {
-            "number": fitted(words.number, _RUNNING_NUMBER),
-            "foot": fitted(words.foot, _RUNNING_NUMBER),
+            "number": fit_text(words.number, _RUNNING_NUMBER),
+            "foot": fit_text(words.foot, _RUNNING_NUMBER),
             "page": words.page,
             "of": words.of,
             "end": words.end,
-            "head": fitted(certificate.running_head, _RUNNING_HEAD),
+            "head": fit_text(certificate.running_head, _RUNNING_HEAD),
         },
         "cover": cover,
         "sections": [
             {
                 "key": section.key,
                 "number": str(number),
-                "title": fitted(section.title, _SECTION, FontFace.SEMIBOLD),
+                "title": fit_text(section.title, _SECTION, FontFace.SEMIBOLD),
                 "new-page": section.new_page,
                 "kept": ending.kept,
                 "leads-on": after.is_joined,
@@ -117,12 +123,12 @@ def contents(certificate: Certificate) -> Data:
     }
 
 
-def enclosures(certificate: Certificate) -> list[Data]:
+def list_enclosures(certificate: Certificate) -> list[Data]:
     """Return the files that the document carries."""
     return [
         {
             "name": each.name,
-            "content": _bytes(each.content),
+            "content": _make_bytes(each.content),
             "type": each.media_type,
             "relationship": each.relationship.value.lower(),
             "description": each.description,
@@ -131,43 +137,43 @@ def enclosures(certificate: Certificate) -> list[Data]:
     ]
 
 
-def _block(numbered: NumberedBlock, language: Language) -> Data:
+def _make_block(numbered: NumberedBlock, language: Language) -> Data:
     match numbered.block:
         case Table(caption=caption, symbols=symbols) as table:
-            return {"kind": "table", **_captioned(numbered, caption, symbols), **table_data(table)}
+            return {"kind": "table", **_make_captioned(numbered, caption, symbols), **collect_table(table)}
         case Formulas(caption=caption) as formulas:
-            return {"kind": "formulas", **_captioned(numbered, caption), **formulas_data(formulas)}
+            return {"kind": "formulas", **_make_captioned(numbered, caption), **collect_formulas(formulas)}
         case Graph(figure):
             return {
                 "kind": "graph",
-                **_captioned(numbered, figure.title.in_language(language), figure.symbols),
+                **_make_captioned(numbered, figure.title.in_language(language), figure.symbols),
                 "alternative": figure.alternative.in_language(language),
-                **graph_data(figure, language),
+                **collect_graph(figure, language),
             }
         case Paragraph(text, fine=fine, verdict=verdict, symbols=symbols):
             return {
                 "kind": "paragraph",
-                "text": fitted_with_symbols(text, symbols, _PAGE / _FINE if fine else _PAGE),
+                "text": fit_text_with_symbols(text, symbols, _PAGE / _FINE if fine else _PAGE),
                 "fine": fine,
-                "verdict": _cell(verdict, _PAGE) if verdict else None,
+                "verdict": _make_cell(verdict, _PAGE) if verdict else None,
             }
         case Notice(heading, items, is_quoted):
             return {
                 "kind": "notice",
                 "quoted": is_quoted,
-                "heading": fitted(heading, _NOTICE, FontFace.REGULAR if is_quoted else FontFace.SEMIBOLD),
-                "items": [fitted(item, _NOTICE) for item in items],
+                "heading": fit_text(heading, _NOTICE, FontFace.REGULAR if is_quoted else FontFace.SEMIBOLD),
+                "items": [fit_text(item, _NOTICE) for item in items],
                 "whole": len(heading) + sum(map(len, items)) <= _WHOLE,
             }
         case facts:
-            return _facts(facts)
+            return _make_facts(facts)
 
 
-def _captioned(numbered: NumberedBlock, caption: str, symbols: Iterable[str] = ()) -> Data:
-    return {"label": numbered.label, "caption": fitted_with_symbols(caption, symbols, _CAPTION)}
+def _make_captioned(numbered: NumberedBlock, caption: str, symbols: Iterable[str] = ()) -> Data:
+    return {"label": numbered.label, "caption": fit_text_with_symbols(caption, symbols, _CAPTION)}
 
 
-def _facts(groups: tuple[Facts, ...]) -> Data:
+def _make_facts(groups: tuple[Facts, ...]) -> Data:
     columns = facts_side_by_side(groups)
     for_names, for_values = _FACTS[len(columns)]
     return {
@@ -175,34 +181,35 @@ def _facts(groups: tuple[Facts, ...]) -> Data:
         "columns": [
             [
                 {
-                    "heading": fitted(group.heading, for_names + for_values, FontFace.SEMIBOLD),
+                    "heading": fit_text(group.heading, for_names + for_values, FontFace.SEMIBOLD),
                     "pairs": [
-                        [fitted(name, for_names), fitted(value, for_values)] for name, value in group.pairs
+                        [fit_text(name, for_names), fit_text(value, for_values)]
+                        for name, value in group.pairs
                     ],
-                    "whole": _length(group) <= _WHOLE,
+                    "whole": _measure_group(group) <= _WHOLE,
                 }
                 for group in column
             ]
             for column in columns
         ],
-        "whole": sum(map(_length, groups)) <= _WHOLE,
+        "whole": sum(map(_measure_group, groups)) <= _WHOLE,
     }
 
 
-def _length(group: Facts) -> int:
+def _measure_group(group: Facts) -> int:
     return sum(len(name) + len(value) for name, value in group.pairs)
 
 
-def _letterhead(letterhead: Letterhead) -> Data:
+def _make_letterhead(letterhead: Letterhead) -> Data:
     return {
-        "laboratory": fitted(letterhead.laboratory.name, _LETTERHEAD, FontFace.SEMIBOLD),
-        "lines": [fitted(line, _LETTERHEAD) for line in letterhead.laboratory.lines],
-        "accreditation": fitted(letterhead.accreditation, _LETTERHEAD),
-        "logo": _bytes(letterhead.logo) if letterhead.logo else None,
+        "laboratory": fit_text(letterhead.laboratory.name, _LETTERHEAD, FontFace.SEMIBOLD),
+        "lines": [fit_text(line, _LETTERHEAD) for line in letterhead.laboratory.lines],
+        "accreditation": fit_text(letterhead.accreditation, _LETTERHEAD),
+        "logo": _make_bytes(letterhead.logo) if letterhead.logo else None,
     }
 
 
-def _bytes(content: bytes) -> str | list[int]:
+def _make_bytes(content: bytes) -> str | list[int]:
     """Return bytes as JSON can hold them: as the text that they are, or one by one."""
     try:
         return content.decode()
@@ -226,37 +233,37 @@ _GROUP = 50.0
 _LONG_CELL = 400
 
 
-def table_data(table: Table) -> dict[str, Any]:
+def collect_table(table: Table) -> dict[str, Any]:
     """Return the columns and rows of a table."""
     rows = [row for group in table.groups for row in group.rows]
-    columns, rooms = _columns(table, rows, [column.align for column in table.columns])
+    columns, rooms = _share_columns(table, rows, [column.align for column in table.columns])
     padding = iter(decimal_padding(table))
     return {
         **columns,
         "align": [column.align.value for column in table.columns],
         "headings": [
-            {"content": _cell(column.heading, room, face=FontFace.SEMIBOLD), "unit": column.unit}
+            {"content": _make_cell(column.heading, room, face=FontFace.SEMIBOLD), "unit": column.unit}
             for column, room in zip(table.columns, rooms, strict=True)
         ],
         "groups": [
             {
-                "heading": fitted(group.heading, _GROUP, FontFace.SEMIBOLD),
-                "note": fitted(group.note, _GROUP),
+                "heading": fit_text(group.heading, _GROUP, FontFace.SEMIBOLD),
+                "note": fit_text(group.note, _GROUP),
                 "section": group.section,
-                "rows": [_row(row, rooms, next(padding)) for row in group.rows],
+                "rows": [_make_row(row, rooms, next(padding)) for row in group.rows],
             }
             for group in table.groups
         ],
     }
 
 
-def formulas_data(formulas: Formulas) -> dict[str, Any]:
+def collect_formulas(formulas: Formulas) -> dict[str, Any]:
     """Return definitions, which are set as a table without headings."""
-    columns, rooms = _columns(formulas, formulas.rows, [Align.LEFT] * 3)
-    return {**columns, "rows": [_row(row, rooms) for row in formulas.rows]}
+    columns, rooms = _share_columns(formulas, formulas.rows, [Align.LEFT] * 3)
+    return {**columns, "rows": [_make_row(row, rooms) for row in formulas.rows]}
 
 
-def _columns(
+def _share_columns(
     block: Table | Formulas, rows: Iterable[Sequence[Cell]], alignments: Sequence[Align]
 ) -> tuple[Data, list[float]]:
     """Return how columns share the page, and the width that each leaves for words, in em.
@@ -274,46 +281,46 @@ def _columns(
         "apart": layout.apart,
         "whole": layout.is_whole,
         "in-fives": layout.in_fives,
-        "breakable": any(len(_words_of(cell)) > _LONG_CELL for row in rows for cell in row),
+        "breakable": any(len(_list_words_of(cell)) > _LONG_CELL for row in rows for cell in row),
     }
     return shared, rooms
 
 
-def _words_of(cell: Cell) -> str:
+def _list_words_of(cell: Cell) -> str:
     """Return the words of a cell that may part into lines."""
     if isinstance(cell, Explained):
         return cell.name + cell.meaning
     return cell if isinstance(cell, str) else ""
 
 
-def _row(row: Sequence[Cell], rooms: Sequence[float], padding: Iterable[str] = repeat("")) -> list[Any]:
-    return [_cell(cell, room, lacking) for cell, room, lacking in zip(row, rooms, padding, strict=False)]
+def _make_row(row: Sequence[Cell], rooms: Sequence[float], padding: Iterable[str] = repeat("")) -> list[Any]:
+    return [_make_cell(cell, room, lacking) for cell, room, lacking in zip(row, rooms, padding, strict=False)]
 
 
-def _cell(cell: Cell, room: float, padding: str = "", face: FontFace = FontFace.REGULAR) -> Any:
+def _make_cell(cell: Cell, room: float, padding: str = "", face: FontFace = FontFace.REGULAR) -> Any:
     """Return a cell: a text as it stands, and what is more than a text with its kind."""
     match cell:
         case Symbol(notation):
-            return symbol_data(notation)
+            return collect_symbol(notation)
         case Verdict(mark, word):
             return {
                 "kind": "verdict",
                 "shape": mark.value.replace(" ", "-"),
-                "word": fitted(word, room - _BADGE),
+                "word": fit_text(word, room - _BADGE),
             }
         case Explained(name, meaning):
             return {
                 "kind": "explained",
-                "name": fitted(name, room),
-                "meaning": fitted(meaning, room / _SMALL),
+                "name": fit_text(name, room),
+                "meaning": fit_text(meaning, room / _SMALL),
             }
         case text if padding:
-            return {"kind": "number", "text": text, "gap": _gap(padding)}
+            return {"kind": "number", "text": text, "gap": _measure_gap(padding)}
         case text:
-            return fitted(text, room, face)
+            return fit_text(text, room, face)
 
 
-def _gap(padding: str) -> float:
+def _measure_gap(padding: str) -> float:
     """Return how far left of the column's end a number stands, in em, for the decimals that it lacks."""
     kind, _, lacking = padding.partition("-")
     return int(lacking) * _FIGURE + (_DECIMAL_SIGN if kind == "whole" else 0.0)
@@ -324,7 +331,7 @@ _FACES = {FontFace.REGULAR: "regular", FontFace.ITALIC: "italic", FontFace.SEMIB
 _OPERATORS = {"M": "M%.2f %.2f", "L": "L%.2f %.2f", "C": "C%.2f %.2f %.2f %.2f %.2f %.2f", "Z": "Z"}
 
 
-def graph_data(figure: Figure, language: Language) -> Data:
+def collect_graph(figure: Figure, language: Language) -> Data:
     """Return a figure's drawing: its size in points, all outlines as one SVG image, and over it the labels.
 
     Typst sets the labels as it sets every other text, so a symbol such as x̄ is one letter to whoever searches
@@ -365,7 +372,7 @@ class GraphCanvas:
         spans = [
             [_FACES[run.face], run.size, run.y - first.y, *stretch]
             for run in runs
-            for stretch in parted(run.text, run.face)
+            for stretch in part_text(run.text, run.face)
         ]
         self.labels.append([first.x, first.y, angle, hexadecimal_colour(colour), spans])
 

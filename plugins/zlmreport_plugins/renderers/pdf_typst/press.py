@@ -18,7 +18,7 @@ from threading import Lock
 import typst
 
 from zlmreport.plugin.renderer import Certificate
-from zlmreport_plugins.renderers.pdf_typst.contents import contents, enclosures
+from zlmreport_plugins.renderers.pdf_typst.contents import collect_contents, list_enclosures
 from zlmreport_plugins.renderers.pdf_typst.words import demand_letters
 
 _TEMPLATES = "zlmreport_templates"
@@ -42,7 +42,7 @@ class TypstPress:
 
     def print(self, certificate: Certificate) -> bytes:
         """Return a certificate as PDF."""
-        document = json.dumps(contents(certificate), ensure_ascii=False)
+        document = json.dumps(collect_contents(certificate), ensure_ascii=False)
         demand_letters(document, certificate.number)
         moment = datetime.combine(certificate.issued or _UNKNOWN, time(), UTC)
         with self._lock:
@@ -50,7 +50,7 @@ class TypstPress:
                 input=self._template,
                 sys_inputs={
                     "certificate": document,
-                    "enclosures": json.dumps(enclosures(certificate), ensure_ascii=False),
+                    "enclosures": json.dumps(list_enclosures(certificate), ensure_ascii=False),
                 },
                 pdf_standards=["a-3a", "ua-1"],  # for archives and for accessibility
                 timestamp=moment,
@@ -92,20 +92,20 @@ def packed(pdf: bytes) -> bytes:
         places = accumulate((len(body) + 1 for _, body in held), initial=0)
         head = b" ".join(b"%d %d" % (each, place) for (each, _), place in zip(held, places, strict=False))
         kind = b"/ObjStm/N %d/First %d" % (len(held), len(head) + 1)
-        out += _stream(number, kind, b"\n".join((head, *(body for _, body in held))))
+        out += _make_stream(number, kind, b"\n".join((head, *(body for _, body in held))))
         number += 1
     entries[number] = 1, len(out), 0
     listed = b"".join(pack(">BIH", *entries[each]) for each in range(number + 1))
     kind = b"/XRef/W[1 4 2]/Size %d%b" % (number + 1, trailer[0])
-    return bytes(out) + _stream(number, kind, listed) + b"startxref\n%d\n%%%%EOF" % len(out)
+    return bytes(out) + _make_stream(number, kind, listed) + b"startxref\n%d\n%%%%EOF" % len(out)
 
 
-def _stream(number: int, kind: bytes, content: bytes) -> bytes:
+def _make_stream(number: int, kind: bytes, content: bytes) -> bytes:
     content = zlib.compress(content)
     return _STREAM % (number, kind, len(content), content)
 
 
 @cache
-def press() -> TypstPress:
+def find_press() -> TypstPress:
     """Return the press of this process."""
     return TypstPress()

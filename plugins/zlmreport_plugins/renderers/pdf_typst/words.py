@@ -39,26 +39,28 @@ _WIDEST_LETTER = 1.0
 _JOINER = "\N{WORD JOINER}"
 
 
-def fitted(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
+def fit_text(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
     text = held_together(text)
     longest = max(map(len, text.split()), default=0)
     if _WIDEST_LETTER * longest <= room and _JOINER not in text and not has_marks(text):
         return text
-    ways = [(word.replace(_JOINER, ""), _way(word, room, face)) for word in _WORDS.findall(text)]
+    ways = [(word.replace(_JOINER, ""), _measure_way(word, room, face)) for word in _WORDS.findall(text)]
     if all(way == AS_WORDS for _, way in ways):
         return text
     return [
-        (parted(stretch, face) if way == MARKED else stretch, way)
+        (part_text(stretch, face) if way == MARKED else stretch, way)
         for way, words in groupby(ways, lambda each: each[1])
         for stretch in (("".join(word for word, _ in words),) if way == AS_WORDS else [w for w, _ in words])
     ]
 
 
-def fitted_with_symbols(text: str, notations: Iterable[str], room: float) -> Text:
+def fit_text_with_symbols(text: str, notations: Iterable[str], room: float) -> Text:
     """Return a text for a place of a width, in em, in which symbols of these notations are set as such."""
     parts = [
-        [(symbol_data(part.notation)["words"], SYMBOL)] if isinstance(part, Symbol) else fitted(part, room)
+        [(collect_symbol(part.notation)["words"], SYMBOL)]
+        if isinstance(part, Symbol)
+        else fit_text(part, room)
         for part in with_symbols(text, notations)
     ]
     if len(parts) == 1:
@@ -66,7 +68,7 @@ def fitted_with_symbols(text: str, notations: Iterable[str], room: float) -> Tex
     return [stretch for part in parts for stretch in ([(part, AS_WORDS)] if isinstance(part, str) else part)]
 
 
-def _way(word: str, room: float, face: FontFace) -> str:
+def _measure_way(word: str, room: float, face: FontFace) -> str:
     if has_marks(word):
         return MARKED
     if _JOINER in word:  # whole, and without the sign: a reader of the document would find it in the text
@@ -82,7 +84,7 @@ Stretch: TypeAlias = tuple[str] | tuple[str, float, float]
 
 
 @lru_cache(maxsize=1024)
-def symbol_data(notation: str) -> dict[str, Any]:
+def collect_symbol(notation: str) -> dict[str, Any]:
     """Return a symbol or a formula, word by word, for lines may part between words only.
 
     Each word is a list of spans: whether it is italic, whether it is a subscript, and a stretch.
@@ -93,16 +95,16 @@ def symbol_data(notation: str) -> dict[str, Any]:
         for number, text in enumerate(span.text.split(" ")):
             if number:
                 words.append([])
-            words[-1] += [[span.italic, span.subscript, *stretch] for stretch in parted(text, face)]
+            words[-1] += [[span.italic, span.subscript, *stretch] for stretch in part_text(text, face)]
     return {"kind": "symbol", "words": words}
 
 
 @lru_cache(maxsize=4096)
-def parted(text: str, face: FontFace) -> tuple[Stretch, ...]:
+def part_text(text: str, face: FontFace) -> tuple[Stretch, ...]:
     """Return the stretches of a text; the whole of it where the typeface has no place for a mark."""
     whole = normalize("NFC", text)
     try:
-        return tuple(_parted(whole, face))
+        return tuple(_part_word(whole, face))
     except LookupError:
         return ((whole,),)
 
@@ -112,7 +114,7 @@ def has_marks(text: str) -> bool:
     return not text.isascii() and any(map(combining, normalize("NFC", text)))
 
 
-def _parted(text: str, face: FontFace) -> Iterator[Stretch]:
+def _part_word(text: str, face: FontFace) -> Iterator[Stretch]:
     before = ""
     for is_mark, letters in groupby(text, lambda letter: bool(combining(letter))):
         stretch = "".join(letters)
@@ -142,7 +144,7 @@ def demand_letters(document: str, number: str) -> None:
     seen = (letter for letter in letters if category(letter) not in _UNSEEN)
     lacking = sorted(letter for letter in seen if not has_letter(letter, FontFace.REGULAR))
     if lacking:
-        told = ", ".join(map(_told, lacking[:_MOST_TOLD]))
+        told = ", ".join(map(_tell_letter, lacking[:_MOST_TOLD]))
         more = f" and {len(lacking) - _MOST_TOLD} more" if len(lacking) > _MOST_TOLD else ""
         raise InputError.at(
             Place(number),
@@ -151,6 +153,6 @@ def demand_letters(document: str, number: str) -> None:
         )
 
 
-def _told(letter: str) -> str:
+def _tell_letter(letter: str) -> str:
     shown = f"{letter!r} " if letter.isprintable() else ""
     return f"{shown}(U+{ord(letter):04X} {name(letter, 'a control character')})"

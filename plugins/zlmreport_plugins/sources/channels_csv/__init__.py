@@ -44,9 +44,15 @@ from zlmreport.plugin.source import (
     read_text,
 )
 from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_table
-from zlmreport_plugins.sources.channels_csv.averaging import averaged, interval_for
+from zlmreport_plugins.sources.channels_csv.averaging import average_channel, choose_interval_for
 from zlmreport_plugins.sources.channels_csv.options import TIME, VALUE, ChannelsCsvOptions
-from zlmreport_plugins.sources.channels_csv.tracks import Channel, Channels, Track, channels_of, unit_of
+from zlmreport_plugins.sources.channels_csv.tracks import (
+    Channel,
+    Channels,
+    Track,
+    find_unit_of,
+    read_channels_of,
+)
 
 #: What a condition that is no known one ends in, if it is a temperature.
 _TEMPERATURE = "_temperature"
@@ -80,19 +86,21 @@ class ChannelsCsv:
         """Return the keys by which a file may be read, if it has sensors over time and nothing else."""
         options = ChannelsCsvOptions(file=file)
         try:
-            channels = _channels(options, SourceContext(Axis("X", quantity=DISPLACEMENT), Place(str(file))))
+            channels = _read_channels(
+                options, SourceContext(Axis("X", quantity=DISPLACEMENT), Place(str(file)))
+            )
         except InputError:
             return []
         sensors = [each.name for key, each in channels.of.items() if _SENSOR.fullmatch(key)]
         others = (
             each
             for key, each in channels.of.items()
-            if not _SENSOR.fullmatch(key) and _condition(key, each) is None
+            if not _SENSOR.fullmatch(key) and _name_condition(key, each) is None
         )
         if not sensors or any(others):
             return []
         tests = tuple(sorted(each.upper() for each in sensors))
-        return [SourceProposal(asks=tuple(_asks(tests)), quantity=DISPLACEMENT, tests=tests)]
+        return [SourceProposal(asks=tuple(_list_asked(tests)), quantity=DISPLACEMENT, tests=tests)]
 
     def read(self, options: ChannelsCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read one channel and the conditions beside it; raise `InputError` with every defect."""
@@ -104,23 +112,23 @@ class ChannelsCsv:
                 f"{axis.measurand.identifier}; name its channels as tests: measurement.tests: "
                 "{X1: {source: …}, …}, and evaluate a standard of drift",
             )
-        channels = _channels(options, context)
-        own = _channel_of(axis.name, channels, options)
+        channels = _read_channels(options, context)
+        own = _find_channel_of(axis.name, channels, options)
         stated = options.units.get(VALUE)
-        unit = unit_of(own, stated, LENGTH_UNITS, MICROMETRE)
+        unit = find_unit_of(own, stated, LENGTH_UNITS, MICROMETRE)
         track = channels.track(own, unit, LENGTH_UNITS)
-        conditions = dict(_conditions(channels, options))
+        conditions = dict(_list_conditions(channels, options))
         table = channels.table
         problems = list(dict.fromkeys([*table.problems, *channels.cells.problems]))
         if not problems and stated is None and own.unit is None:
-            problems = list(_in_a_larger_unit(track, own))
+            problems = list(_ask_about_larger_unit(track, own))
         if problems:
             raise InputError(problems)
         remarks = [_FROM.given(channel=own.name, unit=unit.symbol)]
         averaging = None
-        interval = options.interval or interval_for(channels.most_readings, channels.lasts)
+        interval = options.interval or choose_interval_for(channels.most_readings, channels.lasts)
         if interval and track.time.size:
-            track, averaging = averaged(track, interval)
+            track, averaging = average_channel(track, interval)
             remarks.append(
                 _AVERAGED.given(
                     readings=averaging.readings,
@@ -131,7 +139,7 @@ class ChannelsCsv:
         elsewhere = [name for name, each in conditions.items() if not np.isin(track.time, each.time).all()]
         if elsewhere and not interval:
             remarks.append(_BESIDE.given(channel=own.name, names=", ".join(elsewhere)))
-        beside = {name: _at(track.time, each) for name, each in conditions.items()}
+        beside = {name: _interpolate_at(track.time, each) for name, each in conditions.items()}
         readings = [
             Reading(
                 place,
@@ -150,20 +158,20 @@ class ChannelsCsv:
         return collect_readings(readings, axis, provenance, place=table.source.place())
 
 
-def _channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
+def _read_channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
     """Return the channels of the table that the keys name."""
     text = read_text(options.file, options.encoding, options.sheet)
-    table = read_table(text, options, lambda name: _names_column(name, options))
+    table = read_table(text, options, lambda name: _is_column_name(name, options))
     # The decimal sign is that of all numbers: which columns have any is known only with it.
     numbers = [
         index for index, name in enumerate(table.header.cells) if folded(heading_of(name).name) != TIME
     ]
     sign = options.stated_decimal_sign or decimal_sign(table, numbers, options.thousands_signs)
     cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
-    return channels_of(cells, options, context)
+    return read_channels_of(cells, options, context)
 
 
-def _names_column(text: str, options: ChannelsCsvOptions) -> bool:
+def _is_column_name(text: str, options: ChannelsCsvOptions) -> bool:
     """Whether a header is a name that this source or the job knows."""
     named = heading_of(text)
     name = folded(named.name)
@@ -172,7 +180,7 @@ def _names_column(text: str, options: ChannelsCsvOptions) -> bool:
     return is_known or any(named.is_called(each) for each in spoken)
 
 
-def _channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> Channel:
+def _find_channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> Channel:
     """Return the channel of a test; raise `InputError` with the nearest name if there is none."""
     called = options.channels.get(name, name)
     found = channels.named(called)
@@ -186,22 +194,22 @@ def _channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> C
     )
 
 
-def _conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterator[tuple[str, Track]]:
+def _list_conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterator[tuple[str, Track]]:
     """Yield the conditions that were logged, SI where they are known by name, and else in °C."""
     renamed: dict[str, str] = {}
     for name in options.channels:
         if name in CONDITIONS or name.endswith(_TEMPERATURE):
-            renamed[folded(_channel_of(name, channels, options).name)] = name
+            renamed[folded(_find_channel_of(name, channels, options).name)] = name
     for key, channel in channels.of.items():
-        called = renamed.get(key) or _condition(key, channel)
+        called = renamed.get(key) or _name_condition(key, channel)
         if called is None:
             continue
         kind = CONDITIONS.get(called, _TEMPERATURES)
-        track = channels.track(channel, unit_of(channel, None, kind.units, kind.unit), kind.units)
-        yield called, track if called in CONDITIONS else _in_celsius(track, channels, channel)
+        track = channels.track(channel, find_unit_of(channel, None, kind.units, kind.unit), kind.units)
+        yield called, track if called in CONDITIONS else _convert_to_celsius(track, channels, channel)
 
 
-def _condition(key: str, channel: Channel) -> str | None:
+def _name_condition(key: str, channel: Channel) -> str | None:
     """Return the name of the condition that a channel is; None for a displacement."""
     if key in CONDITIONS or key.endswith(_TEMPERATURE):
         return key
@@ -209,7 +217,7 @@ def _condition(key: str, channel: Channel) -> str | None:
     return f"{key}{_TEMPERATURE}" if is_temperature else None
 
 
-def _in_celsius(track: Track, channels: Channels, channel: Channel) -> Track:
+def _convert_to_celsius(track: Track, channels: Channels, channel: Channel) -> Track:
     """Return a temperature as conditions without a name of their own are kept: as found, in °C."""
     celsius = np.asarray(CELSIUS.from_si(track.value))
     for index in np.flatnonzero((celsius < _TEMPERATURES.lowest) | (celsius > _TEMPERATURES.highest))[:1]:
@@ -223,7 +231,7 @@ def _in_celsius(track: Track, channels: Channels, channel: Channel) -> Track:
     return Track(track.time, celsius, track.places)
 
 
-def _in_a_larger_unit(track: Track, channel: Channel) -> Iterator[Problem]:
+def _ask_about_larger_unit(track: Track, channel: Channel) -> Iterator[Problem]:
     """Ask where a machine would hardly have moved: the readings are millimetres then."""
     there = track.value[np.isfinite(track.value)]
     if there.size < 2:
@@ -239,7 +247,7 @@ def _in_a_larger_unit(track: Track, channel: Channel) -> Iterator[Problem]:
         )
 
 
-def _at(time: FloatArray, condition: Track) -> FloatArray:
+def _interpolate_at(time: FloatArray, condition: Track) -> FloatArray:
     """Return a condition at some times, linear between those at which it was logged; NaN beyond them."""
     there = np.isfinite(condition.value)
     if not there.any():
@@ -247,7 +255,7 @@ def _at(time: FloatArray, condition: Track) -> FloatArray:
     return np.interp(time, condition.time[there], condition.value[there], left=np.nan, right=np.nan)
 
 
-def _asks(tests: tuple[str, ...]) -> Iterator[str]:
+def _list_asked(tests: tuple[str, ...]) -> Iterator[str]:
     """Yield what a file of channels leaves open."""
     yield "Over which hours is the drift stated? Say 'hours' beside the standard; without it all are taken."
     for letter in "XYZ":

@@ -13,7 +13,7 @@ MOST_KEPT = 1440
 _INTERVALS = (1, 2, 5, 10, 15, 20, 30, 60, 120, 300, 600, 900, 1800, 3600)
 
 
-def interval_for(readings: int, duration: float) -> float | None:
+def choose_interval_for(readings: int, duration: float) -> float | None:
     """Return over which intervals readings of a channel are averaged, s; None if they are kept.
 
     `readings`: Of the channel that was read most often.
@@ -25,7 +25,7 @@ def interval_for(readings: int, duration: float) -> float | None:
     return next(enough, duration / MOST_KEPT)
 
 
-def averaged(track: Track, interval: float) -> tuple[Track, Averaging]:
+def average_channel(track: Track, interval: float) -> tuple[Track, Averaging]:
     """Return the averages of a channel at the middles of intervals, and what they leave out.
 
     An interval in which there is no reading has none; one in which all are missing has one that is missing.

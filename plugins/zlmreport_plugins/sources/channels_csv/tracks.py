@@ -109,7 +109,7 @@ class Channels:
                 continue
             time = each.time - begins
             if times and time <= times[-1]:
-                said = _out_of_order(channel, places[-1], is_same=time == times[-1])
+                said = _say_out_of_order(channel, places[-1], is_same=time == times[-1])
                 self.cells.note(each.row, self.time, said)
                 continue
             times.append(time)
@@ -118,7 +118,7 @@ class Channels:
         return Track(np.array(times), np.array(values, dtype=np.float64), tuple(places))
 
 
-def _out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:
+def _say_out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:
     if is_same:
         return f"channel {quoted(channel.name)} has a reading of this time in line {before.line} already"
     return (
@@ -127,7 +127,7 @@ def _out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:
     )
 
 
-def channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceContext) -> Channels:
+def read_channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceContext) -> Channels:
     """Return the channels of a table; raise `InputError` if it has no time, or no channel."""
     table = cells.table
     among = read_headings(table, options)
@@ -142,7 +142,7 @@ def channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceContex
         return Channels(cells, time, _from_rows(cells, time, named.index, value.index))
     time_of = time_reader(cells, time)
     timed = [
-        (row, moment) for row in table.rows if (moment := _moment(cells, time, row, time_of)) is not None
+        (row, moment) for row in table.rows if (moment := _read_moment(cells, time, row, time_of)) is not None
     ]
     columns = (each for each in among if each.index != heading.index)
     found = {
@@ -157,7 +157,7 @@ def channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceContex
     return Channels(cells, time, found)
 
 
-def _moment(cells: Cells, column: TextColumn, row: TextRow, time_of: ReadTime) -> float | None:
+def _read_moment(cells: Cells, column: TextColumn, row: TextRow, time_of: ReadTime) -> float | None:
     """Return the time of a row, s; None if there is none, which is noted."""
     time = time_of(row)
     if time is not None and math.isnan(time):
@@ -192,13 +192,13 @@ def _from_rows(cells: Cells, time: TextColumn, named: int, value: int) -> dict[s
             )
             continue
         time_of = readers.setdefault(channel.name, time_reader(cells, time))
-        moment = _moment(cells, time, row, time_of)
+        moment = _read_moment(cells, time, row, time_of)
         if moment is not None:
             channel.moments.append(Moment(row, value, moment))
     return found
 
 
-def unit_of(
+def find_unit_of(
     channel: Channel, stated: str | None, known: Mapping[str, Unit | ReadingScale], usual: Unit | ReadingScale
 ) -> Unit | ReadingScale:
     """Return the unit of a channel: the job's, else the file's, else the usual one.

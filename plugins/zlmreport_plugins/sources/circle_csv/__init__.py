@@ -38,22 +38,22 @@ from zlmreport.plugin.source import (
     read_text,
 )
 from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_table
-from zlmreport_plugins.sources.circle_csv.averaging import arcs_of, averaged, looked_at
+from zlmreport_plugins.sources.circle_csv.averaging import average_turns, count_arcs_of, look_at_averages
 from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, CircleCsvOptions
 from zlmreport_plugins.sources.circle_csv.rows import (
     CircleColumns,
     CircleRow,
-    circle_columns,
-    circle_rows,
-    misread,
+    find_circle_columns,
+    find_misread,
+    read_circle_rows,
 )
 from zlmreport_plugins.sources.circle_csv.turns import (
     TURN,
     CircleTurn,
-    common_angles,
-    evaluated,
-    one_after_another,
-    strays,
+    choose_evaluated_part,
+    find_common_angles,
+    find_strays,
+    put_one_after_another,
 )
 
 #: What a circle is taken for while nobody has said how it was run, m and m/s.
@@ -103,7 +103,9 @@ class CircleCsv:
         options = CircleCsvOptions(file=file)
         circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
         try:
-            cells, layout = _table_of(options, SourceContext(Axis("XY", circle=circle), Place(str(file))))
+            cells, layout = _read_table_of(
+                options, SourceContext(Axis("XY", circle=circle), Place(str(file)))
+            )
         except InputError:
             return []
         if layout.sense is None:
@@ -111,7 +113,7 @@ class CircleCsv:
         if layout.value.name == "radius":
             radii = [each for row in cells.table.rows if (each := cells.number(row, layout.value))]
             circle = replace(circle, radius=round(float(np.nanmedian(radii)), 3))
-        return [SourceProposal(asks=(_asked(layout),), circle=circle)]
+        return [SourceProposal(asks=(_say_asked(layout),), circle=circle)]
 
     def read(self, options: CircleCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read a table; raise `InputError` with every defect and its place."""
@@ -122,41 +124,41 @@ class CircleCsv:
                 "circle-csv reads circular tests, and this job has no circle; say which was run: "
                 "circle: {plane: XY, radius: 150, feed: 1000}, instead of axis",
             )
-        cells, layout = _table_of(options, context)
+        cells, layout = _read_table_of(options, context)
         table = cells.table
-        rows = list(circle_rows(cells, layout, options))
+        rows = list(read_circle_rows(cells, layout, options))
         problems = [*table.problems, *cells.problems]
         if not problems:
-            problems = list(misread(rows, layout, table, circle, options))
+            problems = list(find_misread(rows, layout, table, circle, options))
         if problems or not rows:
-            raise InputError(_first(problems) or [Problem(table.source.place(), "holds no readings")])
-        turns = _turns(rows, layout, circle, options)
-        problems = [*_wrong_turns(turns)]
+            raise InputError(_take_first(problems) or [Problem(table.source.place(), "holds no readings")])
+        turns = _collect_turns(rows, layout, circle, options)
+        problems = [*_find_wrong_turns(turns)]
         if problems:
-            raise InputError(_first(problems))
-        turns, follows = one_after_another(turns)
-        readings, averaging, remarks = _evaluated(turns, circle, options)
+            raise InputError(_take_first(problems))
+        turns, follows = put_one_after_another(turns)
+        readings, averaging, remarks = _choose_evaluated(turns, circle, options)
         provenance = Provenance(
             self.identifier,
             (table.source.source,),
-            (*_remarks(layout, circle, options), *([_FOLLOW] if follows else []), *remarks),
+            (*_list_remarks(layout, circle, options), *([_FOLLOW] if follows else []), *remarks),
             averaging=averaging,
         )
         return collect_readings(readings, context.axis, provenance, place=table.source.place())
 
 
-def _table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[Cells, CircleColumns]:
+def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[Cells, CircleColumns]:
     """Return the cells of a table, and which columns it has."""
     text = read_text(options.file, options.encoding, options.sheet)
-    table = read_table(text, options, lambda name: _names_column(name, options))
-    layout = circle_columns(table, options, context)
+    table = read_table(text, options, lambda name: _is_column_name(name, options))
+    layout = find_circle_columns(table, options, context)
     sign = options.stated_decimal_sign or decimal_sign(
         table, [column.index for column in layout.number_columns()], options.thousands_signs
     )
     return Cells(table, sign, options.thousands_signs, options.words_for_missing), layout
 
 
-def _asked(layout: CircleColumns) -> str:
+def _say_asked(layout: CircleColumns) -> str:
     """Return what a table of a circle leaves open: some of it can be seen only by who ran it."""
     radius = "" if layout.value.name == "radius" else ", with which nominal radius"
     return (
@@ -165,7 +167,7 @@ def _asked(layout: CircleColumns) -> str:
     )
 
 
-def _names_column(text: str, options: CircleCsvOptions) -> bool:
+def _is_column_name(text: str, options: CircleCsvOptions) -> bool:
     """Whether a header is a name that this source or the job knows."""
     named = heading_of(text)
     return folded(named.name) in COLUMN_NAMES or any(
@@ -173,14 +175,14 @@ def _names_column(text: str, options: CircleCsvOptions) -> bool:
     )
 
 
-def _first(problems: Sequence[Problem]) -> list[Problem]:
+def _take_first(problems: Sequence[Problem]) -> list[Problem]:
     """Return the first problems; the table is long."""
     ordered = sorted(set(problems))
     more = ordered[20:]
     return [*ordered[:20], *([Problem(more[0].place, f"and {len(more)} more")] if more else [])]
 
 
-def _turns(
+def _collect_turns(
     rows: Sequence[CircleRow], layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions
 ) -> list[CircleTurn]:
     """Return the turns of a table in the order in which they begin."""
@@ -205,7 +207,7 @@ def _turns(
     return turns
 
 
-def _wrong_turns(turns: Sequence[CircleTurn]) -> Iterator[Problem]:
+def _find_wrong_turns(turns: Sequence[CircleTurn]) -> Iterator[Problem]:
     for turn in turns:
         place, name = turn.places[0], _NAMES[turn.sense]
         if len(turn.angle) < _FEWEST:
@@ -221,19 +223,19 @@ def _wrong_turns(turns: Sequence[CircleTurn]) -> Iterator[Problem]:
                 turn.places[later],
                 "the time is before that of the reading above; readings stand in the order of time",
             )
-        for message in strays(turn):
+        for message in find_strays(turn):
             yield Problem(place, f"run {turn.run} {name}: {message}")
 
 
 _NAMES = {Approach.POSITIVE: "ccw", Approach.NEGATIVE: "cw"}
 
 
-def _evaluated(
+def _choose_evaluated(
     turns: Sequence[CircleTurn], circle: NominalCircle, options: CircleCsvOptions
 ) -> tuple[list[Reading], Averaging | None, tuple[Words, ...]]:
     """Return the readings that are evaluated, what was averaged, and what is to be said of both."""
     stated = [math.radians(arc) if arc is not None else None for arc in (options.feed_in, options.feed_out)]
-    parts = [evaluated(turn, *stated) for turn in turns]
+    parts = [choose_evaluated_part(turn, *stated) for turn in turns]
     before, behind = max(part[1] for part in parts), max(part[2] for part in parts)
     remarks = []
     if before > 0 or behind > 0:
@@ -246,13 +248,13 @@ def _evaluated(
             )
         )
     kept = [part[0] for part in parts]
-    shared = None if options.readings_per_turn else common_angles(kept, _MOST_KEPT)
+    shared = None if options.readings_per_turn else find_common_angles(kept, _MOST_KEPT)
     if shared is not None:
-        return [reading for turn in kept for reading in _as_they_are(turn, shared)], None, tuple(remarks)
-    number = options.readings_per_turn or arcs_of(kept)
-    averages = averaged(kept, number)
-    averaging = looked_at(averages, circle.angular_speed)
-    remarks.append(_averaging_in_words(averaging, number))
+        return [reading for turn in kept for reading in _list_as_they_are(turn, shared)], None, tuple(remarks)
+    number = options.readings_per_turn or count_arcs_of(kept)
+    averages = average_turns(kept, number)
+    averaging = look_at_averages(averages, circle.angular_speed)
+    remarks.append(_say_averaging(averaging, number))
     readings = [
         Reading(
             each.turn.places[int(each.central[index])],
@@ -269,7 +271,7 @@ def _evaluated(
     return readings, averaging, tuple(remarks)
 
 
-def _as_they_are(turn: CircleTurn, shared: FloatArray) -> Iterator[Reading]:
+def _list_as_they_are(turn: CircleTurn, shared: FloatArray) -> Iterator[Reading]:
     """Yield the readings of a turn at the angles that all turns share."""
     own = np.mod(turn.angle, TURN)
     distance = np.abs(own[:, np.newaxis] - np.append(shared, shared[0] + TURN)[np.newaxis, :])
@@ -286,7 +288,7 @@ def _as_they_are(turn: CircleTurn, shared: FloatArray) -> Iterator[Reading]:
         )
 
 
-def _averaging_in_words(averaging: Averaging, number: int) -> Words:
+def _say_averaging(averaging: Averaging, number: int) -> Words:
     vibration = _NO_VIBRATION
     if averaging.amplitude:
         vibration = _VIBRATION.given(
@@ -300,7 +302,7 @@ def _averaging_in_words(averaging: Averaging, number: int) -> Words:
     )
 
 
-def _remarks(layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions) -> Iterator[Words]:
+def _list_remarks(layout: CircleColumns, circle: NominalCircle, options: CircleCsvOptions) -> Iterator[Words]:
     """Yield what a reader of the results must know of the table."""
     if layout.angle:
         angles = _ANGLE_COLUMN.given(

@@ -40,29 +40,29 @@ class Averaged:
     central: IntArray  #: (m,): Index of the reading in the middle of each arc.
 
 
-def arcs_of(turns: Sequence[CircleTurn]) -> int:
+def count_arcs_of(turns: Sequence[CircleTurn]) -> int:
     """Return into how many arcs a turn may be cut so that each has a reading of every turn."""
     for number in _ARCS:
-        covered = _covered(turns, number)
-        if covered.size and all(np.isin(covered, _arc(turn, number)).all() for turn in turns):
+        covered = _find_covered(turns, number)
+        if covered.size and all(np.isin(covered, _find_arc(turn, number)).all() for turn in turns):
             return number
     return _ARCS[-1]
 
 
-def averaged(turns: Sequence[CircleTurn], number: int) -> tuple[Averaged, ...]:
+def average_turns(turns: Sequence[CircleTurn], number: int) -> tuple[Averaged, ...]:
     """Return the averages of turns over arcs that all of them cover whole, at so many arcs a turn."""
-    covered = _covered(turns, number)
-    return tuple(_of_turn(turn, number, covered) for turn in turns)
+    covered = _find_covered(turns, number)
+    return tuple(_average_turn(turn, number, covered) for turn in turns)
 
 
-def looked_at(turns: Sequence[Averaged], angular_speed: float) -> Averaging:
+def look_at_averages(turns: Sequence[Averaged], angular_speed: float) -> Averaging:
     """Return what the averages leave out: how much, and the strongest vibration in it.
 
     `angular_speed`: Of the turns, rad/s: it makes a frequency of a number of cycles to the turn.
     """
-    left = [_left_out(each) for each in turns]
+    left = [_compute_left_out(each) for each in turns]
     amplitude, frequency = max(
-        (_strongest(each.turn, rest, angular_speed) for each, rest in zip(turns, left, strict=True)),
+        (_find_strongest(each.turn, rest, angular_speed) for each, rest in zip(turns, left, strict=True)),
         default=(0.0, 0.0),
     )
     everything = np.concatenate(left)
@@ -74,12 +74,12 @@ def looked_at(turns: Sequence[Averaged], angular_speed: float) -> Averaging:
     )
 
 
-def _arc(turn: CircleTurn, number: int) -> IntArray:
+def _find_arc(turn: CircleTurn, number: int) -> IntArray:
     """Return in which arc each reading lies, counted from angle 0; arcs begin where the axes turn round."""
     return np.floor(np.mod(turn.angle, TURN) / TURN * number + 1e-9).astype(np.int64) % number
 
 
-def _covered(turns: Sequence[CircleTurn], number: int) -> IntArray:
+def _find_covered(turns: Sequence[CircleTurn], number: int) -> IntArray:
     """Return the arcs that every turn covers whole: all of a full turn, of others those between its ends."""
     found = np.arange(number)
     width = TURN / number
@@ -94,29 +94,29 @@ def _covered(turns: Sequence[CircleTurn], number: int) -> IntArray:
     return found
 
 
-def _harmonics(angle: FloatArray) -> FloatArray:
+def _make_harmonics(angle: FloatArray) -> FloatArray:
     orders = np.arange(1, _HARMONICS + 1)
     phases = np.multiply.outer(angle, orders)
     return np.concatenate([np.ones((len(angle), 1)), np.cos(phases), np.sin(phases)], axis=1)
 
 
-def _of_turn(turn: CircleTurn, number: int, covered: IntArray) -> Averaged:
+def _average_turn(turn: CircleTurn, number: int, covered: IntArray) -> Averaged:
     """Average one turn.
 
     The readings of an arc do not lie about its middle evenly: what changes slowly along the path is taken off
     before, and put back there, so that it is not moved.
     """
     present = np.isfinite(turn.deviation)
-    design = _harmonics(turn.angle)
+    design = _make_harmonics(turn.angle)
     smooth, *_ = np.linalg.lstsq(design[present], turn.deviation[present], rcond=1e-9)
     rest = np.where(present, turn.deviation - design @ smooth, np.nan)
-    arc = _arc(turn, number)
+    arc = _find_arc(turn, number)
     place = np.full(number, -1)
     place[covered] = np.arange(len(covered))
     slot = place[arc]
     middle = (covered + 0.5) * TURN / number
-    mean = _means(rest, slot, len(covered)) + _harmonics(middle) @ smooth
-    central = _central(slot, len(covered))
+    mean = _compute_means(rest, slot, len(covered)) + _make_harmonics(middle) @ smooth
+    central = _find_central(slot, len(covered))
     there = central >= 0
     order = np.flatnonzero(there)[np.argsort(central[there], kind="stable")]
     return Averaged(
@@ -124,12 +124,12 @@ def _of_turn(turn: CircleTurn, number: int, covered: IntArray) -> Averaged:
         middle[order],
         mean[order],
         turn.time[central[order]],
-        {name: _means(values, slot, len(covered))[order] for name, values in turn.conditions.items()},
+        {name: _compute_means(values, slot, len(covered))[order] for name, values in turn.conditions.items()},
         central[order],
     )
 
 
-def _central(slot: IntArray, count: int) -> IntArray:
+def _find_central(slot: IntArray, count: int) -> IntArray:
     """Return the index of the reading in the middle of each slot's, in the order of time; −1 without any.
 
     In the arc in which a turn begins and ends that is one of the greater part.
@@ -141,7 +141,7 @@ def _central(slot: IntArray, count: int) -> IntArray:
     return np.where(ends > starts, by_slot[middle], -1)
 
 
-def _means(values: FloatArray, slot: IntArray, count: int) -> FloatArray:
+def _compute_means(values: FloatArray, slot: IntArray, count: int) -> FloatArray:
     """Return the mean of the values that there are in each slot; NaN where there is none."""
     chosen = (slot >= 0) & np.isfinite(values)
     total = np.bincount(slot[chosen], weights=values[chosen], minlength=count)
@@ -150,7 +150,7 @@ def _means(values: FloatArray, slot: IntArray, count: int) -> FloatArray:
         return np.asarray(total / number, dtype=np.float64)
 
 
-def _left_out(found: Averaged) -> FloatArray:
+def _compute_left_out(found: Averaged) -> FloatArray:
     """Return what is left of each reading beside the averages, linear between these."""
     turn = found.turn
     angle = np.mod(turn.angle, TURN)
@@ -161,7 +161,7 @@ def _left_out(found: Averaged) -> FloatArray:
     return (turn.deviation - path)[inside]
 
 
-def _strongest(turn: CircleTurn, left: FloatArray, angular_speed: float) -> tuple[float, float]:
+def _find_strongest(turn: CircleTurn, left: FloatArray, angular_speed: float) -> tuple[float, float]:
     """Return amplitude and frequency of the strongest line, m and Hz; zeros where it may be chance."""
     count = len(left)
     if count < _FEWEST:

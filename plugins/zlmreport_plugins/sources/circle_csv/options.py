@@ -51,7 +51,7 @@ _SENSES: Mapping[str, Approach] = MappingProxyType(
 )
 
 
-def sense(spelling: str) -> Approach:
+def read_sense(spelling: str) -> Approach:
     """Return the sense that a cell names, + for counter-clockwise; raise ValueError if it names none."""
     found = _SENSES.get(spelling.strip() if spelling.strip() in "+-" else folded(spelling))
     if found is None:
@@ -101,4 +101,4 @@ class CircleCsvOptions(TableOptions):
     @property
     def stated_sense(self) -> Approach | None:
         """The sense of all readings that the job states."""
-        return sense(self.sense) if self.sense else None
+        return read_sense(self.sense) if self.sense else None

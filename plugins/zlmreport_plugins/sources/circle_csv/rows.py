@@ -21,7 +21,7 @@ from zlmreport.plugin.table import (
     read_headings,
     time_reader,
 )
-from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, UNITS, CircleCsvOptions, sense
+from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, UNITS, CircleCsvOptions, read_sense
 
 #: A whole test in degrees goes farther round; in radians it cannot.
 _IN_RADIANS = 7.6
@@ -46,11 +46,11 @@ class CircleColumns:
         yield from self.conditions
 
 
-def circle_columns(table: TextTable, options: CircleCsvOptions, context: SourceContext) -> CircleColumns:
+def find_circle_columns(table: TextTable, options: CircleCsvOptions, context: SourceContext) -> CircleColumns:
     """Return the columns of a table; raise InputError with all that are missing or contradict each other."""
     among = read_headings(table, options)
     named = {name: heading for name in COLUMN_NAMES if (heading := find_heading(name, among, table, options))}
-    problems = list(_missing(named, among, table, options))
+    problems = list(_find_missing(named, among, table, options))
     if problems:
         raise InputError(problems)
 
@@ -72,7 +72,7 @@ def circle_columns(table: TextTable, options: CircleCsvOptions, context: SourceC
     )
 
 
-def _missing(
+def _find_missing(
     named: Mapping[str, Heading], among: Sequence[Heading], table: TextTable, options: CircleCsvOptions
 ) -> Iterator[Problem]:
     place = table.place(table.header, 0)
@@ -106,17 +106,17 @@ class CircleRow:
     place: Place
 
 
-def circle_rows(cells: Cells, layout: CircleColumns, options: CircleCsvOptions) -> Iterator[CircleRow]:
+def read_circle_rows(cells: Cells, layout: CircleColumns, options: CircleCsvOptions) -> Iterator[CircleRow]:
     """Yield the sound rows of a table."""
     time_of = time_reader(cells, layout.time)
     stated = options.stated_sense
     for row in cells.table.rows:
-        way = cells.word(row, layout.sense, sense) if layout.sense else stated
+        way = cells.word(row, layout.sense, read_sense) if layout.sense else stated
         run = cells.run(row, layout.run) if layout.run else 1.0
         angle = cells.demanded_number(row, layout.angle) if layout.angle else math.nan
         time = time_of(row)
         value = cells.number(row, layout.value)
-        conditions = tuple(_or_nan(cells.number(row, column)) for column in layout.conditions)
+        conditions = tuple(_take_or_nan(cells.number(row, column)) for column in layout.conditions)
         if way is None or run is None or angle is None or time is None or value is None:
             continue
         if layout.angle is None and math.isnan(time):
@@ -127,11 +127,11 @@ def circle_rows(cells: Cells, layout: CircleColumns, options: CircleCsvOptions) 
         )
 
 
-def _or_nan(value: float | None) -> float:
+def _take_or_nan(value: float | None) -> float:
     return math.nan if value is None else value
 
 
-def misread(
+def find_misread(
     rows: Sequence[CircleRow],
     layout: CircleColumns,
     table: TextTable,

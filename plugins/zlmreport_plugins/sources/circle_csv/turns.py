@@ -54,7 +54,7 @@ class CircleTurn:
         )
 
 
-def evaluated(
+def choose_evaluated_part(
     turn: CircleTurn, feed_in: float | None, feed_out: float | None
 ) -> tuple[CircleTurn, float, float]:
     """Return the part of a turn that is evaluated, at most one round, and the arcs before and behind it, rad.
@@ -76,7 +76,7 @@ def evaluated(
     return turn.of((way >= before - slack) & (way <= last + slack)), before, behind
 
 
-def one_after_another(turns: Sequence[CircleTurn]) -> tuple[list[CircleTurn], bool]:
+def put_one_after_another(turns: Sequence[CircleTurn]) -> tuple[list[CircleTurn], bool]:
     """Return turns whose times go on where those of each begin anew, and whether any did."""
     found: list[CircleTurn] = []
     shift, is_shifted, last = 0.0, False, -math.inf
@@ -89,7 +89,7 @@ def one_after_another(turns: Sequence[CircleTurn]) -> tuple[list[CircleTurn], bo
     return found, is_shifted
 
 
-def common_angles(turns: Sequence[CircleTurn], most: int) -> FloatArray | None:
+def find_common_angles(turns: Sequence[CircleTurn], most: int) -> FloatArray | None:
     """Return the angles that all turns share, rad in [0, 2π), rising; None where they have their own.
 
     They share them if each has half of all at least; a reading that one of them lacks is then missing.
@@ -103,7 +103,7 @@ def common_angles(turns: Sequence[CircleTurn], most: int) -> FloatArray | None:
     return np.asarray(distinct)
 
 
-def strays(turn: CircleTurn) -> Iterator[str]:
+def find_strays(turn: CircleTurn) -> Iterator[str]:
     """Yield what is wrong with the angles of a turn: they go the other way, or to and fro."""
     steps = float(turn.sense) * np.diff(turn.angle)
     if not np.count_nonzero(steps):

@@ -65,7 +65,7 @@ class EcmcEntry:
     value: str
 
 
-def entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEntry]:
+def read_entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEntry]:
     """Return the entries of a log that are read; what is wrong with a line is added to the problems."""
     found: dict[Key, EcmcEntry] = {}
     for number, line in enumerate(text.lines, 1):
@@ -75,14 +75,14 @@ def entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEntry]:
         begin = text.place(number, len(line) - len(line.lstrip()) + 1)
         name, equals, value = content.partition("=")
         try:
-            key = _key(name.strip(), stands_alone=not equals)
+            key = _read_key(name.strip(), stands_alone=not equals)
         except ValueError as error:
             problems.append(Problem(begin, str(error)))
             continue
         if key in found:
             first = found[key].place.line
             problems.append(
-                Problem(begin, f"{written(key)} stands in line {first} already; keep one of them")
+                Problem(begin, f"{write_key(key)} stands in line {first} already; keep one of them")
             )
         elif key[0] not in _NOT_READ:
             column = len(name) + 1 + len(value) - len(value.lstrip()) + 1
@@ -90,7 +90,7 @@ def entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEntry]:
     return found
 
 
-def written(key: Key) -> str:
+def write_key(key: Key) -> str:
     """Return a key as logs write it.
 
     >>> written((FORWARD, (3, 1)))
@@ -111,7 +111,7 @@ def _is_glued(line: str) -> bool:
     return bool(equals) and after.lstrip().startswith("#") and before.strip() not in _KNOWN
 
 
-def _key(text: str, *, stands_alone: bool) -> Key:
+def _read_key(text: str, *, stands_alone: bool) -> Key:
     if stands_alone:
         raise ValueError(f"{quoted(text)} is not of the form KEY=VALUE")
     match = _KEY.fullmatch(text)
@@ -173,7 +173,7 @@ class Log:
     def _targets(self, positions: int) -> Iterator[tuple[int, float]]:
         """Yield the targets by number; say what is missing, unless it may be in a line that is wrong."""
         keys = [(TARGET, (index,)) for index in range(1, positions + 1)]
-        absent = [written(key) for key in keys if key not in self.entries]
+        absent = [write_key(key) for key in keys if key not in self.entries]
         if absent and not self.problems:
             stated = self.entries.get((POSITIONS, ()))
             some = f"{', '.join(absent[:5])}{' …' if absent[5:] else ''}"
@@ -191,7 +191,7 @@ class Log:
         for key, entry in self.entries.items():
             for (name, limit), index in zip(limits, key[1], strict=False):
                 if index > limit:
-                    message = f"{written(key)} is one too many: {self._stated(name)}"
+                    message = f"{write_key(key)} is one too many: {self._stated(name)}"
                     self.problems.append(Problem(entry.place, message))
 
     def _count(self, name: str) -> int:
@@ -214,7 +214,7 @@ class Log:
         try:
             return parse_number(entry.value)
         except ValueError as error:
-            self.problems.append(Problem(entry.place, f"{written(key)}: {error}"))
+            self.problems.append(Problem(entry.place, f"{write_key(key)}: {error}"))
             return math.nan
 
 
@@ -255,18 +255,18 @@ class Ecmc:
         refuse_other_than_positions(context.axis, context.place, "such a log has positions and nothing else")
         text = read_text(options.file, options.encoding)
         problems: list[Problem] = []
-        found = entries(text, problems)
+        found = read_entries(text, problems)
         if not found:
             raise InputError.at(text.place(), "holds no entry such as 'TGT_DATA[1]=-20'; is it an ecmc log?")
         log = Log(text.place(), found, problems)
         forward = Approach.NEGATIVE if options.exchange_directions else Approach.POSITIVE
-        readings = list(log.readings(_unit(found, context), forward))
+        readings = list(log.readings(_find_unit(found, context), forward))
         remarks = (_ORDER, _EXCHANGED) if options.exchange_directions else (_ORDER,)
         provenance = Provenance(self.identifier, (text.source,), remarks)
         return collect_readings(readings, context.axis, provenance, place=text.place(), problems=problems)
 
 
-def _unit(found: Mapping[Key, EcmcEntry], context: SourceContext) -> Unit:
+def _find_unit(found: Mapping[Key, EcmcEntry], context: SourceContext) -> Unit:
     """Return the unit of all positions; raise InputError if it is none of the axis."""
     entry = found.get((UNIT, ()))
     try:

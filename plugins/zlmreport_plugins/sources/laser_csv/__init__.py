@@ -17,14 +17,19 @@ from zlmreport.plugin.source import (
     read_text,
 )
 from zlmreport.plugin.table import Cells, decimal_sign, folded, read_table
-from zlmreport_plugins.sources.laser_csv.columns import reading_heading
-from zlmreport_plugins.sources.laser_csv.layouts import counted, in_order, long_layout, wide_layout
+from zlmreport_plugins.sources.laser_csv.columns import read_heading
+from zlmreport_plugins.sources.laser_csv.layouts import (
+    count_runs,
+    find_long_layout,
+    find_wide_layout,
+    put_in_order,
+)
 from zlmreport_plugins.sources.laser_csv.options import (
     COLUMN_NAMES,
     LaserCsvOptions,
     run_and_direction,
 )
-from zlmreport_plugins.sources.laser_csv.remarks import remarks
+from zlmreport_plugins.sources.laser_csv.remarks import list_remarks
 
 
 class LaserCsv:
@@ -37,9 +42,9 @@ class LaserCsv:
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a table that somebody else laid out may be read."""
-        from zlmreport_plugins.sources.laser_csv.proposals import proposals
+        from zlmreport_plugins.sources.laser_csv.proposals import propose
 
-        return proposals(file)
+        return propose(file)
 
     def read(self, options: LaserCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read a table; raise `InputError` with every defect and its place."""
@@ -48,21 +53,21 @@ class LaserCsv:
         said: list[Words] = []
         for each in options.tables:
             text = read_text(each.file, each.encoding, each.sheet)
-            table = read_table(text, each, partial(_names_column, options=each))
-            layout = (wide_layout if each.layout == "wide" else long_layout)(table, each, context)
+            table = read_table(text, each, partial(_is_column_name, options=each))
+            layout = (find_wide_layout if each.layout == "wide" else find_long_layout)(table, each, context)
             sign = each.stated_decimal_sign or decimal_sign(
                 table, [column.index for column in layout.number_columns()], each.thousands_signs
             )
             cells = Cells(table, sign, each.thousands_signs, each.words_for_missing)
             sense = -1.0 if each.sign == "nominal-actual" else 1.0
-            readings += in_order(layout.readings(cells, sense), each)
+            readings += put_in_order(layout.readings(cells, sense), each)
             problems += [*table.problems, *cells.problems]
-            said += [remark for remark in remarks(table, layout, each) if remark not in said]
+            said += [remark for remark in list_remarks(table, layout, each) if remark not in said]
         if options.parts and options.layout == "wide":
             readings.sort(key=lambda reading: (reading.run, -reading.approach))  # as one table lists them
         provenance = Provenance(self.identifier, (text.source,), tuple(said))
         return collect_readings(
-            counted(readings) if options.runs else readings,
+            count_runs(readings) if options.runs else readings,
             context.axis,
             provenance,
             place=text.place(),
@@ -70,9 +75,9 @@ class LaserCsv:
         )
 
 
-def _names_column(text: str, options: LaserCsvOptions) -> bool:
+def _is_column_name(text: str, options: LaserCsvOptions) -> bool:
     """Whether a header is a name that this source or the job knows."""
-    named = reading_heading(text)
+    named = read_heading(text)
     return (
         folded(named.name) in COLUMN_NAMES
         or any(named.is_called(name) for name in (*options.columns.values(), *options.ignore))

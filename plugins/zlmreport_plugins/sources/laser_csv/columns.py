@@ -10,7 +10,7 @@ from zlmreport.plugin.table import Heading, TextColumn, TextTable, column_with_u
 from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions, names_direction
 
 
-def reading_heading(text: str) -> Heading:
+def read_heading(text: str) -> Heading:
     """Return a name in a header, its unit taken off; a direction in brackets belongs to the name.
 
     >>> reading_heading("Run (up)").name
@@ -19,14 +19,16 @@ def reading_heading(text: str) -> Heading:
     return heading_of(text, is_no_unit=names_direction)
 
 
-def column_of(
+def find_column_of(
     name: str, heading: Heading, options: LaserCsvOptions, context: SourceContext, table: TextTable
 ) -> TextColumn:
     """Return a known column with its unit; raise `InputError` if the unit is none of its quantity."""
-    return column_with_unit(name, heading, options, _units(name, context.axis), context.place, table)
+    return column_with_unit(name, heading, options, _list_units(name, context.axis), context.place, table)
 
 
-def _units(name: str, axis: Axis) -> tuple[Mapping[str, Unit | ReadingScale], Unit | ReadingScale] | None:
+def _list_units(
+    name: str, axis: Axis
+) -> tuple[Mapping[str, Unit | ReadingScale], Unit | ReadingScale] | None:
     """Return the units that a column may have by their spellings, and the usual one."""
     if name in {"target", "position"}:
         return axis.position_units, axis.position_unit

@@ -15,7 +15,7 @@ from zlmreport.plugin.table import (
     first_cell,
 )
 from zlmreport_plugins.sources.laser_csv import questions
-from zlmreport_plugins.sources.laser_csv.columns import reading_heading
+from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import READING, number
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
@@ -107,7 +107,7 @@ def place_table(draft: Draft) -> None:
         keys["header_rows"] = 2
     below = [row for row in table.below if any(row.cells)]
     if below:
-        beginning = _without_number_at_end(first_cell(below[0].cells)[:_LONGEST_BEGINNING].strip())
+        beginning = _strip_number_at_end(first_cell(below[0].cells)[:_LONGEST_BEGINNING].strip())
         data = (first_cell(row.cells).casefold() for row in table.rows)
         is_clear = beginning and number(beginning, table.notation) is None
         if is_clear and not any(each.startswith(beginning.casefold()) for each in data):
@@ -117,7 +117,7 @@ def place_table(draft: Draft) -> None:
             keys["lines"] = [table.header.line or table.rows[0].line, table.rows[-1].line]
 
 
-def _without_number_at_end(text: str) -> str:
+def _strip_number_at_end(text: str) -> str:
     """Return the beginning of a line that holds from one file to the next: ``Operator: Miller`` its name."""
     head, colon, _ = text.partition(":")
     return f"{head}:" if colon and head else text
@@ -176,7 +176,7 @@ def is_unit_known(what: str, draft: Draft, index: int) -> bool:
     below = table.units.cells[index] if table.units and index < len(table.units.cells) else ""
     behind = next((cell.lstrip("+-−0123456789.,'’ \u00a0") for cell in table.column(index) if cell), "")
     for spelling in (
-        reading_heading(table.header.cells[index]).bracket or "",
+        read_heading(table.header.cells[index]).bracket or "",
         below.strip("()[] "),
         behind.strip(),
     ):

@@ -20,11 +20,11 @@ from zlmreport.plugin.table import (
     read_headings,
     time_reader,
 )
-from zlmreport_plugins.sources.laser_csv.columns import column_of
+from zlmreport_plugins.sources.laser_csv.columns import find_column_of
 from zlmreport_plugins.sources.laser_csv.options import (
     LaserCsvOptions,
-    direction,
     names_direction,
+    read_direction,
     run_and_direction,
 )
 
@@ -62,11 +62,15 @@ class LongLayout:
         time_of = time_reader(cells, self.time)
         for row in cells.table.rows:
             target = cells.demanded_number(row, self.target)
-            approach = cells.word(row, self.direction, direction) if self.direction else self.stated_direction
+            approach = (
+                cells.word(row, self.direction, read_direction) if self.direction else self.stated_direction
+            )
             run = cells.run(row, self.run) if self.run else 1.0
             value = cells.number(row, self.value)
             time = time_of(row)
-            conditions = {condition.name: _kept(cells, row, condition) for condition in self.conditions}
+            conditions = {
+                condition.name: _keep_condition(cells, row, condition) for condition in self.conditions
+            }
             if target is None or approach is None or run is None or value is None or time is None:
                 continue
             yield Reading(
@@ -80,7 +84,7 @@ class LongLayout:
             )
 
 
-def long_layout(table: TextTable, options: LaserCsvOptions, context: SourceContext) -> LongLayout:
+def find_long_layout(table: TextTable, options: LaserCsvOptions, context: SourceContext) -> LongLayout:
     """Return the columns of a long table; raise InputError with all that are missing or in doubt."""
     among = read_headings(table, options, names_direction)
     by_name = {
@@ -88,12 +92,14 @@ def long_layout(table: TextTable, options: LaserCsvOptions, context: SourceConte
         for name in ("target", "direction", "run", "deviation", "position", "time", *CONDITIONS)
         if (heading := find_heading(name, among, table, options))
     }
-    problems = list(_missing(by_name, among, table, options))
+    problems = list(_find_missing(by_name, among, table, options))
     if problems:
         raise InputError(problems)
     if "position" in by_name and not context.axis.measurand.is_position:
-        raise InputError.at(table.place(table.header, by_name["position"].index), _no_positions(context))
-    known = {name: column_of(name, heading, options, context, table) for name, heading in by_name.items()}
+        raise InputError.at(table.place(table.header, by_name["position"].index), _say_no_positions(context))
+    known = {
+        name: find_column_of(name, heading, options, context, table) for name, heading in by_name.items()
+    }
     taken = {found.index for found in known.values()}
     return LongLayout(
         known["target"],
@@ -113,7 +119,7 @@ def long_layout(table: TextTable, options: LaserCsvOptions, context: SourceConte
     )
 
 
-def in_order(readings: Iterable[Reading], options: LaserCsvOptions) -> list[Reading]:
+def put_in_order(readings: Iterable[Reading], options: LaserCsvOptions) -> list[Reading]:
     """Return the readings of a long table with what their order tells, where the job says so.
 
     Directions: a target above the one before was approached upwards, one below it downwards, and where the
@@ -124,12 +130,12 @@ def in_order(readings: Iterable[Reading], options: LaserCsvOptions) -> list[Read
         targets = [reading.target_position for reading in found]
         found = [
             replace(reading, approach=Approach(sense))
-            for reading, sense in zip(found, senses(targets), strict=True)
+            for reading, sense in zip(found, find_senses(targets), strict=True)
         ]
     return found
 
 
-def counted(readings: Iterable[Reading]) -> Iterator[Reading]:
+def count_runs(readings: Iterable[Reading]) -> Iterator[Reading]:
     """Yield readings with their runs: the n-th of a target in a direction is of run n."""
     taken: Counter[tuple[float, Approach]] = Counter()
     for reading in readings:
@@ -138,7 +144,7 @@ def counted(readings: Iterable[Reading]) -> Iterator[Reading]:
         yield replace(reading, run=float(taken[same]))
 
 
-def senses(targets: Sequence[float]) -> list[int]:
+def find_senses(targets: Sequence[float]) -> list[int]:
     """Return for each target, in order, in which sense it was approached: +1 or −1.
 
     >>> senses([0, 5, 10, 10, 5, 0, 0, 5])
@@ -152,14 +158,14 @@ def senses(targets: Sequence[float]) -> list[int]:
     return senses[::-1]
 
 
-def _no_positions(context: SourceContext) -> str:
+def _say_no_positions(context: SourceContext) -> str:
     return (
         "actual positions give deviations of positioning only, and this job is on "
         f"{context.axis.measurand.identifier}; its readings are deviations"
     )
 
 
-def _missing(
+def _find_missing(
     by_name: Iterable[str], among: Sequence[Heading], table: TextTable, options: LaserCsvOptions
 ) -> Iterator[Problem]:
     """Yield the columns that are missing, or that contradict each other or the job."""
@@ -193,7 +199,7 @@ def _missing(
         )
 
 
-def _kept(cells: Cells, row: TextRow, condition: TextColumn) -> float:
+def _keep_condition(cells: Cells, row: TextRow, condition: TextColumn) -> float:
     """Return a condition; NaN if it is none, which is noted then."""
     noted = len(cells.problems)
     value = cells.number(row, condition)
@@ -261,13 +267,13 @@ class WideLayout:
                     yield Reading(place, target, run.approach, float(run.run), deviation)
 
 
-def wide_layout(table: TextTable, options: LaserCsvOptions, context: SourceContext) -> WideLayout:
+def find_wide_layout(table: TextTable, options: LaserCsvOptions, context: SourceContext) -> WideLayout:
     """Return the columns of a wide table; raise InputError with every column that has no meaning."""
     among = read_headings(table, options, names_direction)
     target = find_heading("target", among, table, options)
     problems = [] if target else [missing_column("target", among, table, options)]
     if options.values == "position" and not context.axis.measurand.is_position:
-        problems.append(Problem(table.place(table.header, 0), _no_positions(context)))
+        problems.append(Problem(table.place(table.header, 0), _say_no_positions(context)))
     if options.values == "position" and options.sign == "nominal-actual":
         problems.append(
             Problem(
@@ -279,7 +285,7 @@ def wide_layout(table: TextTable, options: LaserCsvOptions, context: SourceConte
     for named in among:
         if named is target:
             continue
-        told = _told(named, options)
+        told = _tell_run_and_direction(named, options)
         place = table.place(table.header, named.index)
         if told is None:
             problems.append(
@@ -299,7 +305,7 @@ def wide_layout(table: TextTable, options: LaserCsvOptions, context: SourceConte
                 Problem(place, f"{quoted(named.text)} and {quoted(other)} are the same run and direction")
             )
         else:
-            read = column_of(options.values, named, options, context, table)
+            read = find_column_of(options.values, named, options, context, table)
             runs[told[0], told[1]] = RunColumn(read, told[0], told[1])
     if not runs and not problems:
         problems.append(
@@ -307,10 +313,10 @@ def wide_layout(table: TextTable, options: LaserCsvOptions, context: SourceConte
         )
     if problems or target is None:
         raise InputError(problems)
-    return WideLayout(column_of("target", target, options, context, table), tuple(runs.values()))
+    return WideLayout(find_column_of("target", target, options, context, table), tuple(runs.values()))
 
 
-def _told(named: Heading, options: LaserCsvOptions) -> tuple[int, Approach | None] | None:
+def _tell_run_and_direction(named: Heading, options: LaserCsvOptions) -> tuple[int, Approach | None] | None:
     """Return run and direction of a column: as mapped, else as named, else as stated for all columns."""
     for key, file_name in options.columns.items():
         if named.is_called(file_name):

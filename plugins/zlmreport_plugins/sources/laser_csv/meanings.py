@@ -13,7 +13,7 @@ from types import MappingProxyType
 from zlmreport.plugin import Approach, DecimalSign
 from zlmreport.plugin.source import parse_number
 from zlmreport.plugin.table import folded, without_thousands
-from zlmreport_plugins.sources.laser_csv.columns import reading_heading
+from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.options import (
     COLUMN_NAMES,
     names_direction,
@@ -103,24 +103,24 @@ _ANGLE = re.compile(r"([+−-]?[0-9]+)\s*°.*")
 
 
 @lru_cache(maxsize=4096)
-def meaning(name: str) -> str | None:
+def find_meaning(name: str) -> str | None:
     """Return what a column is by its name: one of `COLUMN_NAMES`, `PLACE`, `VALUE`; None if open."""
-    called = folded(reading_heading(name).name)
+    called = folded(read_heading(name).name)
     if called in _CALLED:
         return _CALLED[called]
     if called in COLUMN_NAMES:
         return called
-    return READING if reading_of(name) else None
+    return READING if find_reading_of(name) else None
 
 
 @lru_cache(maxsize=4096)
-def reading_of(name: str) -> tuple[int, Approach | None] | None:
+def find_reading_of(name: str) -> tuple[int, Approach | None] | None:
     """Return the run, and the direction if it is named, of a column of readings: ``M1 (auf)``, ``2. Lauf ↓``.
 
     >>> reading_of("2. Lauf ab"), reading_of("Hin"), reading_of("Mittelwert 1")
     ((2, <Approach.NEGATIVE: -1>), (1, <Approach.POSITIVE: 1>), None)
     """
-    called = reading_heading(name).name
+    called = read_heading(name).name
     told = run_and_direction(called)
     if told:
         return told
@@ -205,12 +205,12 @@ def number(cell: str, notation: Notation) -> float | None:
     return None
 
 
-def resolved(names: Sequence[str], columns: Sequence[Sequence[float | None]]) -> list[str | None]:
+def resolve_meanings(names: Sequence[str], columns: Sequence[Sequence[float | None]]) -> list[str | None]:
     """Return what columns are, where one alone leaves it open: each of `COLUMN_NAMES` once, readings, None.
 
     `columns`: Their numbers, by row.
     """
-    found = [meaning(name) for name in names]
+    found = [find_meaning(name) for name in names]
     readings = found.count(READING)
     _settle(found, PLACE, "target")
     if "target" not in found and readings:

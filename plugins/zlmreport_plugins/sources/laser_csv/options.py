@@ -94,7 +94,7 @@ _HEADERS = (
 )
 
 
-def direction(spelling: str) -> Approach:
+def read_direction(spelling: str) -> Approach:
     """Return the direction of approach that a cell names; raise ValueError if it names none."""
     found = _DIRECTIONS.get(spelling.strip().casefold())
     if found is None:
@@ -218,4 +218,4 @@ class LaserCsvOptions(_Part, TableOptions):
     @property
     def stated_direction(self) -> Approach | None:
         """The direction of all readings that the job states."""
-        return None if self.direction in {None, "by-order"} else direction(self.direction)
+        return None if self.direction in {None, "by-order"} else read_direction(self.direction)

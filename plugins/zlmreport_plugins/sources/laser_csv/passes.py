@@ -12,9 +12,9 @@ from typing import Any
 from zlmreport.plugin import Approach
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.drafts import Draft
-from zlmreport_plugins.sources.laser_csv.layouts import senses
+from zlmreport_plugins.sources.laser_csv.layouts import find_senses
 from zlmreport_plugins.sources.laser_csv.meanings import number
-from zlmreport_plugins.sources.laser_csv.options import direction, names_direction, run_and_direction
+from zlmreport_plugins.sources.laser_csv.options import names_direction, read_direction, run_and_direction
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
 
@@ -25,7 +25,7 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
     targets = [value for value in table.numbers(draft.index("target") or 0) if value is not None]
     if directions is not None and _are_directions(table.column(directions)):
         taken = [
-            (target, direction(cell))
+            (target, read_direction(cell))
             for target, cell in zip(targets, table.column(directions), strict=False)
             if cell
         ]
@@ -37,8 +37,8 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
     if directions is not None:
         draft.ignored.append(draft.name(directions))
         draft.columns.pop("direction", None)
-    taken_in = senses(targets)
-    goes_back = _goes_back(targets)
+    taken_in = find_senses(targets)
+    goes_back = _find_way_back(targets)
     if goes_back or all(sense > 0 for sense in taken_in) or _is_one_pass_each(draft, taken_in):
         draft.keys["direction"] = goes_back or "+"
         draft.asks.append(questions.DIRECTION_ASKED)
@@ -60,12 +60,12 @@ def tell_passes(draft: Draft) -> Iterator[Draft]:
 
 def _are_directions(cells: Sequence[str]) -> bool:
     try:
-        return bool([direction(cell) for cell in cells if cell])
+        return bool([read_direction(cell) for cell in cells if cell])
     except ValueError:
         return False
 
 
-def _goes_back(targets: Sequence[float]) -> str:
+def _find_way_back(targets: Sequence[float]) -> str:
     """Return the sign in which all targets were approached, where the axis goes back in one step."""
     first, last = min(targets), max(targets)
     for sign, begin, end in (("+", first, last), ("-", last, first)):
@@ -101,7 +101,7 @@ def _are_passes(runs: Sequence[str], taken_in: Sequence[int]) -> bool:
     )
 
 
-def of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iterator[Draft]:
+def draft_of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iterator[Draft]:
     """Yield how a file is read that has a table of each direction: a sheet each, or below one another.
 
     `drafts`: How the first table found is read alone.
@@ -115,9 +115,9 @@ def of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iterator[D
     if len(sheets) > 1:
         for sheet, table in sheets.items():
             part = {"sheet": sheet} | ({"skip_rows": table.layout.skipped} if table.layout.skipped else {})
-            parts.append((part, _direction_in(sheet)))
+            parts.append((part, _find_direction_in(sheet)))
     else:
-        parts = list(_stacked(best))
+        parts = list(_list_stacked(best))
     if len(parts) < 2 or {approach for _, approach in parts} != {*Approach}:
         return
     draft = deepcopy(drafts[0])
@@ -132,7 +132,7 @@ def of_parts(found: Sequence[FoundTable], drafts: Sequence[Draft]) -> Iterator[D
     yield draft
 
 
-def _stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach | None]]:
+def _list_stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach | None]]:
     """Yield the tables with the same header that stand below each other, each with the direction above it."""
     if table.layout.is_transposed or table.layout.header_rows != 1:
         return
@@ -142,7 +142,7 @@ def _stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach | Non
     rows = iter(table.below)
     while True:
         above = " ".join(line for number_, line in numbered.items() if before - 3 < number_ < header.line)
-        yield {"lines": [header.line, last]}, _direction_in(above)
+        yield {"lines": [header.line, last]}, _find_direction_in(above)
         again = next((row for row in rows if row.cells == table.header.cells), None)
         if again is None:
             return
@@ -154,8 +154,8 @@ def _stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach | Non
                 break
 
 
-def _direction_in(text: str) -> Approach | None:
+def _find_direction_in(text: str) -> Approach | None:
     """Return the direction that a text names, if it names one only."""
     words = re.findall(r"[^\W\d_]+|[↑↓→←]", text.casefold())
-    named = {direction(word) for word in words if names_direction(word)}
+    named = {read_direction(word) for word in words if names_direction(word)}
     return named.pop() if len(named) == 1 else None

@@ -11,7 +11,7 @@ from zlmreport.plugin import Approach
 from zlmreport.plugin.source import SourceProposal
 from zlmreport.plugin.table import folded, moment
 from zlmreport_plugins.sources.laser_csv import questions
-from zlmreport_plugins.sources.laser_csv.columns import reading_heading
+from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.drafts import (
     Draft,
     is_unit_known,
@@ -23,13 +23,13 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     READING,
     Notation,
     are_positions,
-    meaning,
+    find_meaning,
+    find_reading_of,
     number,
-    reading_of,
 )
 from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, run_and_direction
-from zlmreport_plugins.sources.laser_csv.passes import of_parts, tell_passes
-from zlmreport_plugins.sources.laser_csv.tables import FoundTable, tables, texts
+from zlmreport_plugins.sources.laser_csv.passes import draft_of_parts, tell_passes
+from zlmreport_plugins.sources.laser_csv.tables import FoundTable, find_tables, list_texts
 
 #: Axes that turn, by their letters, and a whole turn of them in degrees.
 _TURNING, _WHOLE_TURN = frozenset("ABC"), 360.0
@@ -41,19 +41,19 @@ _AXIS = re.compile(
 )
 
 
-def proposals(file: Path) -> Iterator[SourceProposal]:
+def propose(file: Path) -> Iterator[SourceProposal]:
     """Yield the keys by which a file may be read, the likeliest first."""
-    found = [table for text in texts(file) for table in tables(text)]
+    found = [table for text in list_texts(file) for table in find_tables(text)]
     found.sort(key=lambda table: table.score, reverse=True)
-    axis = _axis(file, found)
-    drafts = [each for table in found for each in _drafts(table)]
-    for draft in (*of_parts(found, drafts[:1]), *drafts):
+    axis = _find_axis(file, found)
+    drafts = [each for table in found for each in _list_drafts(table)]
+    for draft in (*draft_of_parts(found, drafts[:1]), *drafts):
         _ask_for_sheet(draft, found)
         _ask_for_kind(draft, axis)
-        yield SourceProposal(_ordered(draft), tuple(draft.asks), axis)
+        yield SourceProposal(_order_keys(draft), tuple(draft.asks), axis)
 
 
-def _axis(file: Path, found: Sequence[FoundTable]) -> str:
+def _find_axis(file: Path, found: Sequence[FoundTable]) -> str:
     """Return the letter of the axis that the file, its name or what stands above the table names."""
     above = [
         line for table in found[:1] for line in table.found.text.lines[: table.layout.skipped + _COMMENTS]
@@ -65,27 +65,27 @@ def _axis(file: Path, found: Sequence[FoundTable]) -> str:
     return ""
 
 
-def _drafts(table: FoundTable) -> Iterator[Draft]:
+def _list_drafts(table: FoundTable) -> Iterator[Draft]:
     """Yield the ways in which a table may be read."""
     draft = Draft(table)
     place_table(draft)
     note_notation(draft)
     if table.is_wide:
-        _wide(draft)
+        _draft_wide(draft)
         yield draft
         return
-    _value(draft)
-    _other_columns(draft)
+    _draft_value(draft)
+    _draft_other_columns(draft)
     yield from tell_passes(draft)
 
 
-def _wide(draft: Draft) -> None:
+def _draft_wide(draft: Draft) -> None:
     """Say which columns are readings, of what, and leave out the others."""
     table, keys = draft.table, draft.keys
     keys["layout"] = "wide"
     target = draft.index("target") or 0
     readings = [index for index, each in enumerate(table.meanings) if each == READING]
-    told = [reading_of(draft.name(index)) or (1, None) for index in readings]
+    told = [find_reading_of(draft.name(index)) or (1, None) for index in readings]
     if all(approach is None for _, approach in told):
         keys["direction"] = "+"
         draft.asks.append(questions.DIRECTION_ASKED)
@@ -94,9 +94,9 @@ def _wide(draft: Draft) -> None:
         _name_all(draft, target, readings, told)
     else:
         for index, (run, approach) in zip(readings, told, strict=True):
-            if run_and_direction(reading_heading(draft.name(index)).name) != (run, approach):
+            if run_and_direction(read_heading(draft.name(index)).name) != (run, approach):
                 sign = (approach or Approach.POSITIVE).sign
-                draft.columns[f"{run}{sign}"] = reading_heading(draft.name(index)).name
+                draft.columns[f"{run}{sign}"] = read_heading(draft.name(index)).name
         draft.ignored += [
             name
             for index, name in enumerate(table.header.cells)
@@ -117,7 +117,7 @@ def _has_equal_names(table: FoundTable) -> bool:
 
 
 def _name_target(draft: Draft, target: int) -> None:
-    name = reading_heading(draft.name(target)).name
+    name = read_heading(draft.name(target)).name
     if name and folded(name) != "target":
         draft.columns["target"] = name
     is_unit_known("target", draft, target)
@@ -148,7 +148,7 @@ def _name_all(
     draft.ignored += others.values()
 
 
-def _value(draft: Draft) -> None:
+def _draft_value(draft: Draft) -> None:
     """Say what a long table holds, and where: deviations, or actual positions."""
     target = draft.index("target") or 0
     deviation, position = draft.index("deviation"), draft.index("position")
@@ -192,7 +192,7 @@ def _compare(draft: Draft, target: int, deviation: int, position: int) -> None:
         draft.asks.append(questions.SIGN_ASKED)
 
 
-def _other_columns(draft: Draft) -> None:
+def _draft_other_columns(draft: Draft) -> None:
     """Name the columns that go by other names, and leave out those that hold words or count the rows."""
     table = draft.table
     for index, (name, what) in enumerate(zip(table.header.cells, table.meanings, strict=True)):
@@ -204,12 +204,12 @@ def _other_columns(draft: Draft) -> None:
             draft.asks.append(questions.TIME_ASKED.format(name=repr(name), example=repr(cells[0])))
         elif what is None and (
             any(number(cell, table.notation) is None for cell in cells)
-            or meaning(name) is not None
+            or find_meaning(name) is not None
             or not cells
         ):
             draft.ignored.append(name)
         elif what is not None and what not in {"target", READING}:
-            plain = reading_heading(name).name
+            plain = read_heading(name).name
             if folded(plain) != what:
                 draft.columns[what] = plain
             is_unit_known(what, draft, index)
@@ -238,7 +238,7 @@ def _ask_for_sheet(draft: Draft, found: Sequence[FoundTable]) -> None:
         )
 
 
-def _ordered(draft: Draft) -> dict[str, Any]:
+def _order_keys(draft: Draft) -> dict[str, Any]:
     """Return the keys in the order in which people read them."""
     keys = draft.keys
     if draft.columns:

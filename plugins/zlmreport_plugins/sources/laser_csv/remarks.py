@@ -15,12 +15,14 @@ _NAMES = {
 }
 
 
-def remarks(table: TextTable, layout: LongLayout | WideLayout, options: LaserCsvOptions) -> Iterator[Words]:
+def list_remarks(
+    table: TextTable, layout: LongLayout | WideLayout, options: LaserCsvOptions
+) -> Iterator[Words]:
     """Yield what a reader of the results must know of the table."""
     yield from _place(table, options)
     target, values = layout.columns[0], layout.value_columns
     yield Words("Target positions from the column {target}, {quantity} from {values}.").given(
-        target=_with_unit(target), quantity=_NAMES[values[0].name], values=_listed(values)
+        target=_write_with_unit(target), quantity=_NAMES[values[0].name], values=_list_columns(values)
     )
     if options.sign == "nominal-actual":
         yield Words("The file gives deviations as nominal − actual; their sign was exchanged on reading.")
@@ -43,7 +45,7 @@ def remarks(table: TextTable, layout: LongLayout | WideLayout, options: LaserCsv
             yield Words("Runs were counted: the n-th reading of a target in a direction is of run n.")
         elif layout.run is None:
             yield Words("The file names no runs: all readings were taken as one run.")
-        yield from _other_conditions(layout.conditions)
+        yield from _say_other_conditions(layout.conditions)
     if options.missing:
         yield Words("A reading counts as missing where the file has {words}.").given(
             words=", ".join(options.missing)
@@ -63,20 +65,20 @@ def _place(table: TextTable, options: LaserCsvOptions) -> Iterator[Words]:
         yield Words("Lines {first} to {last} of the file were read.").given(first=lines[0], last=lines[-1])
 
 
-def _other_conditions(conditions: Iterable[TextColumn]) -> Iterator[Words]:
+def _say_other_conditions(conditions: Iterable[TextColumn]) -> Iterator[Words]:
     others = [condition.text for condition in conditions if condition.name not in COLUMN_NAMES]
     if others:
         yield Words("Columns kept as conditions, as found: {names}.").given(names=", ".join(others))
 
 
-def _listed(columns: Sequence[TextColumn]) -> Words:
+def _list_columns(columns: Sequence[TextColumn]) -> Words:
     """Return the column with its unit; of several, the first and the last."""
     if len(columns) == 1:
-        return _with_unit(columns[0])
-    first, last = _with_unit(columns[0]), _with_unit(columns[-1])
+        return _write_with_unit(columns[0])
+    first, last = _write_with_unit(columns[0]), _write_with_unit(columns[-1])
     return Words("{first} to {last}").given(first=first, last=last)
 
 
-def _with_unit(column: TextColumn) -> Words:
+def _write_with_unit(column: TextColumn) -> Words:
     words = Words("“{name}” ({unit})")
     return words.given(name=column.text, unit=column.unit.symbol if column.unit else "")

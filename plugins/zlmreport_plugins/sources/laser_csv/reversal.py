@@ -76,7 +76,7 @@ class ReversedLaserCsv:
             np.searchsorted(first.runs, first.run),
         ]
         artefact = replace(first, deviation=(first.deviation - turned) / 2).deviations()
-        size = first.axis.deviation_unit.from_si(_straightness(first.target_positions, artefact))
+        size = first.axis.deviation_unit.from_si(_measure_straightness(first.target_positions, artefact))
         remark = _MEAN.given(artefact=_ARTEFACTS[options.artefact], size=float(f"{size:.3g}"))
         files = (*first.provenance.files, *second.provenance.files)
         own = first.provenance.remarks
@@ -104,7 +104,7 @@ def _demand_one_test(first: MeasurementSet, second: MeasurementSet, options: Rev
             )
 
 
-def _straightness(positions: FloatArray, deviations: FloatArray) -> float:
+def _measure_straightness(positions: FloatArray, deviations: FloatArray) -> float:
     """Return the span of the mean of all readings by position about its least squares line, m."""
     with np.errstate(invalid="ignore"):
         there = np.isfinite(deviations)

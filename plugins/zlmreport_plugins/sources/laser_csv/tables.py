@@ -28,9 +28,9 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     READING,
     VALUE,
     Notation,
-    meaning,
+    find_meaning,
     number,
-    resolved,
+    resolve_meanings,
 )
 
 #: Lines that are looked through for a header; and those of a table that may lie on its side.
@@ -107,7 +107,7 @@ class FoundTable:
     def score(self) -> tuple[float, ...]:
         """By which of several ways to read a file the likeliest is known."""
         known = sum(each is not None for each in self.meanings)
-        is_named = any(meaning(name) in _TARGET for name in self.header.cells)
+        is_named = any(find_meaning(name) in _TARGET for name in self.header.cells)
         return (
             is_named,
             known / len(self.meanings) + min(known, 8),
@@ -124,7 +124,7 @@ class FoundTable:
         return [number(cell, self.notation) for cell in self.column(index)]
 
 
-def texts(file: Path) -> Iterator[FoundText]:
+def list_texts(file: Path) -> Iterator[FoundText]:
     """Yield what can be read as lines: every sheet of a workbook, or the text in the encoding that fits."""
     try:
         sheets = sheets_of(file)
@@ -136,40 +136,42 @@ def texts(file: Path) -> Iterator[FoundText]:
                 text = read_text(file, sheet=sheet)
             except InputError:
                 continue
-            yield _found(text, {"sheet": sheet} if len(sheets) > 1 else {})
+            yield _find_text(text, {"sheet": sheet} if len(sheets) > 1 else {})
         return
     for encoding in likely_encodings(file):
         try:
             text = read_text(file, encoding)
         except InputError:
             continue
-        yield _found(text, {"encoding": encoding} if encoding else {})
+        yield _find_text(text, {"encoding": encoding} if encoding else {})
         return
 
 
-def _found(text: TextFile, keys: Mapping[str, Any]) -> FoundText:
+def _find_text(text: TextFile, keys: Mapping[str, Any]) -> FoundText:
     lines = whole_lines(text.numbered())
     return FoundText(text, keys, lines[1:] if lines and states_delimiter(lines[0][1]) else lines)
 
 
-def tables(found: FoundText) -> list[FoundTable]:
+def find_tables(found: FoundText) -> list[FoundTable]:
     """Return the tables of readings that a text may hold, the likeliest first."""
     candidates = [
-        *(each for delimiter in _delimiters(found) for each in _upright(found, delimiter)),
-        *(each for delimiter in _delimiters(found) for each in _lying(found, delimiter)),
+        *(each for delimiter in _list_delimiters(found) for each in _find_upright(found, delimiter)),
+        *(each for delimiter in _list_delimiters(found) for each in _find_lying(found, delimiter)),
     ]
     if not candidates:
-        candidates = [each for delimiter in _delimiters(found) for each in _nameless(found, delimiter)]
+        candidates = [
+            each for delimiter in _list_delimiters(found) for each in _find_nameless(found, delimiter)
+        ]
     return sorted(candidates, key=lambda each: each.score, reverse=True)[:_MOST_TABLES]
 
 
-def _delimiters(found: FoundText) -> Sequence[str]:
+def _list_delimiters(found: FoundText) -> Sequence[str]:
     if found.text.of_cells:
         return ("\t",)
     return [each for each in DELIMITERS if any(each in line for _, line in found.lines)] + [PARTED_BY_BLANKS]
 
 
-def _upright(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
+def _find_upright(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     """Yield the tables whose header is a row of the text, or two."""
     rows = _rows(found.lines, delimiter)
     for index in range(min(len(rows), _DEEPEST)):
@@ -178,10 +180,10 @@ def _upright(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
                 continue
             above = [row for row in rows[index : index + count] if row]
             header = joined_header(above)
-            if _may_be_header(header.cells) and not any(holds_units(row.cells) for row in above):
+            if _is_perhaps_header(header.cells) and not any(holds_units(row.cells) for row in above):
                 skipped = found.lines[index][0] - 1 if index else 0
                 layout = FoundLayout(found, delimiter, count, skipped)
-                yield from _below(layout, header, [row for row in rows[index + count :] if row])
+                yield from _find_below(layout, header, [row for row in rows[index + count :] if row])
 
 
 def is_summary(cells: Sequence[str]) -> bool:
@@ -190,16 +192,16 @@ def is_summary(cells: Sequence[str]) -> bool:
     return bool(words) and words[0].startswith(_SUMMARIES)
 
 
-def _lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
+def _find_lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     """Yield the tables that lie on their side: a row of targets, and readings below it."""
     if len(found.lines) > _WIDEST:
         return
     rows = _rows(found.lines, delimiter)
     for index, row in enumerate(rows[:_DEEPEST]):
-        if row is None or meaning(row.cells[0]) not in _TARGET:
+        if row is None or find_meaning(row.cells[0]) not in _TARGET:
             continue
         lines = [each for each in rows[index:] if each]
-        names = [each.cells[0] for each in lines if meaning(each.cells[0])]
+        names = [each.cells[0] for each in lines if find_meaning(each.cells[0])]
         if sum(map(_is_number, row.cells[1:])) < 2 or len(set(names)) < len(names):
             continue
         width = max(len(each.cells) for each in lines)
@@ -209,29 +211,31 @@ def _lying(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
         ]
         skipped = found.lines[index][0] - 1 if index else 0
         below = [each for each in turned[1:] if any(each.cells)]
-        yield from _below(FoundLayout(found, delimiter, 1, skipped, is_transposed=True), turned[0], below)
+        yield from _find_below(
+            FoundLayout(found, delimiter, 1, skipped, is_transposed=True), turned[0], below
+        )
 
 
-def _nameless(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
+def _find_nameless(found: FoundText, delimiter: str) -> Iterator[FoundTable]:
     """Yield a table of two columns of numbers without names, but those that a comment may give."""
     rows = _rows(found.lines, delimiter)
     first = next((row for row in rows if row and all(map(_is_number, row.cells))), None)
     if first is None or len(first.cells) < 2:
         return
-    names = _commented(found.text, first, delimiter) or ("",) * len(first.cells)
+    names = _find_commented(found.text, first, delimiter) or ("",) * len(first.cells)
     if not any(names) and len(first.cells) != 2:
         return
     header = TextRow(0, "", "", names)
     skipped = first.line - 1 if any(line < first.line for line, _ in found.lines) else 0
     below = [row for row in rows if row and row.line >= first.line]
-    yield from _below(FoundLayout(found, delimiter, 0, skipped), header, below)
+    yield from _find_below(FoundLayout(found, delimiter, 0, skipped), header, below)
 
 
 def _is_number(cell: str) -> bool:
     return number(cell, Notation.of([cell])) is not None
 
 
-def _commented(text: TextFile, first: TextRow, delimiter: str) -> tuple[str, ...]:
+def _find_commented(text: TextFile, first: TextRow, delimiter: str) -> tuple[str, ...]:
     """Return the names that the last comment above a table gives, if it gives one for each column."""
     for line in reversed(text.lines[: first.line - 1]):
         if line.lstrip().startswith("#"):
@@ -239,7 +243,7 @@ def _commented(text: TextFile, first: TextRow, delimiter: str) -> tuple[str, ...
                 cells = parted_line(1, line.lstrip().lstrip("#").strip(), delimiter).cells
             except EnclosureError:
                 return ()
-            return cells if len(cells) == len(first.cells) and _may_be_header(cells) else ()
+            return cells if len(cells) == len(first.cells) and _is_perhaps_header(cells) else ()
     return ()
 
 
@@ -253,22 +257,22 @@ def _rows(lines: Sequence[tuple[int, str]], delimiter: str) -> list[TextRow | No
         except EnclosureError:
             found.append(None)
             continue
-        if delimiter == PARTED_BY_BLANKS and meaning(row.cells[0]) in _TARGET:
+        if delimiter == PARTED_BY_BLANKS and find_meaning(row.cells[0]) in _TARGET:
             width = len(row.cells)
         found.append(row)
     return found
 
 
-def _may_be_header(cells: Sequence[str]) -> bool:
+def _is_perhaps_header(cells: Sequence[str]) -> bool:
     """Return whether names are those of a table of readings, or its columns are readings under no name."""
-    found = [meaning(cell) for cell in cells]
+    found = [find_meaning(cell) for cell in cells]
     known = sum(each is not None and each != NUMBER for each in found)
     has_target = any(each in _TARGET for each in found)
     readings = found.count(READING)
     return known > 1 and any(each in _VALUES for each in found) and (has_target or readings > 1)
 
 
-def _below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Iterator[FoundTable]:
+def _find_below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Iterator[FoundTable]:
     """Yield the table below a header: to the first row that has no target."""
     is_workbook = layout.found.text.of_cells
     units = rows[0] if rows and holds_units(rows[0].cells) else None
@@ -279,7 +283,7 @@ def _below(layout: FoundLayout, header: TextRow, rows: Sequence[TextRow]) -> Ite
         [number(row.cells[index], notation) if index < len(row.cells) else None for row in rows]
         for index in range(width)
     ]
-    meanings = resolved(header.cells, columns)
+    meanings = resolve_meanings(header.cells, columns)
     if not any(header.cells):
         meanings = ["target", *[None] * (width - 1)]
     if "target" not in meanings:

@@ -42,11 +42,11 @@ from zlmreport_plugins.sources.renishaw_rtl.contents import (
     Pass,
     RtlEntry,
     RtlSection,
-    deviations,
-    passes,
-    sections,
-    stated_count,
-    target_positions,
+    list_passes,
+    read_deviations,
+    read_stated_count,
+    read_target_positions,
+    split_sections,
 )
 
 #: Of a text in a file that is printed as a remark.
@@ -78,7 +78,7 @@ _TEXTS = {
 }
 
 
-def remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) -> Iterator[Words]:
+def list_remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) -> Iterator[Words]:
     """Yield what the file says; a value that is no number is added to the problems."""
     for name, introduction in _TEXTS.items():
         if name in sections:
@@ -89,7 +89,7 @@ def remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) -> Iter
     if "ENVIRONMENT" in sections:
         for entry in sections["ENVIRONMENT"].entries():
             try:
-                remark = _recorded(entry)
+                remark = _say_recorded(entry)
             except ValueError as error:
                 problems.append(Problem(entry.line.place, f"{entry.name}: {error}"))
             else:
@@ -97,7 +97,7 @@ def remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) -> Iter
                     yield remark
 
 
-def _recorded(entry: RtlEntry) -> Words | None:
+def _say_recorded(entry: RtlEntry) -> Words | None:
     """Return what was recorded at the start and at the end of the test; None if there was no sensor."""
     if entry.key in _NOT_SAID:
         return None
@@ -141,7 +141,7 @@ _UNIT_STATED = Words(
 )
 
 
-def _known_unit(spelling: str) -> str:
+def _find_known_unit(spelling: str) -> str:
     unit_named(spelling, POSITION_UNITS)
     return spelling
 
@@ -150,7 +150,7 @@ class RenishawRtlOptions(Options):
     """Where the file is, and what it does not say itself."""
 
     file: JobPath = Field(description="The .rtl or .rta file, relative to the file that names it.")
-    deviation_unit: Annotated[str, AfterValidator(_known_unit)] | None = Field(
+    deviation_unit: Annotated[str, AfterValidator(_find_known_unit)] | None = Field(
         None,
         description="Unit of the deviations, if it is not micrometres (.rtl) or mrad (.rta): arcsec, nm.",
     )
@@ -170,20 +170,20 @@ class RenishawRtl:
     def read(self, options: RenishawRtlOptions, context: SourceContext) -> MeasurementSet:
         """Read a test file; raise `InputError` with every defect and its place."""
         text = read_text(options.file, options.encoding)
-        parts = sections(text, (_TARGETS, _DEVIATIONS))
+        parts = split_sections(text, (_TARGETS, _DEVIATIONS))
         kind = _kind(text, parts, context)
-        unit = _deviation_unit(options, context)
-        targets = target_positions(parts[_TARGETS])
+        unit = _find_deviation_unit(options, context)
+        targets = read_target_positions(parts[_TARGETS])
         problems: list[Problem] = []
-        found = deviations(parts[_DEVIATIONS], targets, problems)
-        taken = list(passes(found, targets, problems))
+        found = read_deviations(parts[_DEVIATIONS], targets, problems)
+        taken = list(list_passes(found, targets, problems))
         problems.extend(_cut_off(parts, found))
         if len(taken) * len(targets) > _HARDLY_ANY * len(found):
             message = f"has {len(targets)} targets and {len(taken)} runs, and only {len(found)} readings"
             raise InputError([Problem(text.place(), message), *problems])
-        said = [_unit_remark(options, unit, kind), *remarks(parts, problems)]
+        said = [_say_unit(options, unit, kind), *list_remarks(parts, problems)]
         return collect_readings(
-            _readings(taken, targets, unit, context),
+            _list_readings(taken, targets, unit, context),
             context.axis,
             Provenance(self.identifier, (text.source,), tuple(said)),
             place=text.place(),
@@ -194,7 +194,7 @@ class RenishawRtl:
 def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContext) -> str:
     """Return the kind of file, rtl or rta, which must be that of the axis."""
     own = next(kind for kind, axis_kind in _KINDS.items() if axis_kind is context.axis.kind)
-    kind, place = _told_kind(text, parts) or (own, text.place())
+    kind, place = _find_told_kind(text, parts) or (own, text.place())
     if kind not in _KINDS:
         raise InputError.at(
             place, f"the file is of type {quoted(kind)}; linear (rtl) and angular (rta) tests are read"
@@ -207,7 +207,7 @@ def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContex
     return kind
 
 
-def _told_kind(text: TextFile, parts: Mapping[str, RtlSection]) -> tuple[str, Place] | None:
+def _find_told_kind(text: TextFile, parts: Mapping[str, RtlSection]) -> tuple[str, Place] | None:
     """Return the kind that the file's header or else its suffix tells, and where."""
     entry = parts["HEADER"].value("filetype") if "HEADER" in parts else None
     if entry and entry.value:
@@ -216,7 +216,7 @@ def _told_kind(text: TextFile, parts: Mapping[str, RtlSection]) -> tuple[str, Pl
     return (suffix, text.place()) if suffix in _KINDS else None
 
 
-def _deviation_unit(options: RenishawRtlOptions, context: SourceContext) -> Unit:
+def _find_deviation_unit(options: RenishawRtlOptions, context: SourceContext) -> Unit:
     if options.deviation_unit is None:
         return _UNITS[context.axis.kind]
     try:
@@ -225,13 +225,13 @@ def _deviation_unit(options: RenishawRtlOptions, context: SourceContext) -> Unit
         raise InputError.at(context.place, f"deviation_unit: {error}") from error
 
 
-def _unit_remark(options: RenishawRtlOptions, unit: Unit, kind: str) -> Words:
+def _say_unit(options: RenishawRtlOptions, unit: Unit, kind: str) -> Words:
     return (_UNIT_STATED if options.deviation_unit else _UNIT_TAKEN).given(unit=unit.symbol, kind=kind)
 
 
 def _cut_off(parts: Mapping[str, RtlSection], found: Sequence[Deviation]) -> Iterator[Problem]:
     """Yield the problem that the file has not as many runs as it announces."""
-    stated = stated_count(parts["RUNS"], "runcount") if "RUNS" in parts else None
+    stated = read_stated_count(parts["RUNS"], "runcount") if "RUNS" in parts else None
     runs = len({deviation.run for deviation in found})
     if stated and stated[0] != runs:
         yield Problem(
@@ -240,7 +240,7 @@ def _cut_off(parts: Mapping[str, RtlSection], found: Sequence[Deviation]) -> Ite
         )
 
 
-def _readings(
+def _list_readings(
     taken: Sequence[Pass], targets: Sequence[float], unit: Unit, context: SourceContext
 ) -> Iterator[Reading]:
     """Yield the readings run by run; a target that a run left out is a missing reading."""

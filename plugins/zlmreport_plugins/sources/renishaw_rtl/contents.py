@@ -51,7 +51,7 @@ class RtlSection:
     def entries(self) -> Iterator[RtlEntry]:
         """Yield the lines of the form ``key : value``."""
         for line in self.lines:
-            entry = as_entry(line)
+            entry = read_as_entry(line)
             if entry:
                 yield entry
 
@@ -60,7 +60,7 @@ class RtlSection:
         return next((entry for entry in self.entries() if entry.key == key), None)
 
 
-def as_entry(line: RtlLine) -> RtlEntry | None:
+def read_as_entry(line: RtlLine) -> RtlEntry | None:
     """Return a line of the form ``key : value`` taken apart; None if it is of another form."""
     name, colon, value = line.text.partition(":")
     if not colon:
@@ -68,7 +68,7 @@ def as_entry(line: RtlLine) -> RtlEntry | None:
     return RtlEntry(name.strip(), re.sub(r"[\s-]+", "", name).casefold(), value.strip(), line)
 
 
-def sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, RtlSection]:
+def split_sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, RtlSection]:
     """Return the sections of a file by the words of their heads.
 
     Raises `InputError` if it has no sections, a section twice, or lacks one that is demanded.
@@ -104,7 +104,7 @@ def sections(text: TextFile, demanded: tuple[str, ...]) -> Mapping[str, RtlSecti
 _COUNT = re.compile(r"[0-9]{1,9}")
 
 
-def target_positions(section: RtlSection) -> tuple[float, ...]:
+def read_target_positions(section: RtlSection) -> tuple[float, ...]:
     """Return the target positions in the order of their numbers, as the file gives them (mm or degrees).
 
     They begin behind ``Targets :`` and wrap; the next key ends them.
@@ -113,7 +113,7 @@ def target_positions(section: RtlSection) -> tuple[float, ...]:
     file states.
     """
     lines = iter(section.lines)
-    begin = next((line for line in lines if (entry := as_entry(line)) and entry.key == "targets"), None)
+    begin = next((line for line in lines if (entry := read_as_entry(line)) and entry.key == "targets"), None)
     if begin is None:
         raise InputError.at(section.head.place, "this section has no key 'Targets :', so no target positions")
     colon = begin.text.index(":") + 1
@@ -130,13 +130,13 @@ def target_positions(section: RtlSection) -> tuple[float, ...]:
         except ValueError as error:
             problems.append(Problem(place, f"target position: {error}"))
     if not problems:
-        problems.extend(_miscounted(section, begin, len(positions)))
+        problems.extend(_find_miscounted(section, begin, len(positions)))
     if problems:
         raise InputError(problems)
     return tuple(positions)
 
 
-def stated_count(section: RtlSection, key: str) -> tuple[int, RtlLine] | None:
+def read_stated_count(section: RtlSection, key: str) -> tuple[int, RtlLine] | None:
     """Return a number of things that a section states, and where; None if it states none.
 
     Raises `InputError` if what it states is no number.
@@ -149,8 +149,8 @@ def stated_count(section: RtlSection, key: str) -> tuple[int, RtlLine] | None:
     return int(entry.value), entry.line
 
 
-def _miscounted(section: RtlSection, begin: RtlLine, found: int) -> list[Problem]:
-    stated = stated_count(section, "targetcount")
+def _find_miscounted(section: RtlSection, begin: RtlLine, found: int) -> list[Problem]:
+    stated = read_stated_count(section, "targetcount")
     if stated and stated[0] != found:
         message = f"the file announces {stated[0]} targets and lists {found}; was it cut off?"
         return [Problem(stated[1].place, message)]
@@ -187,17 +187,21 @@ class Pass:
         return next(iter(self.deviations.values()))[0].place
 
 
-def deviations(section: RtlSection, targets: Sequence[float], problems: list[Problem]) -> list[Deviation]:
+def read_deviations(
+    section: RtlSection, targets: Sequence[float], problems: list[Problem]
+) -> list[Deviation]:
     """Return the deviation lines of a section; what is wrong with a line is added to the problems."""
     found = (
-        _deviation(line, len(targets), problems)
+        _read_deviation(line, len(targets), problems)
         for line in section.lines
         if not _TITLE.fullmatch(line.text.strip())
     )
     return [deviation for deviation in found if deviation is not None]
 
 
-def passes(found: Sequence[Deviation], targets: Sequence[float], problems: list[Problem]) -> Iterator[Pass]:
+def list_passes(
+    found: Sequence[Deviation], targets: Sequence[float], problems: list[Problem]
+) -> Iterator[Pass]:
     """Yield the runs in the order of their numbers; what is wrong with a run is added to the problems.
 
     A run's direction is the sign of its progression from target to target; its cycle, the number of runs
@@ -208,8 +212,8 @@ def passes(found: Sequence[Deviation], targets: Sequence[float], problems: list[
         by_run[deviation.run].append(deviation)
     cycles = dict.fromkeys(Approach, 0)
     for run, of_run in sorted(by_run.items()):
-        steps = _steps([targets[deviation.target - 1] for deviation in of_run])
-        wrong = _wrong_with(run, of_run, steps)
+        steps = _find_steps([targets[deviation.target - 1] for deviation in of_run])
+        wrong = _say_wrong_with(run, of_run, steps)
         if wrong:
             problems.append(Problem(of_run[0].place, wrong))
             continue
@@ -221,7 +225,7 @@ def passes(found: Sequence[Deviation], targets: Sequence[float], problems: list[
         yield Pass(approach, cycles[approach], by_target)
 
 
-def _deviation(line: RtlLine, targets: int, problems: list[Problem]) -> Deviation | None:
+def _read_deviation(line: RtlLine, targets: int, problems: list[Problem]) -> Deviation | None:
     words = line.words()
     if len(words) != 3:
         shown = quoted(line.text.strip())
@@ -248,13 +252,13 @@ def _deviation(line: RtlLine, targets: int, problems: list[Problem]) -> Deviatio
     return Deviation(place, run, target, value)
 
 
-def _steps(positions: Sequence[float]) -> set[int]:
+def _find_steps(positions: Sequence[float]) -> set[int]:
     """Return the signs of the steps from target to target; a target that is repeated is no step."""
     pairs = itertools.pairwise(positions)
     return {1 if after > before else -1 for before, after in pairs if after != before}
 
 
-def _wrong_with(run: int, of_run: Sequence[Deviation], steps: set[int]) -> str | None:
+def _say_wrong_with(run: int, of_run: Sequence[Deviation], steps: set[int]) -> str | None:
     if len(of_run) > 1 and not any(deviation.value for deviation in of_run):
         return (
             f"run {run}: all {len(of_run)} deviations are exactly zero; some programs pad the reverse runs "

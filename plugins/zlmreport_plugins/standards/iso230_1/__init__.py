@@ -95,8 +95,8 @@ class Iso230Part1:
     def __init__(self, what: ErrorSymbol | Measurand = STRAIGHTNESS) -> None:
         self.what = what
         self.measurand = what if isinstance(what, Measurand) else what.measurand
-        self.quantities, self.position_quantities = quantities.of(what)
-        self.notes = tuple(_notes(what))
+        self.quantities, self.position_quantities = quantities.define_of(what)
+        self.notes = tuple(_list_notes(what))
 
     def of_error(self, error: ErrorSymbol | Measurand) -> Iso230Part1:
         """Return the standard as it evaluates an error."""
@@ -105,7 +105,7 @@ class Iso230Part1:
     def requirements(self, measurements: MeasurementSet, options: LineOptions) -> Iterator[Finding]:
         """Hold the plan of a test of one line, or what two lines need to have in common, against the test."""
         if measurements.tests:
-            yield from between.requirements(self.what, measurements, options.square)
+            yield from between.check_requirements(self.what, measurements, options.square)
             return
         yield positions_in_all(measurements, _FEWEST, Basis.APPLIED)
         yield positions_per_metre(measurements, _PER_METRE, Basis.APPLIED, minimum=_AT_LEAST)
@@ -116,7 +116,7 @@ class Iso230Part1:
     def arithmetic(self, statistics: PositionStatistics, options: LineOptions) -> Arithmetic:
         """Return the parameters of the error."""
         if self.measurand.joins_tests:
-            values = between.values(self.what, statistics, options.reference_line, options.square)
+            values = between.compute_values(self.what, statistics, options.reference_line, options.square)
             return Arithmetic({each.symbol: values[each.symbol] for each in self.quantities})
         if self.measurand.identifier == ANGLE.identifier:
             return self._angles(statistics)
@@ -134,7 +134,7 @@ class Iso230Part1:
             f"{symbol}_bwd": of_each[..., 1],
             f"{symbol}_run": np.fmax.reduce(of_runs, axis=(-2, -1), initial=np.nan),
             f"{symbol}_local": np.broadcast_to(local, mean.shape[:-1]),
-            "slope": _where_a_line_is(x, mean, line),
+            "slope": _find_slope_where_a_line_is(x, mean, line),
         }
         deviations = residuals(x, statistics.mean, line)
         columns = {
@@ -161,18 +161,18 @@ class Iso230Part1:
         self, measurements: MeasurementSet, options: LineOptions
     ) -> Mapping[str, Sequence[Contribution]]:
         """Return what the artefact adds to the uncertainty of the second of two lines."""
-        return between.contributions(self.what, measurements, options.square)
+        return between.list_contributions(self.what, measurements, options.square)
 
     def figures(self, evaluation: Evaluation, options: LineOptions) -> Iterable[Figure]:
         """Return the deviations from the reference line and the readings with it; of two lines, both."""
         if evaluation.measurements.tests:
-            return between.figures(self.what, evaluation, options.reference_line)
+            return between.draw_figures(self.what, evaluation, options.reference_line)
         if self.measurand.identifier == ANGLE.identifier:
-            return figures.of_angles(evaluation, self.quantities)
-        return figures.of_straightness(evaluation, self.quantities, options.reference_line)
+            return figures.draw_angles(evaluation, self.quantities)
+        return figures.draw_straightness(evaluation, self.quantities, options.reference_line)
 
 
-def _where_a_line_is(x: FloatArray, mean: FloatArray, line: LineName) -> FloatArray:
+def _find_slope_where_a_line_is(x: FloatArray, mean: FloatArray, line: LineName) -> FloatArray:
     """Return the slope of a line through three positions at least; two have always one."""
     several = np.count_nonzero(~np.isnan(mean), axis=-1) >= _FEWEST
     return np.where(several, slope(x, mean, line), np.nan)
@@ -195,10 +195,10 @@ _ANGLES = Words(
 _ONE_ARC_SECOND = Words("1″ = 4.848 µrad: on an arm of 100 mm 0.485 µm.")
 
 
-def _notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
+def _list_notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
     measurand = what if isinstance(what, Measurand) else what.measurand
     if measurand.joins_tests:
-        yield from between.notes(what)
+        yield from between.list_notes(what)
     elif measurand.identifier == ANGLE.identifier:
         yield from (_ANGLES, _ONE_ARC_SECOND)
     else:

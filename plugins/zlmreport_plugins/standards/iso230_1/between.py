@@ -79,7 +79,7 @@ class SquareKeys(JobPart):
     certificate: TextLine | None = Field(None, description="Its calibration certificate.")
 
 
-def values(
+def compute_values(
     what: ErrorSymbol | Measurand,
     statistics: PositionStatistics,
     line: LineName,
@@ -87,7 +87,7 @@ def values(
 ) -> dict[str, FloatArray]:
     """Return the angle between two lines and their slopes, rad; NaN unless there are two."""
     batch = statistics.mean.shape[:-2]
-    slopes = [_slope(each, line) for each in statistics.tests.values()]
+    slopes = [_compute_slope(each, line) for each in statistics.tests.values()]
     if len(slopes) != 2:
         slopes = [np.full(batch, np.nan)] * 2
     first, second = slopes
@@ -98,13 +98,13 @@ def values(
     return {what.symbol: turned, "slope_1": first, "slope_2": second}
 
 
-def _slope(statistics: PositionStatistics, line: LineName) -> FloatArray:
+def _compute_slope(statistics: PositionStatistics, line: LineName) -> FloatArray:
     mean = mean_of_all_runs(statistics)
     several = np.count_nonzero(~np.isnan(mean), axis=-1) >= _FEWEST
     return np.where(several, slope(statistics.positions, mean, line), np.nan)
 
 
-def contributions(
+def list_contributions(
     what: ErrorSymbol | Measurand, measurements: MeasurementSet, square: SquareKeys | None
 ) -> Mapping[str, Sequence[Contribution]]:
     """Return the error of the square's angle: it tilts all readings of the second line alike."""
@@ -130,7 +130,7 @@ def contributions(
     }
 
 
-def requirements(
+def check_requirements(
     what: ErrorSymbol | Measurand, measurements: MeasurementSet, square: SquareKeys | None
 ) -> Iterator[Finding]:
     """Hold what two lines must have in common against those of a test."""
@@ -149,12 +149,12 @@ def requirements(
     number = Words("{number}").given(number=fewest)
     yield Finding(_POSITIONS.given(number=_FEWEST), number, fewest >= _FEWEST)
     if not isinstance(what, Measurand):
-        yield _meeting(lines)
+        yield _check_meeting(lines)
         stated = _SQUARE_STATED if square and square.expanded_uncertainty else _NOT_STATED
         yield Finding(_SQUARE_IS_STATED, stated, True if stated is _SQUARE_STATED else None)
 
 
-def _meeting(lines: Sequence[MeasurementSet]) -> Finding:
+def _check_meeting(lines: Sequence[MeasurementSet]) -> Finding:
     """Return whether the lines lie in one plane, as far as the job says where they lie."""
     places = [dict(each.axis.at) for each in lines]
     moving = {each.axis.name for each in lines}
@@ -173,7 +173,7 @@ def _meeting(lines: Sequence[MeasurementSet]) -> Finding:
     return Finding(_MEET, words, met=False)
 
 
-def notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
+def list_notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
     """Yield what a reader of the angle between two lines must know."""
     if isinstance(what, Measurand):
         yield _OF_PARALLELISM
@@ -183,19 +183,21 @@ def notes(what: ErrorSymbol | Measurand) -> Iterator[Words]:
     yield _OF_THE_LINES
 
 
-def figures(what: ErrorSymbol | Measurand, evaluation: Evaluation, line: LineName) -> Iterator[Figure]:
+def draw_figures(what: ErrorSymbol | Measurand, evaluation: Evaluation, line: LineName) -> Iterator[Figure]:
     """Yield both lines with their reference lines, and a sketch of how the axes lean."""
     tests = evaluation.measurements.tests
     if len(tests) != len(_PAIR):
         return
-    panels = [_panel(name, each, evaluation.statistics.tests[name], line) for name, each in tests.items()]
+    panels = [
+        _make_panel(name, each, evaluation.statistics.tests[name], line) for name, each in tests.items()
+    ]
     first = next(iter(tests.values())).axis
     slopes = [evaluation.value(each) for each in _PAIR]
     symbol = evaluation.parameters[0].quantity.symbol if evaluation.parameters else ""
     alternative = _SEEN.given(
         lines=", ".join(tests),
-        first=_slope_in_words(slopes[0]),
-        second=_slope_in_words(slopes[1]),
+        first=_write_slope(slopes[0]),
+        second=_write_slope(slopes[1]),
     )
     yield Figure(
         key="lines",
@@ -210,10 +212,12 @@ def figures(what: ErrorSymbol | Measurand, evaluation: Evaluation, line: LineNam
         is_wide=True,
     )
     if not isinstance(what, Measurand) and evaluation.parameters:
-        yield _sketch(what, evaluation)
+        yield _draw_sketch(what, evaluation)
 
 
-def _panel(name: str, measurements: MeasurementSet, statistics: PositionStatistics, line: LineName) -> Panel:
+def _make_panel(
+    name: str, measurements: MeasurementSet, statistics: PositionStatistics, line: LineName
+) -> Panel:
     axis, x = measurements.axis, measurements.target_positions
     mean = mean_of_all_runs(statistics)
     shown = axis.position_unit.from_si(x)
@@ -230,7 +234,7 @@ def _panel(name: str, measurements: MeasurementSet, statistics: PositionStatisti
     )
 
 
-def _sketch(what: ErrorSymbol, evaluation: Evaluation) -> Figure:
+def _draw_sketch(what: ErrorSymbol, evaluation: Evaluation) -> Figure:
     """Return both axes as they lean, far too much: which way the sign means."""
     value = evaluation.parameters[0].value
     lean = -_SIGNS[what.symbol] * np.sign(value) * _LEAN
@@ -264,7 +268,7 @@ def _sketch(what: ErrorSymbol, evaluation: Evaluation) -> Figure:
     )
 
 
-def _slope_in_words(value: float | None) -> Words:
+def _write_slope(value: float | None) -> Words:
     printed = MICROMETRE_PER_METRE.from_si(value or 0.0)
     return Words("{value} µm/m").given(value=float(f"{printed:.6g}"))
 

@@ -43,7 +43,7 @@ _ANGLES = Words("Axis {axis}: {symbol}, mean deviations")
 _MEAN = Words("Mean of all runs:")
 
 
-def of_straightness(
+def draw_straightness(
     evaluation: Evaluation, quantities: Sequence[Quantity], line: LineName
 ) -> Iterator[Figure]:
     """Yield the deviations about the line, the readings with it, and each direction about its own line."""
@@ -60,10 +60,10 @@ def of_straightness(
     bracket = diagram.bracket(symbol.symbol, about, about)
     shown = diagram_panel(
         curves=[*directions, both],
-        levels=_limits(diagram, about) if bracket else (),
+        levels=_list_limits(diagram, about) if bracket else (),
         brackets=[bracket],
     )
-    yield _figure("straightness", _STRAIGHT.given(line=LINES[line]), diagram, symbol, [shown])
+    yield _make_figure("straightness", _STRAIGHT.given(line=LINES[line]), diagram, symbol, [shown])
     with_line = diagram_panel(
         readings=diagram.readings(),
         curves=[
@@ -74,13 +74,13 @@ def of_straightness(
             diagram.curve("y_{0} + m·P_{i}", Role.BAND_LIMIT, taken_off),
         ],
     )
-    yield _figure("readings", _READINGS.given(line=LINES[line]), diagram, symbol, [with_line])
+    yield _make_figure("readings", _READINGS.given(line=LINES[line]), diagram, symbol, [with_line])
     if diagram.is_bidirectional:
-        panels = [_direction(diagram, each, quantities, line) for each in diagram.approaches]
-        yield _figure("directions", _DIRECTIONS.given(line=LINES[line]), diagram, symbol, panels)
+        panels = [_draw_direction(diagram, each, quantities, line) for each in diagram.approaches]
+        yield _make_figure("directions", _DIRECTIONS.given(line=LINES[line]), diagram, symbol, panels)
 
 
-def of_angles(evaluation: Evaluation, quantities: Sequence[Quantity]) -> Iterator[Figure]:
+def draw_angles(evaluation: Evaluation, quantities: Sequence[Quantity]) -> Iterator[Figure]:
     """Yield the angles over position, with the spans of the mean and of each direction."""
     diagram, statistics = Diagram(evaluation), evaluation.statistics
     symbol, mean = quantities[0], mean_of_all_runs(statistics)
@@ -94,10 +94,12 @@ def of_angles(evaluation: Evaluation, quantities: Sequence[Quantity]) -> Iterato
     if diagram.is_bidirectional:
         brackets.append(diagram.bracket(f"{symbol.symbol}_both", statistics.mean, statistics.mean))
     shown = diagram_panel(readings=diagram.readings(), curves=curves, brackets=brackets)
-    yield _figure("angles", _ANGLES, diagram, symbol, [shown])
+    yield _make_figure("angles", _ANGLES, diagram, symbol, [shown])
 
 
-def _direction(diagram: Diagram, approach: Approach, quantities: Sequence[Quantity], line: LineName) -> Panel:
+def _draw_direction(
+    diagram: Diagram, approach: Approach, quantities: Sequence[Quantity], line: LineName
+) -> Panel:
     evaluation = diagram.evaluation
     own = evaluation.statistics.mean[approach.index]
     about = residuals(evaluation.measurements.target_positions, own, line)
@@ -106,18 +108,20 @@ def _direction(diagram: Diagram, approach: Approach, quantities: Sequence[Quanti
     return diagram_panel(
         APPROACH_TITLES[approach],
         curves=[diagram.curve(f"d̄_{{i}}{approach.arrow}", MEAN_ROLES[approach], about)],
-        levels=_limits(diagram, about) if bracket else (),
+        levels=_list_limits(diagram, about) if bracket else (),
         brackets=[bracket],
     )
 
 
-def _limits(diagram: Diagram, about: FloatArray) -> list[Level | None]:
+def _list_limits(diagram: Diagram, about: FloatArray) -> list[Level | None]:
     """Return the two parallels to the reference line between which the deviations lie."""
     ends = float(np.nanmin(about)), float(np.nanmax(about))
     return [diagram.level("", Role.BAND_LIMIT, end) for end in ends]
 
 
-def _figure(key: str, title: Words, diagram: Diagram, symbol: Quantity, panels: Sequence[Panel]) -> Figure:
+def _make_figure(
+    key: str, title: Words, diagram: Diagram, symbol: Quantity, panels: Sequence[Panel]
+) -> Figure:
     axis, evaluation = diagram.axis, diagram.evaluation
     alternative = alternative_text(
         graph_in_words(evaluation),

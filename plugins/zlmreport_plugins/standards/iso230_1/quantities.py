@@ -43,7 +43,7 @@ _OF_ONE_DIRECTION = Words("The same of runs in one direction only, each about it
 _TURN_IN_ONE_DIRECTION = Words("The same of runs in one direction only.")
 
 
-def of(what: ErrorSymbol | Measurand) -> tuple[tuple[Quantity, ...], tuple[PositionQuantity, ...]]:
+def define_of(what: ErrorSymbol | Measurand) -> tuple[tuple[Quantity, ...], tuple[PositionQuantity, ...]]:
     """Return the parameters and the columns by position of an error.
 
     Raises `ValueError` for a squareness error that has no symbol, and so no sign.
@@ -54,13 +54,13 @@ def of(what: ErrorSymbol | Measurand) -> tuple[tuple[Quantity, ...], tuple[Posit
     if symbol == SQUARENESS.identifier:
         raise ValueError("a squareness error is named by its symbol, such as C0Y")
     if measurand.joins_tests:
-        return _between(measurand, symbol, notation), ()
+        return _define_between(measurand, symbol, notation), ()
     if measurand.identifier == ANGLE.identifier:
-        return tuple(_angles(symbol, notation)), ()
-    return tuple(_straightness(symbol, notation)), _COLUMNS
+        return tuple(_define_angles(symbol, notation)), ()
+    return tuple(_define_straightness(symbol, notation)), _COLUMNS
 
 
-def _straightness(symbol: str, notation: str) -> list[Quantity]:
+def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
     systematic = QuantityGroup.SYSTEMATIC
     formula = "max(d̄_{i}) − min(d̄_{i}), d̄_{i} = x̄_{i} − (y_{0} + m·P_{i})"
     return [
@@ -95,11 +95,11 @@ def _straightness(symbol: str, notation: str) -> list[Quantity]:
                 "part shows."
             ),
         ),
-        slope_quantity("slope", "m", Words("Slope of the reference line")),
+        define_slope("slope", "m", Words("Slope of the reference line")),
     ]
 
 
-def slope_quantity(symbol: str, notation: str, name: Words) -> Quantity:
+def define_slope(symbol: str, notation: str, name: Words) -> Quantity:
     """Return the slope of a reference line: the alignment of the set-up, and no error of one axis."""
     return Quantity(
         symbol,
@@ -113,7 +113,7 @@ def slope_quantity(symbol: str, notation: str, name: Words) -> Quantity:
     )
 
 
-def _angles(symbol: str, notation: str) -> list[Quantity]:
+def _define_angles(symbol: str, notation: str) -> list[Quantity]:
     systematic = QuantityGroup.SYSTEMATIC
     return [
         Quantity(symbol, notation, _ANGLE, systematic, "max(x̄_{i}) − min(x̄_{i})", _SPAN_OF_ANGLE),
@@ -142,7 +142,7 @@ def _angles(symbol: str, notation: str) -> list[Quantity]:
     ]
 
 
-def _between(measurand: Measurand, symbol: str, notation: str) -> tuple[Quantity, ...]:
+def _define_between(measurand: Measurand, symbol: str, notation: str) -> tuple[Quantity, ...]:
     """Return the angle between two lines, and the slopes that it is formed of."""
     is_parallelism = measurand is PARALLELISM
     meaning = Words(
@@ -157,8 +157,8 @@ def _between(measurand: Measurand, symbol: str, notation: str) -> tuple[Quantity
             "m_{1} − m_{2}" if is_parallelism else FORMULAS[symbol],
             meaning,
         ),
-        slope_quantity("slope_1", "m_{1}", Words("Slope of the first line")),
-        slope_quantity("slope_2", "m_{2}", Words("Slope of the second line")),
+        define_slope("slope_1", "m_{1}", Words("Slope of the first line")),
+        define_slope("slope_2", "m_{2}", Words("Slope of the second line")),
     )
 
 

@@ -77,7 +77,7 @@ def local_straightness(x: FloatArray, y: FloatArray, line: LineName, window: flo
     return found
 
 
-def _least_squares(x: FloatArray, y: FloatArray) -> FloatArray:
+def _fit_least_squares(x: FloatArray, y: FloatArray) -> FloatArray:
     """Return Σ(x − x̄)(y − ȳ)/Σ(x − x̄)² over the positions with a value."""
     there = ~np.isnan(y)
     count = np.count_nonzero(there, axis=-1)[..., np.newaxis]
@@ -89,12 +89,12 @@ def _least_squares(x: FloatArray, y: FloatArray) -> FloatArray:
 
 def _end_points(x: FloatArray, y: FloatArray) -> FloatArray:
     """Return the slope between the first and the last position with a value."""
-    first, last = _ends(y)
+    first, last = _find_ends(y)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray((_at(y, last) - _at(y, first)) / (x[last] - x[first]))
+        return np.asarray((_take_at(y, last) - _take_at(y, first)) / (x[last] - x[first]))
 
 
-def _minimum_zone(x: FloatArray, y: FloatArray) -> FloatArray:
+def _fit_minimum_zone(x: FloatArray, y: FloatArray) -> FloatArray:
     """Return the slope m for which max(y − m·x) − min(y − m·x) is smallest.
 
     The width is convex in m and made of straight pieces. From the pieces of a very small and a very large
@@ -103,19 +103,19 @@ def _minimum_zone(x: FloatArray, y: FloatArray) -> FloatArray:
     """
     curves = y.reshape(-1, y.shape[-1])
     found = _end_points(x, curves)
-    first, last = _ends(curves)
-    rise, run = _at(curves, last) - _at(curves, first), x[last] - x[first]
+    first, last = _find_ends(curves)
+    rise, run = _take_at(curves, last) - _take_at(curves, first), x[last] - x[first]
     pieces = np.stack([rise, -rise], axis=1), np.stack([run, -run], axis=1)  # width = rise − m·run
     open_ = np.isfinite(found)
     scale = _ROUNDING * np.nanmax(np.abs(np.where(open_[:, np.newaxis], curves, 0.0)), axis=-1, initial=0.0)
     for _ in range(2 * y.shape[-1] + 2):
         if not open_.any():
             break
-        open_ = _tried(x, curves, found, pieces, open_, scale)
+        open_ = _try_crossings(x, curves, found, pieces, open_, scale)
     return found.reshape(y.shape[:-1])
 
 
-def _tried(  # noqa: PLR0913, PLR0917 - the state of the search
+def _try_crossings(  # noqa: PLR0913, PLR0917 - the state of the search
     x: FloatArray,
     curves: FloatArray,
     found: FloatArray,
@@ -130,13 +130,15 @@ def _tried(  # noqa: PLR0913, PLR0917 - the state of the search
     tilted = curves[which] - trial[:, np.newaxis] * x
     high = np.argmax(np.where(np.isnan(tilted), -np.inf, tilted), axis=-1)
     low = np.argmin(np.where(np.isnan(tilted), np.inf, tilted), axis=-1)
-    width = _at(tilted, high) - _at(tilted, low)
+    width = _take_at(tilted, high) - _take_at(tilted, low)
     run = x[high] - x[low]
     found[which] = trial
     goes_on = (width > rises[:, 0] - trial * runs[:, 0] + scale[which]) & (run != 0)
     side = np.where(run > 0, 0, 1)
     pieces[0][which, side] = np.where(
-        goes_on, _at(curves[which], high) - _at(curves[which], low), rises[np.arange(len(which)), side]
+        goes_on,
+        _take_at(curves[which], high) - _take_at(curves[which], low),
+        rises[np.arange(len(which)), side],
     )
     pieces[1][which, side] = np.where(goes_on, run, runs[np.arange(len(which)), side])
     still = np.zeros_like(open_)
@@ -144,35 +146,35 @@ def _tried(  # noqa: PLR0913, PLR0917 - the state of the search
     return still
 
 
-def _ends(y: FloatArray) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.intp]], ...]:
+def _find_ends(y: FloatArray) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.intp]], ...]:
     """Return the indices of the first and the last position with a value."""
     there = ~np.isnan(y)
     return np.argmax(there, axis=-1), y.shape[-1] - 1 - np.argmax(there[..., ::-1], axis=-1)
 
 
-def _at(y: FloatArray, index: np.ndarray[tuple[int, ...], np.dtype[np.intp]]) -> FloatArray:
+def _take_at(y: FloatArray, index: np.ndarray[tuple[int, ...], np.dtype[np.intp]]) -> FloatArray:
     return np.take_along_axis(y, index[..., np.newaxis], axis=-1)[..., 0]
 
 
-def _mean_level(tilted: FloatArray) -> FloatArray:
+def _level_by_mean(tilted: FloatArray) -> FloatArray:
     there = ~np.isnan(tilted)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(np.sum(np.where(there, tilted, 0.0), axis=-1) / np.count_nonzero(there, axis=-1))
 
 
-def _first_level(tilted: FloatArray) -> FloatArray:
-    return _at(tilted, _ends(tilted)[0])
+def _level_by_first(tilted: FloatArray) -> FloatArray:
+    return _take_at(tilted, _find_ends(tilted)[0])
 
 
-def _middle_level(tilted: FloatArray) -> FloatArray:
+def _level_by_middle(tilted: FloatArray) -> FloatArray:
     highest, lowest = np.fmax.reduce(tilted, axis=-1), np.fmin.reduce(tilted, axis=-1)
     return np.asarray((highest + lowest) / 2)
 
 
 _SLOPES: Mapping[LineName, Callable[[FloatArray, FloatArray], FloatArray]] = MappingProxyType(
-    {"least-squares": _least_squares, "end-points": _end_points, "minimum-zone": _minimum_zone}
+    {"least-squares": _fit_least_squares, "end-points": _end_points, "minimum-zone": _fit_minimum_zone}
 )
 #: Where a line of known slope lies.
 _LEVELS: Mapping[LineName, Callable[[FloatArray], FloatArray]] = MappingProxyType(
-    {"least-squares": _mean_level, "end-points": _first_level, "minimum-zone": _middle_level}
+    {"least-squares": _level_by_mean, "end-points": _level_by_first, "minimum-zone": _level_by_middle}
 )

@@ -66,13 +66,13 @@ _OF_SCATTER = ("R", "R_fwd", "R_bwd", "A", "A_fwd", "A_bwd")
 _ONE_DIRECTION_ONLY = Words("only the parameters of this direction exist")
 
 
-def requirement_findings(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
+def check_requirements(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
     """Yield the edition's requirements, held against the test."""
     yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
     if edition.long_axis is not None and _is_long_axis_test(measurements):
-        yield from _long_axis(edition.long_axis, measurements)
+        yield from _check_long_axis(edition.long_axis, measurements)
     else:
-        yield from _full_test(edition, measurements)
+        yield from _check_full_test(edition, measurements)
     yield no_missing_readings(measurements)
     yield positions_over_travel(measurements)
     yield from spacing_against_periods(measurements, Basis.APPLIED)
@@ -82,7 +82,7 @@ def requirement_findings(edition: Edition, measurements: MeasurementSet) -> Iter
         yield random_fractions(measurements, "P = (i − 1)·p + r", Basis.APPLIED)
 
 
-def _axis_length(measurements: MeasurementSet) -> float:
+def _find_axis_length(measurements: MeasurementSet) -> float:
     """Return the length of the axis, m or rad: its travel, or what was measured where none is stated."""
     travel = measurements.axis.travel
     measured = measured_length(measurements)
@@ -97,14 +97,14 @@ def _is_long_axis_test(measurements: MeasurementSet) -> bool:
     """Tell whether the test is one of a long axis, and not of a shorter zone with several runs."""
     if _is_long(measurements, measured_length(measurements)):
         return True
-    return _is_long(measurements, _axis_length(measurements)) and fewest_runs(measurements) == 1
+    return _is_long(measurements, _find_axis_length(measurements)) and fewest_runs(measurements) == 1
 
 
-def _full_test(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
+def _check_full_test(edition: Edition, measurements: MeasurementSet) -> Iterator[Finding]:
     """Yield the requirements on a test with several runs."""
     axis = measurements.axis
-    if edition.long_axis is not None and _is_long(measurements, _axis_length(measurements)):
-        yield _zone(axis, _axis_length(measurements), measured_length(measurements))
+    if edition.long_axis is not None and _is_long(measurements, _find_axis_length(measurements)):
+        yield _check_zone(axis, _find_axis_length(measurements), measured_length(measurements))
     yield number_of_runs(measurements, _RUNS, Basis.APPLIED)
     if axis.kind is AxisKind.ROTARY:
         yield positions_by_angle(measurements, _POSITIONS_BY_ANGLE, _POSITIONS_ABOVE, Basis.APPLIED)
@@ -116,7 +116,7 @@ def _full_test(edition: Edition, measurements: MeasurementSet) -> Iterator[Findi
         yield positions_per_scale_element(measurements, 1, basis)
 
 
-def _zone(axis: Axis, length: float, measured: float) -> Finding:
+def _check_zone(axis: Axis, length: float, measured: float) -> Finding:
     """Return the finding on a zone of a long axis that was tested in full."""
     requirement = Words("On an axis above {limit}, a full test of a shorter zone only as agreed").given(
         limit=position_in_words(axis, _LONG[axis.kind])
@@ -127,13 +127,13 @@ def _zone(axis: Axis, length: float, measured: float) -> Finding:
     return Finding(requirement, found, met=None)
 
 
-def _long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
+def _check_long_axis(basis: Basis, measurements: MeasurementSet) -> Iterator[Finding]:
     """Yield the requirements on an axis above 2000 mm or 360°: one run, and no s, R, A."""
     axis, number = measurements.axis, fewest_runs(measurements)
     requirement = Words("Above {limit} one run in each direction; s, R and A are not evaluated").given(
         limit=position_in_words(axis, _LONG[axis.kind])
     )
-    length = position_in_words(axis, _axis_length(measurements))
+    length = position_in_words(axis, _find_axis_length(measurements))
     if number == 1:
         found = Words("1 run on {length}; s, R and A are not evaluated")
         yield Finding(requirement, found.given(length=length), met=True, basis=basis)
@@ -179,7 +179,7 @@ _OF_ANGLES = Words(
 )
 
 
-def notes(edition: Edition) -> tuple[Words, ...]:
+def list_notes(edition: Edition) -> tuple[Words, ...]:
     """Return the notes of an edition."""
     general = (_FULL_WIDTHS.given(k=edition.coverage_factor), _REPEATABILITY)
     if edition.prints_reversal_as_negative_minus_positive:
@@ -216,9 +216,9 @@ class Iso230Part2:
         self.designation = f"ISO 230-2:{edition.year}"
         self.adoptions = _ADOPTIONS.get(edition.year, ())
         self.position_index = edition.position_index
-        self.quantities = editions.parameters(edition, of_angle=of_angle)
-        self.position_quantities = editions.by_position(edition)
-        self.notes = (*((_OF_ANGLES,) if of_angle else ()), *notes(edition))
+        self.quantities = editions.list_parameters(edition, of_angle=of_angle)
+        self.position_quantities = editions.list_by_position(edition)
+        self.notes = (*((_OF_ANGLES,) if of_angle else ()), *list_notes(edition))
 
     def of_error(self, error: ErrorSymbol | Measurand) -> Iso230Part2:
         """Return the edition as it evaluates an error: the angles of an axis by the same formulas."""
@@ -228,7 +228,7 @@ class Iso230Part2:
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold the edition's test design against the test."""
-        return requirement_findings(self.edition, measurements)
+        return check_requirements(self.edition, measurements)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the edition's parameters and R_i by position."""
@@ -240,7 +240,7 @@ class Iso230Part2:
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the bidirectional graphs and the graph of both directions one by one."""
-        return figures.figures(self.edition, evaluation)
+        return figures.draw_figures(self.edition, evaluation)
 
 
 @hookimpl

@@ -170,7 +170,7 @@ EDITIONS = (
 )
 
 
-def parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quantity, ...]:
+def list_parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quantity, ...]:
     """Return the parameters of the axis in the order of the results table.
 
     `of_angle`: Whether they are those of an angular error, of which the standard has the formulas only.
@@ -183,14 +183,14 @@ def parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quantity, .
             group=_GROUPS[symbol[0]],
             formula=formula,
             meaning=_TURN if of_angle else MEANINGS[symbol],
-            printed_sign=_printed_sign(edition, symbol),
+            printed_sign=_find_printed_sign(edition, symbol),
         )
-        for symbol, formula in _formulas(edition).items()
+        for symbol, formula in _list_formulas(edition).items()
         if edition.defines_systematic_deviation or symbol not in _SINCE_1997
     )
 
 
-def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
+def list_by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
     """Return the columns that the edition adds to the table by position."""
     i = f"_{{{edition.position_index}}}"
     return (
@@ -212,11 +212,11 @@ def by_position(edition: Edition) -> tuple[PositionQuantity, ...]:
     )
 
 
-def _printed_sign(edition: Edition, symbol: str) -> int:
+def _find_printed_sign(edition: Edition, symbol: str) -> int:
     return -1 if symbol == "B_mean" and edition.prints_reversal_as_negative_minus_positive else 1
 
 
-def _formulas(edition: Edition) -> dict[str, str]:
+def _list_formulas(edition: Edition) -> dict[str, str]:
     """Return the definitions in notation, in the order of the results table."""
     k, i = edition.coverage_factor, f"_{{{edition.position_index}}}"
     up, down = f"x̄{i}↑", f"x̄{i}↓"

@@ -34,7 +34,7 @@ _MEAN = {
 }
 
 
-def figures(edition: Edition, evaluation: Evaluation) -> Iterator[Figure]:
+def draw_figures(edition: Edition, evaluation: Evaluation) -> Iterator[Figure]:
     """Yield the edition's graphs, as far as the test defines what they show."""
     graphs = _Graphs(edition, evaluation)
     yield graphs.means()

@@ -34,7 +34,7 @@ from zlmreport.plugin.standard import (
     Standard,
 )
 from zlmreport_plugins.standards.iso230_3 import figures, requirements
-from zlmreport_plugins.standards.iso230_3.hours import Hours, span_in, tilt_in
+from zlmreport_plugins.standards.iso230_3.hours import Hours, compute_span_in, compute_tilt_in
 from zlmreport_plugins.standards.iso230_3.quantities import DRIFT, NAMES, NOTES, PAIRS, QUANTITIES
 
 
@@ -91,23 +91,23 @@ class Iso230Part3:
 
     def requirements(self, measurements: MeasurementSet, options: Iso230Part3Options) -> Iterable[Finding]:
         """Hold the plan of the test against the sensors' records."""
-        return requirements.findings(measurements, options.time, options.distances)
+        return requirements.check_requirements(measurements, options.time, options.distances)
 
     def arithmetic(self, statistics: PositionStatistics, options: Iso230Part3Options) -> Arithmetic:
         """Return the range of each sensor that was read, and of the tilt of each two, in the hours."""
         batch, lines = statistics.mean.shape[:-2], statistics.tests
         found = {each.symbol: np.full(batch, np.nan) for each in QUANTITIES}
         for name in (each for each in NAMES if each in lines):
-            found[f"E_{name}"] = span_in(lines[name], options.time)
+            found[f"E_{name}"] = compute_span_in(lines[name], options.time)
         for letter, distance in options.distances.items():
             first, second = PAIRS[letter]
             if first in lines and second in lines:
-                found[f"tilt_{letter}"] = tilt_in(lines[first], lines[second], distance, options.time)
+                found[f"tilt_{letter}"] = compute_tilt_in(lines[first], lines[second], distance, options.time)
         return Arithmetic(found)
 
     def figures(self, evaluation: Evaluation, options: Iso230Part3Options) -> Iterable[Figure]:
         """Return the displacements, tilts and temperatures over one axis of time."""
-        return figures.figures(evaluation, options.time, options.distances)
+        return figures.draw_figures(evaluation, options.time, options.distances)
 
 
 @hookimpl

@@ -19,9 +19,9 @@ from zlmreport.plugin import (
     same_in_all_languages,
 )
 from zlmreport.plugin.standard import Bracket, Curve, Panel, PositionStatistics, Role, deviation_in_words
-from zlmreport_plugins.standards.iso230_3.hours import Hours, tilt_over_time
-from zlmreport_plugins.standards.iso230_3.quantities import PAIRS, shown
-from zlmreport_plugins.standards.iso230_3.requirements import temperatures
+from zlmreport_plugins.standards.iso230_3.hours import Hours, compute_tilt_over_time
+from zlmreport_plugins.standards.iso230_3.quantities import PAIRS, write_shown
+from zlmreport_plugins.standards.iso230_3.requirements import list_temperatures
 
 _ROLES = (
     Role.CHANNEL_1,
@@ -36,7 +36,7 @@ _MOST_BRACKETS = 5
 _ENDING = "_temperature"
 
 
-def figures(evaluation: Evaluation, hours: Hours, distances: Mapping[str, float]) -> Iterator[Figure]:
+def draw_figures(evaluation: Evaluation, hours: Hours, distances: Mapping[str, float]) -> Iterator[Figure]:
     """Yield the one figure: displacements, tilts where there are any, temperatures where they were logged.
 
     `distances`: Of both sensors of a direction, m, by its letter.
@@ -45,14 +45,14 @@ def figures(evaluation: Evaluation, hours: Hours, distances: Mapping[str, float]
     if not tests:
         return
     unit = evaluation.measurements.axis.deviation_unit
-    panels = [_displacements(statistics, evaluation, hours, unit)]
-    panels += _tilts(statistics, evaluation, hours, distances)
-    panels += _temperatures(tests)
+    panels = [_draw_displacements(statistics, evaluation, hours, unit)]
+    panels += _draw_tilts(statistics, evaluation, hours, distances)
+    panels += _draw_temperatures(tests)
     yield Figure(
         key="drift",
         title=_TITLE,
         alternative=_SEEN.given(
-            sensors=same_in_all_languages(", ".join(tests)), largest=_largest(evaluation)
+            sensors=same_in_all_languages(", ".join(tests)), largest=_say_largest(evaluation)
         ),
         x_title=_TIME,
         y_title=_DISPLACEMENT,
@@ -63,11 +63,11 @@ def figures(evaluation: Evaluation, hours: Hours, distances: Mapping[str, float]
     )
 
 
-def _role(number: int) -> Role:
+def _choose_role(number: int) -> Role:
     return _ROLES[number % len(_ROLES)]
 
 
-def _displacements(
+def _draw_displacements(
     statistics: Mapping[str, PositionStatistics], evaluation: Evaluation, hours: Hours, unit: Unit
 ) -> Panel:
     curves: list[Curve] = []
@@ -75,9 +75,9 @@ def _displacements(
     for number, (name, line) in enumerate(statistics.items()):
         values = unit.from_si(_from_the_first(line.mean_positive))
         at = HOUR.from_si(line.positions)
-        curves.append(Curve(shown(name), _role(number), at, values))
+        curves.append(Curve(write_shown(name), _choose_role(number), at, values))
         if evaluation.value(f"E_{name}") is not None:
-            brackets.append(_bracket(f"E_{{{name}}}", line.positions, values, hours))
+            brackets.append(_make_bracket(f"E_{{{name}}}", line.positions, values, hours))
     return Panel(
         heading=_DISPLACEMENTS,
         curves=tuple(curves),
@@ -85,7 +85,7 @@ def _displacements(
     )
 
 
-def _tilts(
+def _draw_tilts(
     statistics: Mapping[str, PositionStatistics],
     evaluation: Evaluation,
     hours: Hours,
@@ -97,11 +97,13 @@ def _tilts(
         if letter not in distances or first not in statistics or second not in statistics:
             continue
         one = statistics[first]
-        tilt = tilt_over_time(one, statistics[second], distances[letter])
+        tilt = compute_tilt_over_time(one, statistics[second], distances[letter])
         values = ARCSECOND.from_si(_from_the_first(tilt))
-        curves.append(Curve(f"φ_{{{letter}}}", _role(len(curves)), HOUR.from_si(one.positions), values))
+        curves.append(
+            Curve(f"φ_{{{letter}}}", _choose_role(len(curves)), HOUR.from_si(one.positions), values)
+        )
         if evaluation.value(f"tilt_{letter}") is not None:
-            brackets.append(_bracket(f"φ_{{{letter}}}", one.positions, values, hours))
+            brackets.append(_make_bracket(f"φ_{{{letter}}}", one.positions, values, hours))
     if curves:
         yield Panel(
             heading=_TILTS,
@@ -112,19 +114,19 @@ def _tilts(
         )
 
 
-def _temperatures(tests: Mapping[str, MeasurementSet]) -> Iterator[Panel]:
+def _draw_temperatures(tests: Mapping[str, MeasurementSet]) -> Iterator[Panel]:
     """Yield the temperatures; what several sensors have beside them was logged once."""
     found: dict[str, tuple[FloatArray, FloatArray]] = {}
     for each in tests.values():
         at = HOUR.from_si(each.target_positions[np.sort(each.target, kind="stable")])
-        for name, values in temperatures(each):
+        for name, values in list_temperatures(each):
             if np.isfinite(values).any():
                 found.setdefault(name, (at, values))
     if found:
         yield Panel(
             heading=_OF_WHAT,
             curves=tuple(
-                Curve(_theta(name), _role(number), at, values)
+                Curve(_write_theta(name), _choose_role(number), at, values)
                 for number, (name, (at, values)) in enumerate(found.items())
             ),
             y_title=_TEMPERATURE,
@@ -132,7 +134,7 @@ def _temperatures(tests: Mapping[str, MeasurementSet]) -> Iterator[Panel]:
         )
 
 
-def _theta(name: str) -> str:
+def _write_theta(name: str) -> str:
     return f"θ_{{{name.removesuffix(_ENDING).replace('_', ' ')}}}"
 
 
@@ -142,7 +144,7 @@ def _from_the_first(values: FloatArray) -> FloatArray:
     return values - there[0] if there.size else values
 
 
-def _bracket(notation: str, times: FloatArray, values: FloatArray, hours: Hours) -> Bracket:
+def _make_bracket(notation: str, times: FloatArray, values: FloatArray, hours: Hours) -> Bracket:
     """Return the range of values in the hours, with the times at which its ends arise."""
     inside = np.where(hours.hold(times), values, np.nan)
     low, high = int(np.nanargmin(inside)), int(np.nanargmax(inside))
@@ -150,7 +152,7 @@ def _bracket(notation: str, times: FloatArray, values: FloatArray, hours: Hours)
     return Bracket(notation, float(values[low]), float(values[high]), float(at[low]), float(at[high]))
 
 
-def _largest(evaluation: Evaluation) -> Words:
+def _say_largest(evaluation: Evaluation) -> Words:
     """Return the largest drift in words."""
     found = [each for each in evaluation.parameters if each.quantity.unit is None]
     if not found:

@@ -48,47 +48,49 @@ class Hours:
         extent = float(inside[-1] - inside[0])
         if not self.are_stated:
             return extent
-        return min(extent + min(usual_interval(times), _MAY_LACK * self.length), self.length)
+        return min(extent + min(find_usual_interval(times), _MAY_LACK * self.length), self.length)
 
     def are_covered(self, times: FloatArray) -> bool:
         """Return whether readings go over all of them; of the whole record they do."""
         return not self.are_stated or self.covered(times) >= self.length * (1 - 1e-9)
 
 
-def usual_interval(times: FloatArray) -> float:
+def find_usual_interval(times: FloatArray) -> float:
     """Return the median time from reading to reading, s; 0 for a single one."""
     return float(np.median(np.diff(times))) if times.size > 1 else 0.0
 
 
-def longest_gap(times: FloatArray) -> float:
+def find_longest_gap(times: FloatArray) -> float:
     """Return the longest time from reading to reading, s; 0 for a single one."""
     return float(np.diff(times).max()) if times.size > 1 else 0.0
 
 
-def span_in(line: PositionStatistics, hours: Hours) -> FloatArray:
+def compute_span_in(line: PositionStatistics, hours: Hours) -> FloatArray:
     """Return the range of one sensor's readings in the hours, m, shape (...).
 
     NaN where they do not go over all of them: the range in a shorter time is another quantity.
     """
-    return _span(line.mean_positive, (line,), hours)
+    return _compute_span(line.mean_positive, (line,), hours)
 
 
-def tilt_over_time(first: PositionStatistics, second: PositionStatistics, distance: float) -> FloatArray:
+def compute_tilt_over_time(
+    first: PositionStatistics, second: PositionStatistics, distance: float
+) -> FloatArray:
     """Return the tilt at the times of the first sensor, rad, shape (..., position).
 
     The second is taken linear between its own times, where they are others; NaN beyond them.
     """
-    return np.asarray((first.mean_positive - _at(second, first.positions)) / distance)
+    return np.asarray((first.mean_positive - _interpolate_at(second, first.positions)) / distance)
 
 
-def tilt_in(
+def compute_tilt_in(
     first: PositionStatistics, second: PositionStatistics, distance: float, hours: Hours
 ) -> FloatArray:
-    """Return the range of the tilt in the hours, rad, shape (...); NaN as `span_in`."""
-    return _span(tilt_over_time(first, second, distance), (first, second), hours)
+    """Return the range of the tilt in the hours, rad, shape (...); NaN as `compute_span_in`."""
+    return _compute_span(compute_tilt_over_time(first, second, distance), (first, second), hours)
 
 
-def _span(values: FloatArray, lines: tuple[PositionStatistics, ...], hours: Hours) -> FloatArray:
+def _compute_span(values: FloatArray, lines: tuple[PositionStatistics, ...], hours: Hours) -> FloatArray:
     """Return the range of values at the times of the first of some sensors, in hours that all go over."""
     inside = hours.hold(lines[0].positions)
     if not all(hours.are_covered(each.positions) for each in lines) or np.count_nonzero(inside) < 2:
@@ -96,7 +98,7 @@ def _span(values: FloatArray, lines: tuple[PositionStatistics, ...], hours: Hour
     return span_over_positions(values[..., inside])
 
 
-def _at(line: PositionStatistics, times: FloatArray) -> FloatArray:
+def _interpolate_at(line: PositionStatistics, times: FloatArray) -> FloatArray:
     """Return a sensor's readings at some times, linear between its own, shape (..., position)."""
     own, values = line.positions, line.mean_positive
     if np.array_equal(own, times):

@@ -31,18 +31,18 @@ DRIFT = Measurand(
 )
 
 
-def shown(name: str) -> str:
+def write_shown(name: str) -> str:
     """Return the notation of what a sensor reads."""
     return f"{name[0]}_{{{name[1:]}}}" if name[1:] else name
 
 
-def _of_a_sensor(name: str) -> Quantity:
+def _define_of_a_sensor(name: str) -> Quantity:
     return Quantity(
         f"E_{name}",
         f"E_{{{name}}}",
         Words("Drift in {letter}, sensor {name}").given(letter=name[0], name=name),
         QuantityGroup.SYSTEMATIC,
-        f"max({shown(name)}(t)) − min({shown(name)}(t))",
+        f"max({write_shown(name)}(t)) − min({write_shown(name)}(t))",
         Words(
             "How far tool and workpiece moved against each other in {letter} in the stated hours, and with "
             "that how far a part that took so long may be off."
@@ -50,9 +50,9 @@ def _of_a_sensor(name: str) -> Quantity:
     )
 
 
-def _of_a_pair(letter: str) -> Quantity:
+def _define_of_a_pair(letter: str) -> Quantity:
     first, second = PAIRS[letter]
-    tilt = f"({shown(first)}(t) − {shown(second)}(t))/d"
+    tilt = f"({write_shown(first)}(t) − {write_shown(second)}(t))/d"
     return Quantity(
         f"tilt_{letter}",
         f"φ_{{{letter}}}",
@@ -67,7 +67,7 @@ def _of_a_pair(letter: str) -> Quantity:
     )
 
 
-QUANTITIES = (*map(_of_a_sensor, NAMES), *map(_of_a_pair, PAIRS))
+QUANTITIES = (*map(_define_of_a_sensor, NAMES), *map(_define_of_a_pair, PAIRS))
 
 NOTES: tuple[Words, ...] = (
     Words(

@@ -19,7 +19,7 @@ from zlmreport.plugin import (
     same_in_all_languages,
 )
 from zlmreport.plugin.standard import Basis, Finding
-from zlmreport_plugins.standards.iso230_3.hours import Hours, longest_gap, usual_interval
+from zlmreport_plugins.standards.iso230_3.hours import Hours, find_longest_gap, find_usual_interval
 from zlmreport_plugins.standards.iso230_3.quantities import PAIRS
 
 #: Of a test at the least, and of one that shows a whole day, h.
@@ -30,25 +30,27 @@ _PART = 1 / 20
 _TEMPERATURE = "_temperature"
 
 
-def findings(measurements: MeasurementSet, hours: Hours, distances: Mapping[str, float]) -> Iterator[Finding]:
+def check_requirements(
+    measurements: MeasurementSet, hours: Hours, distances: Mapping[str, float]
+) -> Iterator[Finding]:
     """Yield the requirements.
 
     `distances`: Of both sensors of a direction, m, by its letter.
     """
     tests = measurements.tests
-    yield _stated(tests, hours)
+    yield _check_stated(tests, hours)
     if hours.are_stated:
-        yield _covered(tests, hours)
-    yield _long_enough(tests, hours)
-    yield _without_gaps(tests, hours)
-    yield _directions(tests)
-    yield from _tilts(tests, distances)
-    yield _temperatures(tests)
+        yield _check_covered(tests, hours)
+    yield _check_long_enough(tests, hours)
+    yield _check_without_gaps(tests, hours)
+    yield _check_directions(tests)
+    yield from _check_tilts(tests, distances)
+    yield _check_temperatures(tests)
     yield _complete(tests)
-    yield from _averaged(tests)
+    yield from _check_averaged(tests)
 
 
-def temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, FloatArray]]:
+def list_temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, FloatArray]]:
     """Yield the temperatures beside the readings of a sensor by their names, °C, in the order of time."""
     order = np.argsort(measurements.target, kind="stable")
     for name, values in measurements.conditions.items():
@@ -59,24 +61,26 @@ def temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, FloatArray
             yield name, values[order]
 
 
-def _duration(tests: Mapping[str, MeasurementSet], hours: Hours) -> float:
+def _find_duration(tests: Mapping[str, MeasurementSet], hours: Hours) -> float:
     """Return for how long the shortest record goes over the hours, s."""
     return min((hours.covered(each.target_positions) for each in tests.values()), default=0.0)
 
 
-def _in_hours(seconds: float) -> float:
+def _convert_to_hours(seconds: float) -> float:
     return float(f"{HOUR.from_si(seconds):.3g}")
 
 
-def _stated(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+def _check_stated(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
     if not hours.are_stated:
-        found = _WHOLE.given(hours=_in_hours(_duration(tests, hours)), start=_in_hours(hours.start))
+        found = _WHOLE.given(
+            hours=_convert_to_hours(_find_duration(tests, hours)), start=_convert_to_hours(hours.start)
+        )
         return Finding(_HOURS, found, met=None)
-    found = _THESE.given(hours=_in_hours(hours.length), start=_in_hours(hours.start))
+    found = _THESE.given(hours=_convert_to_hours(hours.length), start=_convert_to_hours(hours.start))
     return Finding(_HOURS, found, met=True)
 
 
-def _covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+def _check_covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
     short = {
         name: hours.covered(each.target_positions)
         for name, each in tests.items()
@@ -86,38 +90,43 @@ def _covered(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
         return Finding(_OVER_ALL, _THEY_DO, met=True)
     name = min(short, key=lambda each: short[each])
     found = _TOO_SHORT.given(
-        names=", ".join(short), name=name, hours=_in_hours(short[name]), of=_in_hours(hours.length)
+        names=", ".join(short),
+        name=name,
+        hours=_convert_to_hours(short[name]),
+        of=_convert_to_hours(hours.length),
     )
     return Finding(_OVER_ALL, found, met=False)
 
 
-def _long_enough(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
-    duration = _duration(tests, hours)
+def _check_long_enough(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+    duration = _find_duration(tests, hours)
     is_enough = duration >= HOUR.to_si(_AT_LEAST) * (1 - 1e-9)
-    found = _LASTED.given(hours=_in_hours(duration))
+    found = _LASTED.given(hours=_convert_to_hours(duration))
     return Finding(_LONG.given(least=_AT_LEAST, day=_A_DAY), found, is_enough)
 
 
-def _without_gaps(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
+def _check_without_gaps(tests: Mapping[str, MeasurementSet], hours: Hours) -> Finding:
     gaps = {
-        name: longest_gap(each.target_positions[_there(each) & hours.hold(each.target_positions)])
+        name: find_longest_gap(
+            each.target_positions[_find_what_is_there(each) & hours.hold(each.target_positions)]
+        )
         for name, each in tests.items()
     }
     name = max(gaps, key=lambda each: gaps[each], default="")
     if not gaps or not gaps[name]:
         return Finding(_NO_GAP, _TOO_FEW, met=False)
-    most = _PART * _duration(tests, hours)
-    usual = usual_interval(tests[name].target_positions)
+    most = _PART * _find_duration(tests, hours)
+    usual = find_usual_interval(tests[name].target_positions)
     found = _LONGEST.given(name=name, gap=float(f"{gaps[name] / 60:.3g}"), usual=float(f"{usual / 60:.3g}"))
     return Finding(_NO_GAP, found, gaps[name] <= most)
 
 
-def _there(measurements: MeasurementSet) -> BoolArray:
+def _find_what_is_there(measurements: MeasurementSet) -> BoolArray:
     """Return at which times there is a reading, shape (position,)."""
     return np.asarray(np.isfinite(measurements.deviations()).any(axis=(0, 2)))
 
 
-def _directions(tests: Mapping[str, MeasurementSet]) -> Finding:
+def _check_directions(tests: Mapping[str, MeasurementSet]) -> Finding:
     lacking = [letter for letter in PAIRS if not any(name.startswith(letter) for name in tests)]
     measured = ", ".join(tests)
     if not lacking:
@@ -125,7 +134,7 @@ def _directions(tests: Mapping[str, MeasurementSet]) -> Finding:
     return Finding(_ALL, _ONLY.given(measured=measured, lacking=", ".join(lacking)), met=False)
 
 
-def _tilts(tests: Mapping[str, MeasurementSet], distances: Mapping[str, float]) -> Iterator[Finding]:
+def _check_tilts(tests: Mapping[str, MeasurementSet], distances: Mapping[str, float]) -> Iterator[Finding]:
     """Yield whether the tilt of each direction can be had that has two sensors, or the distance of two."""
     for letter, (first, second) in PAIRS.items():
         has_pair = first in tests and second in tests
@@ -139,10 +148,10 @@ def _tilts(tests: Mapping[str, MeasurementSet], distances: Mapping[str, float]) 
             yield Finding(requirement, _NO_PAIR.given(letter=letter), met=False)
 
 
-def _temperatures(tests: Mapping[str, MeasurementSet]) -> Finding:
+def _check_temperatures(tests: Mapping[str, MeasurementSet]) -> Finding:
     found: dict[str, float] = {}
     for each in tests.values():
-        for name, values in temperatures(each):
+        for name, values in list_temperatures(each):
             if np.isfinite(values).any():
                 found.setdefault(name, float(np.nanmax(values) - np.nanmin(values)))
     if not found:
@@ -167,7 +176,7 @@ def _complete(tests: Mapping[str, MeasurementSet]) -> Finding:
     return Finding(_NO_MISSING, found, met=False)
 
 
-def _averaged(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
+def _check_averaged(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
     """Yield how much averages may hide of an extreme, of the sensor of which it is most."""
     left = {
         name: each.provenance.averaging.left_out for name, each in tests.items() if each.provenance.averaging

@@ -44,12 +44,12 @@ from zlmreport.plugin.standard import (
 from zlmreport_plugins.standards.iso230_4 import figures
 from zlmreport_plugins.standards.iso230_4.circles import (
     Zone,
-    about,
-    covered_arc,
+    compute_about,
+    find_minimum_zone,
+    find_zone_about,
+    fit_least_squares_circle,
     is_full_turn,
-    least_squares_circle,
-    minimum_zone,
-    zone_about,
+    measure_covered_arc,
 )
 from zlmreport_plugins.standards.iso230_4.quantities import NOTES, QUANTITIES, SENSES
 
@@ -77,27 +77,29 @@ class Iso230Part4Options(Options):
         return self.circle is not None and self.circle.calibrated_length
 
 
-def zone_of(points: FloatArray, angles: FloatArray, options: Iso230Part4Options) -> Zone:
+def find_zone_of(points: FloatArray, angles: FloatArray, options: Iso230Part4Options) -> Zone:
     """Return the two circles about one centre that hold points, (..., n), between them."""
     if options.reference_circle == "minimum-zone":
-        return minimum_zone(points, angles)
-    return zone_about(least_squares_circle(points, angles).centre, points, angles)
+        return find_minimum_zone(points, angles)
+    return find_zone_about(fit_least_squares_circle(points, angles).centre, points, angles)
 
 
-def parameters(mean: FloatArray, angles: FloatArray, options: Iso230Part4Options) -> dict[str, FloatArray]:
+def compute_parameters(
+    mean: FloatArray, angles: FloatArray, options: Iso230Part4Options
+) -> dict[str, FloatArray]:
     """Return the parameters by symbol, m, each of shape (...).
 
     `mean`, (..., approach, m): The mean path of each sense; NaN where a sense was not run, or not there.
     """
     batch, tests = mean.shape[:-2], mean.reshape(-1, *mean.shape[-2:])
     found = {each.symbol: np.full(len(tests), np.nan) for each in QUANTITIES}
-    for alike, there in _alike(np.isfinite(tests)) if np.isfinite(angles).all() else ():
-        for symbol, values in _of_paths(tests[alike], there, angles, options).items():
+    for alike, there in _group_alike(np.isfinite(tests)) if np.isfinite(angles).all() else ():
+        for symbol, values in _compute_of_paths(tests[alike], there, angles, options).items():
             found[symbol][alike] = values
     return {symbol: values.reshape(batch) for symbol, values in found.items()}
 
 
-def _alike(there: BoolArray) -> Iterator[tuple[IntArray, BoolArray]]:
+def _group_alike(there: BoolArray) -> Iterator[tuple[IntArray, BoolArray]]:
     """Yield the indices of tests in which the same points are there, and which: mostly of all tests."""
     if (there == there[:1]).all():
         yield np.arange(len(there)), there[0]
@@ -107,7 +109,7 @@ def _alike(there: BoolArray) -> Iterator[tuple[IntArray, BoolArray]]:
         yield np.flatnonzero(which == number), pattern.reshape(there.shape[1:])
 
 
-def _of_paths(
+def _compute_of_paths(
     mean: FloatArray, there: BoolArray, angles: FloatArray, options: Iso230Part4Options
 ) -> dict[str, FloatArray]:
     """Return the parameters that tests define in which the same points are there: (test,)."""
@@ -117,29 +119,31 @@ def _of_paths(
         points, at = path[:, present], angles[present]
         if not at.size:
             continue
-        found[f"G_{sense}"] = zone_of(points, at, options).width
+        found[f"G_{sense}"] = find_zone_of(points, at, options).width
         if options.has_length:
-            radial = about(least_squares_circle(points, at).centre, points, at) if is_full else points
+            radial = (
+                compute_about(fit_least_squares_circle(points, at).centre, points, at) if is_full else points
+            )
             found[f"F_max_{sense}"], found[f"F_min_{sense}"] = radial.max(axis=-1), radial.min(axis=-1)
     if there.any(axis=1).all():
         points, at = mean[:, there], np.broadcast_to(angles, there.shape)[there]
-        found["G_b"] = zone_of(points, at, options).width
+        found["G_b"] = find_zone_of(points, at, options).width
         if is_full and options.has_length:
-            found["D"] = least_squares_circle(points, at).radius
+            found["D"] = fit_least_squares_circle(points, at).radius
     return found
 
 
-def findings(measurements: MeasurementSet, options: Iso230Part4Options) -> Iterator[Finding]:
+def check_requirements(measurements: MeasurementSet, options: Iso230Part4Options) -> Iterator[Finding]:
     """Yield the requirements, held against the test."""
-    yield _both_senses(measurements)
-    yield _arc(measurements)
-    yield _calibrated(options)
-    yield from _centred(measurements, options)
+    yield _check_both_senses(measurements)
+    yield _check_arc(measurements)
+    yield _check_calibrated(options)
+    yield from _check_centred(measurements, options)
     yield no_missing_readings(measurements)
-    yield from _averaged(measurements)
+    yield from _check_averaged(measurements)
 
 
-def _both_senses(measurements: MeasurementSet) -> Finding:
+def _check_both_senses(measurements: MeasurementSet) -> Finding:
     """Ask for paths in both senses."""
     requirement = Words("Paths in both senses, counter-clockwise and clockwise")
     there = np.isfinite(measurements.deviation)
@@ -159,9 +163,9 @@ def _both_senses(measurements: MeasurementSet) -> Finding:
     return Finding(requirement, found.given(sense=senses[0]), met=False)
 
 
-def _arc(measurements: MeasurementSet) -> Finding:
+def _check_arc(measurements: MeasurementSet) -> Finding:
     """Ask for an arc of 90° at least; say what an arc below a full turn cannot give."""
-    arc = covered_arc(measurements.target_positions)
+    arc = measure_covered_arc(measurements.target_positions)
     requirement = Words("Nominal path of at least {arc}").given(
         arc=position_in_words(measurements.axis, _LEAST_ARC)
     )
@@ -174,7 +178,7 @@ def _arc(measurements: MeasurementSet) -> Finding:
     return Finding(requirement, found, arc >= _LEAST_ARC, Basis.PUBLISHED)
 
 
-def _calibrated(options: Iso230Part4Options) -> Finding:
+def _check_calibrated(options: Iso230Part4Options) -> Finding:
     """Say whether F and D are defined."""
     requirement = Words("A calibrated length of the instrument, for F and D")
     if options.has_length:
@@ -183,13 +187,15 @@ def _calibrated(options: Iso230Part4Options) -> Finding:
     return Finding(requirement, found, met=None)
 
 
-def _centred(measurements: MeasurementSet, options: Iso230Part4Options) -> Iterator[Finding]:
+def _check_centred(measurements: MeasurementSet, options: Iso230Part4Options) -> Iterator[Finding]:
     """Ask that the instrument stands so near the centre that its offset is a shift and no error of form."""
     there = np.isfinite(measurements.deviation)
     angles = measurements.target_positions
     if options.circle is None or not there.any() or not is_full_turn(angles):
         return
-    centre = least_squares_circle(measurements.deviation[there], angles[measurements.target[there]]).centre
+    centre = fit_least_squares_circle(
+        measurements.deviation[there], angles[measurements.target[there]]
+    ).centre
     offset = float(np.hypot(*centre))
     left = offset**2 / (2 * MILLIMETRE.to_si(options.circle.radius))
     axis = measurements.axis
@@ -203,7 +209,7 @@ def _centred(measurements: MeasurementSet, options: Iso230Part4Options) -> Itera
     yield Finding(requirement, found, left <= _OFF_CENTRE)
 
 
-def _averaged(measurements: MeasurementSet) -> Iterator[Finding]:
+def _check_averaged(measurements: MeasurementSet) -> Iterator[Finding]:
     """Say what was averaged out of readings that are many to an angle, as a vibration of the machine."""
     averaging = measurements.provenance.averaging
     if averaging is None:
@@ -249,15 +255,15 @@ class Iso230Part4:
 
     def requirements(self, measurements: MeasurementSet, options: Iso230Part4Options) -> Iterable[Finding]:
         """Hold the requirements against the test."""
-        return findings(measurements, options)
+        return check_requirements(measurements, options)
 
     def arithmetic(self, statistics: PositionStatistics, options: Iso230Part4Options) -> Arithmetic:
         """Return the parameters of the mean path of each sense."""
-        return Arithmetic(parameters(statistics.mean, statistics.positions, options))
+        return Arithmetic(compute_parameters(statistics.mean, statistics.positions, options))
 
     def figures(self, evaluation: Evaluation, options: Iso230Part4Options) -> Iterable[Figure]:
         """Return the paths about the nominal circle, and over the angle."""
-        return figures.figures(evaluation, zone_of, options)
+        return figures.draw_figures(evaluation, find_zone_of, options)
 
 
 @hookimpl

@@ -51,22 +51,22 @@ class Zone:
 
 def is_full_turn(angles: FloatArray) -> bool:
     """Return whether angles lie all round, and not on an arc of a turn."""
-    gaps = _gaps(angles)
+    gaps = _measure_gaps(angles)
     return len(gaps) > 3 and bool(gaps.max() <= _WIDEST_GAP * np.median(gaps) and gaps.max() < math.pi / 2)
 
 
-def covered_arc(angles: FloatArray) -> float:
+def measure_covered_arc(angles: FloatArray) -> float:
     """Return how far angles reach round: 2π for a full turn, else without the widest gap."""
-    return 2 * math.pi if is_full_turn(angles) else 2 * math.pi - float(_gaps(angles).max())
+    return 2 * math.pi if is_full_turn(angles) else 2 * math.pi - float(_measure_gaps(angles).max())
 
 
-def _gaps(angles: FloatArray) -> FloatArray:
+def _measure_gaps(angles: FloatArray) -> FloatArray:
     """Return the ways from angle to angle round a turn."""
     rising = np.sort(np.mod(angles, 2 * math.pi))
     return np.diff(rising, append=rising[:1] + 2 * math.pi)
 
 
-def least_squares_circle(points: FloatArray, angles: FloatArray) -> Circle:
+def fit_least_squares_circle(points: FloatArray, angles: FloatArray) -> Circle:
     """Return the circle of least squares; NaN where fewer than three points tell of it."""
     if len(angles) < 3:
         nothing = np.full((*points.shape[:-1], 3), np.nan)
@@ -76,18 +76,18 @@ def least_squares_circle(points: FloatArray, angles: FloatArray) -> Circle:
     return Circle(found[..., 1:], found[..., 0])
 
 
-def about(centre: FloatArray, points: FloatArray, angles: FloatArray) -> FloatArray:
+def compute_about(centre: FloatArray, points: FloatArray, angles: FloatArray) -> FloatArray:
     """Return radial deviations about another centre, (..., 2), from that of the nominal circle."""
     return np.asarray(points - centre @ np.stack([np.cos(angles), np.sin(angles)]))
 
 
-def zone_about(centre: FloatArray, points: FloatArray, angles: FloatArray) -> Zone:
+def find_zone_about(centre: FloatArray, points: FloatArray, angles: FloatArray) -> Zone:
     """Return the two circles about a centre that hold all points between them."""
-    found = about(centre, points, angles)
+    found = compute_about(centre, points, angles)
     return Zone(centre, found.min(axis=-1), found.max(axis=-1))
 
 
-def minimum_zone(points: FloatArray, angles: FloatArray) -> Zone:
+def find_minimum_zone(points: FloatArray, angles: FloatArray) -> Zone:
     """Return the two circles about one centre, as near to each other as can be, that hold all points.
 
     Notes
@@ -109,7 +109,7 @@ def minimum_zone(points: FloatArray, angles: FloatArray) -> Zone:
     if len(begins) < len(order):
         upper, lower = (each.reduceat(upper, begins, axis=-1) for each in (np.maximum, np.minimum))
     centre = _Search(upper, lower, angles[order][begins]).centres().reshape(*batch, 2)
-    return zone_about(centre, points, angles)
+    return find_zone_about(centre, points, angles)
 
 
 class _Search:
@@ -137,7 +137,7 @@ class _Search:
             changed = self._exchange(active, outermost, 1.0) | self._exchange(active, innermost, -1.0)
             active = active[changed]
         for test in np.flatnonzero(self._is_open(np.arange(len(self.upper)))):
-            self.centre[test] = _centre_by_vertices(self.upper[test], self.lower[test], self.direction)
+            self.centre[test] = _find_centre_by_vertices(self.upper[test], self.lower[test], self.direction)
         return self.centre
 
     def _is_open(self, tests: IntArray) -> BoolArray:
@@ -183,7 +183,7 @@ class _Search:
         return free
 
 
-def _centre_by_vertices(upper: FloatArray, lower: FloatArray, direction: FloatArray) -> FloatArray:
+def _find_centre_by_vertices(upper: FloatArray, lower: FloatArray, direction: FloatArray) -> FloatArray:
     """Return the centre of the minimum zone where four points by turns do not hold it.
 
     Of few angles the best of all vertices is taken, and the angles that stand out there are added, until none
@@ -193,7 +193,7 @@ def _centre_by_vertices(upper: FloatArray, lower: FloatArray, direction: FloatAr
     few = {int(each) for each in np.arange(4) * count // 4} | {int((upper - lower).argmax())}
     while True:
         chosen = np.array(sorted(few))
-        centre, width = _best_vertex(upper[chosen], lower[chosen], direction[:, chosen])
+        centre, width = _find_best_vertex(upper[chosen], lower[chosen], direction[:, chosen])
         moved = centre @ direction
         outermost, innermost = int((upper - moved).argmax()), int((lower - moved).argmin())
         met = float((upper - moved)[outermost] - (lower - moved)[innermost])
@@ -202,7 +202,9 @@ def _centre_by_vertices(upper: FloatArray, lower: FloatArray, direction: FloatAr
         few |= {outermost, innermost}
 
 
-def _best_vertex(upper: FloatArray, lower: FloatArray, direction: FloatArray) -> tuple[FloatArray, float]:
+def _find_best_vertex(
+    upper: FloatArray, lower: FloatArray, direction: FloatArray
+) -> tuple[FloatArray, float]:
     """Return the best of all centres at which two pairs of points lie equally far out, or in."""
     first, second = np.triu_indices(len(upper), 1)
     difference = np.concatenate([(direction[:, first] - direction[:, second]).T] * 2)

@@ -19,7 +19,12 @@ from zlmreport.plugin.standard import (
     deviation_in_words,
     range_in_words,
 )
-from zlmreport_plugins.standards.iso230_4.circles import Zone, about, is_full_turn, least_squares_circle
+from zlmreport_plugins.standards.iso230_4.circles import (
+    Zone,
+    compute_about,
+    fit_least_squares_circle,
+    is_full_turn,
+)
 from zlmreport_plugins.standards.iso230_4.quantities import SENSES
 
 #: Returns the two circles that hold points at angles between them, by the keys of the standard.
@@ -44,7 +49,7 @@ _PATH = Words("Path, {sense}:")
 _CIRCLES = Words("{symbol} = {width}: its circles lie at {inner} and {outer}.")
 
 
-def figures(evaluation: Evaluation, zone_of: ZoneOf, options: Any) -> Iterator[Figure]:
+def draw_figures(evaluation: Evaluation, zone_of: ZoneOf, options: Any) -> Iterator[Figure]:
     """Yield the paths drawn outwards from the nominal circle, and the same over the angle."""
     graphs = _Graphs(evaluation, zone_of, options)
     if graphs.senses:
@@ -71,8 +76,8 @@ class _Graphs:
         self.zone = zone_of(points, at, options)
         self.is_about_nominal = options.has_length
         self.centre_in_words = _CENTRES[options.reference_circle]
-        nominal = 0.0 if options.has_length else float(least_squares_circle(points, at).radius)
-        self.paths = about(self.zone.centre, paths, self.angles) - nominal
+        nominal = 0.0 if options.has_length else float(fit_least_squares_circle(points, at).radius)
+        self.paths = compute_about(self.zone.centre, paths, self.angles) - nominal
         self.inner, self.outer = float(self.zone.inner) - nominal, float(self.zone.outer) - nominal
 
     def on_circle(self) -> Figure:
@@ -182,7 +187,7 @@ class _Graphs:
         return Figure(
             key=key,
             title=title,
-            alternative=alternative_text(title_as_sentence(title), *ranges, circles, centre),
+            alternative=alternative_text(write_title_as_sentence(title), *ranges, circles, centre),
             x_title=_ANGLE.given(first=first, second=second),
             y_title=_RADIAL,
             x_unit=self.axis.position_unit.symbol,
@@ -201,6 +206,6 @@ class _Graphs:
         return float(self.axis.position_unit.from_si(angle))
 
 
-def title_as_sentence(title: Words) -> Words:
+def write_title_as_sentence(title: Words) -> Words:
     """Return a caption as a sentence."""
     return Words("{title}.").given(title=title)

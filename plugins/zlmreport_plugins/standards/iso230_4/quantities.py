@@ -16,7 +16,7 @@ _LARGEST = Words("Largest")
 _SMALLEST = Words("Smallest")
 
 
-def _circular(sense: str) -> Quantity:
+def _define_circular(sense: str) -> Quantity:
     return Quantity(
         symbol=f"G_{sense}",
         notation=f"G({sense})",
@@ -30,7 +30,7 @@ def _circular(sense: str) -> Quantity:
     )
 
 
-def _radial(sense: str, which: str, words: Words) -> Quantity:
+def _define_radial(sense: str, which: str, words: Words) -> Quantity:
     return Quantity(
         symbol=f"F_{which}_{sense}",
         notation=f"F_{{{which}}}({sense})",
@@ -66,10 +66,10 @@ MEAN_RADIAL = Quantity(
 )
 #: In the order of the results table.
 QUANTITIES: tuple[Quantity, ...] = (
-    *map(_circular, SENSES),
+    *map(_define_circular, SENSES),
     BOTH,
     *(
-        _radial(sense, which, words)
+        _define_radial(sense, which, words)
         for sense in SENSES
         for which, words in (("max", _LARGEST), ("min", _SMALLEST))
     ),

@@ -126,7 +126,7 @@ class Iso230Part6:
     def requirements(self, measurements: MeasurementSet, options: DiagonalOptions) -> Iterator[Finding]:
         """Hold the plan of the test against the lines that were measured."""
         tests = measurements.tests
-        yield _four(tests)
+        yield _check_four(tests)
         for rule in (
             lambda each: positions_per_metre(each, _PER_METRE, Basis.APPLIED, minimum=_AT_LEAST),
             lambda each: number_of_runs(each, _RUNS, Basis.APPLIED),
@@ -134,8 +134,8 @@ class Iso230Part6:
             no_missing_readings,
         ):
             if tests:
-                yield _worst_of(tests, rule)
-        yield from _within(tests, options.axes)
+                yield _find_worst_of(tests, rule)
+        yield from _check_within(tests, options.axes)
 
     def arithmetic(self, statistics: PositionStatistics, options: DiagonalOptions) -> Arithmetic:
         """Return the parameters of each diagonal that was measured, the largest, and what faces show."""
@@ -143,7 +143,7 @@ class Iso230Part6:
         found = {each.symbol: np.full(batch, np.nan) for each in QUANTITIES}
         for name, line in statistics.tests.items():
             if name in (*BODY, *FACE):
-                found |= _of_one(name, line)
+                found |= _compute_of_one(name, line)
         for letter in "EB":
             of_body = np.stack([found[f"{letter}_{name}"] for name in BODY])
             # The largest of some of them says nothing of those that are not there.
@@ -172,11 +172,11 @@ def squareness(
     a, b = space.side(axes[0]), space.side(axes[1])
     if a is None or b is None:
         return np.full(first.mean.shape[:-2], np.nan)
-    smaller = (_elongation(first) - _elongation(second)) * (a * a + b * b) / (2 * a * b)
+    smaller = (_compute_elongation(first) - _compute_elongation(second)) * (a * a + b * b) / (2 * a * b)
     return _SIGNS[symbol] * smaller
 
 
-def _elongation(line: PositionStatistics) -> FloatArray:
+def _compute_elongation(line: PositionStatistics) -> FloatArray:
     """Return by how much of its length a diagonal is too long, from its ends, shape (...).
 
     NaN where it has one position only, and so no length.
@@ -187,7 +187,7 @@ def _elongation(line: PositionStatistics) -> FloatArray:
     return np.asarray((mean[..., -1] - mean[..., 0]) / (line.positions[-1] - line.positions[0]))
 
 
-def _of_one(name: str, line: PositionStatistics) -> dict[str, FloatArray]:
+def _compute_of_one(name: str, line: PositionStatistics) -> dict[str, FloatArray]:
     mean = line.mean
     of_each, both = span_over_positions(mean), mean.reshape(*mean.shape[:-2], -1)
     return {
@@ -198,18 +198,18 @@ def _of_one(name: str, line: PositionStatistics) -> dict[str, FloatArray]:
     }
 
 
-def _axes_of(name: str) -> str:
+def _name_axes_of(name: str) -> str:
     return "XYZ" if name in BODY else name[:2]
 
 
-def _four(tests: Mapping[str, MeasurementSet]) -> Finding:
+def _check_four(tests: Mapping[str, MeasurementSet]) -> Finding:
     """Ask for all body diagonals; faces alone are a test of squareness."""
     lacking = [name for name in BODY if name not in tests]
     found = _ALL_FOUR if not lacking else _LACKING.given(names=", ".join(lacking))
     return Finding(_FOUR, found, not lacking, Basis.APPLIED)
 
 
-def _worst_of(tests: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSet], Finding]) -> Finding:
+def _find_worst_of(tests: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSet], Finding]) -> Finding:
     """Return what a rule finds on the diagonal that meets it least, with its name."""
     found = {name: rule(line) for name, line in tests.items()}
     gravity = {False: 0, None: 1, True: 2}
@@ -219,10 +219,10 @@ def _worst_of(tests: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSe
     return Finding(_EACH.given(requirement=worst.requirement), said, worst.met, worst.basis)
 
 
-def _within(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Iterator[Finding]:
+def _check_within(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Iterator[Finding]:
     """Yield whether the diagonals have room in the work space as it is stated."""
     for name, line in tests.items():
-        whole, measured = space.length(_axes_of(name)), measured_length(line)
+        whole, measured = space.length(_name_axes_of(name)), measured_length(line)
         if whole is None:
             yield Finding(_IN_SPACE, _NOT_STATED, None)
             return
@@ -248,19 +248,19 @@ def _figures(evaluation: Evaluation) -> Iterator[Figure]:
             key=key,
             title=title,
             alternative=_SEEN.given(
-                values=same_in_all_languages("; ".join(shown)), largest=_largest(evaluation, shown)
+                values=same_in_all_languages("; ".join(shown)), largest=_say_largest(evaluation, shown)
             ),
             x_title=_ALONG,
             y_title=_DEVIATION,
             x_unit=axis.position_unit.symbol,
             y_unit=axis.deviation_unit.symbol,
-            panels=tuple(_panel(name, tests[name], evaluation.statistics.tests[name]) for name in shown),
+            panels=tuple(_make_panel(name, tests[name], evaluation.statistics.tests[name]) for name in shown),
             is_wide=True,
             height=_HEIGHT,
         )
 
 
-def _largest(evaluation: Evaluation, names: Iterable[str]) -> Words:
+def _say_largest(evaluation: Evaluation, names: Iterable[str]) -> Words:
     """Return the largest deviation of some diagonals over both directions in words."""
     values = [value for name in names if (value := evaluation.value(f"E_{name}")) is not None]
     if not values:
@@ -269,7 +269,7 @@ def _largest(evaluation: Evaluation, names: Iterable[str]) -> Words:
     return deviation_in_words(any_line.axis, float(f"{max(values):.4g}"))
 
 
-def _panel(name: str, line: MeasurementSet, statistics: PositionStatistics) -> Panel:
+def _make_panel(name: str, line: MeasurementSet, statistics: PositionStatistics) -> Panel:
     axis = line.axis
     shown = axis.position_unit.from_si(line.target_positions)
     return Panel(

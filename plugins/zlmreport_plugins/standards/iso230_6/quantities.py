@@ -60,7 +60,7 @@ _WHOLE = (
 )
 
 
-def _of_one(name: str) -> Iterator[Quantity]:
+def _define_of_one(name: str) -> Iterator[Quantity]:
     """Yield the parameters of a diagonal."""
     for way, arrow, of in (
         ("", "", Words("both directions")),
@@ -86,7 +86,7 @@ def _of_one(name: str) -> Iterator[Quantity]:
     )
 
 
-def _of_a_face(symbol: str, pair: tuple[str, str]) -> Quantity:
+def _define_of_a_face(symbol: str, pair: tuple[str, str]) -> Quantity:
     """Return the squareness error that both diagonals of a face show."""
     sign = "" if symbol == "B0Z" else "−"
     first, second = pair
@@ -103,6 +103,6 @@ def _of_a_face(symbol: str, pair: tuple[str, str]) -> Quantity:
 
 QUANTITIES = (
     *_WHOLE,
-    *(each for name in (*BODY, *FACE) for each in _of_one(name)),
-    *(_of_a_face(symbol, pair) for symbol, pair in FACES.items()),
+    *(each for name in (*BODY, *FACE) for each in _define_of_one(name)),
+    *(_define_of_a_face(symbol, pair) for symbol, pair in FACES.items()),
 )

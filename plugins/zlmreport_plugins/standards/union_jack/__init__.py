@@ -26,14 +26,14 @@ from zlmreport.plugin.standard import (
     position_in_words,
     position_statistics,
 )
-from zlmreport_plugins.standards.union_jack.figures import figures
-from zlmreport_plugins.standards.union_jack.heights import Plate, plate_of
-from zlmreport_plugins.standards.union_jack.planes import least_squares_span, minimum_zone
+from zlmreport_plugins.standards.union_jack.figures import draw_figures
+from zlmreport_plugins.standards.union_jack.heights import Plate, find_plate_of
+from zlmreport_plugins.standards.union_jack.planes import compute_least_squares_span, find_minimum_zone
 from zlmreport_plugins.standards.union_jack.quantities import (
     MOST_CLOSURE,
     NOTES,
     QUANTITIES,
-    closure_symbol,
+    make_closure_symbol,
 )
 from zlmreport_plugins.union_jack_lines import (
     ACROSS,
@@ -42,8 +42,8 @@ from zlmreport_plugins.union_jack_lines import (
     DIAGONALS,
     FLATNESS,
     LINES,
-    in_one_order,
-    lacking,
+    list_lacking,
+    put_in_one_order,
 )
 
 #: Of the length that a diagonal has by the edges.
@@ -68,45 +68,45 @@ class UnionJack:
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no key of its own
         """Hold the plan of the lines, and how well they agree, against the test."""
         tests = measurements.tests
-        yield _all_eight(tests)
-        yield _stations(tests)
+        yield _check_all_eight(tests)
+        yield _check_stations(tests)
         yield from sorted(
             (no_missing_readings(each) for each in tests.values()), key=lambda each: bool(each.met)
         )[:1]
-        plate = plate_of(
+        plate = find_plate_of(
             {
                 name: position_statistics(each.deviations(), each.target_positions)
                 for name, each in tests.items()
             }
         )
         if plate is not None:
-            yield _lengths(tests)
-            yield _closing(plate, measurements.axis)
+            yield _check_lengths(tests)
+            yield _check_closing(plate, measurements.axis)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no key of its own
         """Return the flatness over the three planes, and the closures."""
-        plate = plate_of(statistics.tests)
+        plate = find_plate_of(statistics.tests)
         if plate is None:
             return Arithmetic(
                 {each.symbol: np.full(statistics.mean.shape[:-2], np.nan) for each in QUANTITIES}
             )
-        closures = {closure_symbol(name): plate.closures[name] for name in CENTRE_LINES}
+        closures = {make_closure_symbol(name): plate.closures[name] for name in CENTRE_LINES}
         return Arithmetic(
             {
                 "t": np.asarray(np.ptp(plate.heights, axis=-1)),
-                "t_LS": least_squares_span(plate.points, plate.heights),
-                "t_MZ": minimum_zone(plate.points, plate.heights),
+                "t_LS": compute_least_squares_span(plate.points, plate.heights),
+                "t_MZ": find_minimum_zone(plate.points, plate.heights),
                 **closures,
             }
         )
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no key of its own
         """Return the plate as a wire picture, and its plan with the heights in numbers."""
-        return figures(evaluation)
+        return draw_figures(evaluation)
 
 
-def _all_eight(tests: Mapping[str, MeasurementSet]) -> Finding:
-    missing = lacking(tests)
+def _check_all_eight(tests: Mapping[str, MeasurementSet]) -> Finding:
+    missing = list_lacking(tests)
     if missing:
         return Finding(_EIGHT, _LACKING.given(names=", ".join(missing)), met=False)
     if len(tests) > len(LINES):
@@ -114,15 +114,15 @@ def _all_eight(tests: Mapping[str, MeasurementSet]) -> Finding:
     return Finding(_EIGHT, _ALL, met=True)
 
 
-def _stations(tests: Mapping[str, MeasurementSet]) -> Finding:
+def _check_stations(tests: Mapping[str, MeasurementSet]) -> Finding:
     fewest = min((len(each.target_positions) for each in tests.values()), default=0)
     number = Words("{number}").given(number=fewest)
     return Finding(_READINGS.given(number=_FEWEST), number, fewest >= _FEWEST, Basis.APPLIED)
 
 
-def _lengths(tests: Mapping[str, MeasurementSet]) -> Finding:
+def _check_lengths(tests: Mapping[str, MeasurementSet]) -> Finding:
     """Return whether the diagonals are as long as the edges make them."""
-    lines = in_one_order(tests)
+    lines = put_in_one_order(tests)
     length = {name: float(each.target_positions[-1]) for name, (_, each) in lines.items()}
     along, across = (np.mean([length[name] for name in names]) for names in (ALONG, ACROSS))
     nominal = math.hypot(along, across)
@@ -136,7 +136,7 @@ def _lengths(tests: Mapping[str, MeasurementSet]) -> Finding:
     return Finding(_FIT, found, abs(length[name] - nominal) <= _FITS * nominal, Basis.APPLIED)
 
 
-def _closing(plate: Plate, axis: Axis) -> Finding:
+def _check_closing(plate: Plate, axis: Axis) -> Finding:
     """Return whether the centre lines meet the diagonals in the middle of the plate."""
     worst = max((float(abs(each)) for each in plate.closures.values()), default=math.nan)
     asked = _CLOSURE.given(most=deviation_in_words(axis, MOST_CLOSURE))

@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.plugin import MICROMETRE, MILLIMETRE, Axis, Evaluation, Figure, FloatArray, Words
 from zlmreport.plugin.standard import Curve, Note, Panel, Role, range_in_words
-from zlmreport_plugins.standards.union_jack.heights import Plate, plate_of
+from zlmreport_plugins.standards.union_jack.heights import Plate, find_plate_of
 from zlmreport_plugins.union_jack_lines import (
     CENTRE_LINES,
     DIAGONALS,
@@ -26,34 +26,34 @@ _KINDS = ((DIAGONALS, Role.CHANNEL_1), (EDGES, Role.CHANNEL_3), (CENTRE_LINES, R
 _NEAR = 0.045
 
 
-def figures(evaluation: Evaluation) -> Iterator[Figure]:
+def draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield the wire picture and the plan, if all lines are there without a gap."""
-    plate = plate_of(evaluation.statistics.tests)
+    plate = find_plate_of(evaluation.statistics.tests)
     if plate is None or not np.isfinite(plate.heights).all():
         return
     axis = evaluation.measurements.axis
     above = {name: plate.profiles[name].heights - plate.heights.min() for name in LINES}
     largest = float(np.ptp(plate.heights))
-    magnified = _magnification(plate, largest)
-    yield _figure(
+    magnified = _choose_magnification(plate, largest)
+    yield _make_figure(
         "plate",
         _WIRE,
         axis,
         plate,
-        _wire(plate, above, magnified),
-        _MAGNIFIED.given(times=magnified, width=_side(plate, 0), depth=_side(plate, 1)),
+        _draw_wire(plate, above, magnified),
+        _MAGNIFIED.given(times=magnified, width=_name_side(plate, 0), depth=_name_side(plate, 1)),
     )
-    yield _figure(
+    yield _make_figure(
         "plan",
         _PLAN,
         axis,
         plate,
         _plan(plate, above),
-        _SIDES.given(width=_side(plate, 0), depth=_side(plate, 1)),
+        _SIDES.given(width=_name_side(plate, 0), depth=_name_side(plate, 1)),
     )
 
 
-def _figure(key: str, title: Words, axis: Axis, plate: Plate, panel: Panel, below: Words) -> Figure:  # noqa: PLR0913, PLR0917 - the parts of a figure
+def _make_figure(key: str, title: Words, axis: Axis, plate: Plate, panel: Panel, below: Words) -> Figure:  # noqa: PLR0913, PLR0917 - the parts of a figure
     """Return a figure of one picture."""
     heights, points = plate.heights - plate.heights.min(), plate.points
     low, high = int(heights.argmin()), int(heights.argmax())
@@ -74,25 +74,25 @@ def _figure(key: str, title: Words, axis: Axis, plate: Plate, panel: Panel, belo
     )
 
 
-def _wire(plate: Plate, above: dict[str, FloatArray], magnified: float) -> Panel:
+def _draw_wire(plate: Plate, above: dict[str, FloatArray], magnified: float) -> Panel:
     """Return the plate seen from above its south-west corner, its lowest level as a frame below it."""
-    ground = _seen(_corners(plate), np.zeros(5), magnified)
+    ground = _project_places(_list_corners(plate), np.zeros(5), magnified)
     curves = [Curve("", Role.BAND_LIMIT, *ground)]
     for names, role in _KINDS:
-        lines = [_seen(plate.places(name), above[name], magnified) for name in names]
-        curves.append(Curve(_notation(names), role, *_in_one(lines)))
+        lines = [_project_places(plate.places(name), above[name], magnified) for name in names]
+        curves.append(Curve(_write_notation(names), role, *_join_in_one(lines)))
     notes = []
     for name in LINES:
         places, heights = plate.places(name), above[name]
-        x, y = _seen(places, heights, magnified)
-        for index in _told(name, heights, above):
+        x, y = _project_places(places, heights, magnified)
+        for index in _choose_told(name, heights, above):
             notes.append(Note(float(x[index]), float(y[index]), _number(heights[index])))
-            foot = _seen(places[[index, index]], np.array([heights[index], 0.0]), magnified)
+            foot = _project_places(places[[index, index]], np.array([heights[index], 0.0]), magnified)
             curves.append(Curve("", Role.PATH, *foot))
     return Panel(curves=tuple(curves), notes=tuple(notes), projection="wire")
 
 
-def _told(name: str, heights: FloatArray, above: dict[str, FloatArray]) -> Iterator[int]:
+def _choose_told(name: str, heights: FloatArray, above: dict[str, FloatArray]) -> Iterator[int]:
     """Yield the stations whose heights the wire picture tells: corners, lowest and highest point, middles."""
     last = len(heights) - 1
     lowest = min(float(each.min()) for each in above.values())
@@ -117,52 +117,56 @@ def _plan(plate: Plate, above: dict[str, FloatArray]) -> Panel:
     written: list[FloatArray] = []
     sides = np.array(plate.sides)
     for names, role in _KINDS:
-        lines = [_millimetres(plate.places(name)) for name in names]
-        curves.append(Curve(_notation(names), role, *_in_one([(each[:, 0], each[:, 1]) for each in lines])))
+        lines = [_write_millimetres(plate.places(name)) for name in names]
+        curves.append(
+            Curve(_write_notation(names), role, *_join_in_one([(each[:, 0], each[:, 1]) for each in lines]))
+        )
     for name in (*EDGES, *DIAGONALS, *CENTRE_LINES):
         for place, height in zip(plate.places(name), above[name], strict=True):
             # Where lines meet they tell the same height; where they come near, the first one is told.
             if any(np.abs((place - other) / sides).max() < _NEAR for other in written):
                 continue
             written.append(place)
-            east, north = _millimetres(place).tolist()
+            east, north = _write_millimetres(place).tolist()
             notes.append(Note(east, north, _number(height)))
     for name, words in _POINTS.items():
-        east, north = _millimetres(np.array(_corner(plate, name))).tolist()
+        east, north = _write_millimetres(np.array(_find_corner(plate, name))).tolist()
         notes.append(Note(east, north, words, is_below=True))
     return Panel(curves=tuple(curves), notes=tuple(notes), projection="wire")
 
 
-def _corner(plate: Plate, name: str) -> tuple[float, float]:
+def _find_corner(plate: Plate, name: str) -> tuple[float, float]:
     x, y = np.array(PLACES[name]) * plate.sides
     return float(x), float(y)
 
 
-def _corners(plate: Plate) -> FloatArray:
+def _list_corners(plate: Plate) -> FloatArray:
     """Return the corners of the plate in turn, the first one again at the end, m, (5, 2)."""
-    return np.array([_corner(plate, name) for name in ("SW", "SE", "NE", "NW", "SW")])
+    return np.array([_find_corner(plate, name) for name in ("SW", "SE", "NE", "NW", "SW")])
 
 
-def _seen(places: FloatArray, heights: FloatArray, magnified: float) -> tuple[FloatArray, FloatArray]:
+def _project_places(
+    places: FloatArray, heights: FloatArray, magnified: float
+) -> tuple[FloatArray, FloatArray]:
     """Return where places of a plate stand in the picture, mm: isometric, north to the upper left."""
     east, north = places[:, 0], places[:, 1]
     across = (east - north) * math.cos(_SLOPE)
     upwards = (east + north) * math.sin(_SLOPE) + magnified * heights
-    return _millimetres(across), _millimetres(upwards)
+    return _write_millimetres(across), _write_millimetres(upwards)
 
 
-def _millimetres(lengths: FloatArray) -> FloatArray:
+def _write_millimetres(lengths: FloatArray) -> FloatArray:
     return np.asarray(MILLIMETRE.from_si(lengths))
 
 
-def _in_one(lines: Sequence[tuple[FloatArray, FloatArray]]) -> tuple[FloatArray, FloatArray]:
+def _join_in_one(lines: Sequence[tuple[FloatArray, FloatArray]]) -> tuple[FloatArray, FloatArray]:
     """Return lines as one curve with gaps between them."""
     gap = np.array([np.nan])
     x, y = (np.concatenate([part for line in lines for part in (line[axis], gap)]) for axis in (0, 1))
     return x, y
 
 
-def _magnification(plate: Plate, largest: float) -> float:
+def _choose_magnification(plate: Plate, largest: float) -> float:
     """Return a round number of times by which heights are drawn larger than the plate."""
     if not largest:
         return 1.0
@@ -170,7 +174,7 @@ def _magnification(plate: Plate, largest: float) -> float:
     return float(f"{wanted:.1g}")
 
 
-def _notation(names: Sequence[str]) -> str:
+def _write_notation(names: Sequence[str]) -> str:
     return ", ".join(name.replace("-", "–") for name in names)
 
 
@@ -178,7 +182,7 @@ def _number(height: float) -> float:
     return float(MICROMETRE.from_si(height))
 
 
-def _side(plate: Plate, axis: int) -> Words:
+def _name_side(plate: Plate, axis: int) -> Words:
     return Words("{length} mm").given(length=float(f"{MILLIMETRE.from_si(plate.sides[axis]):.4g}"))
 
 

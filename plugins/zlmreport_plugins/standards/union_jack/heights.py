@@ -23,8 +23,8 @@ from zlmreport_plugins.union_jack_lines import (
     EDGES,
     LINES,
     PLACES,
-    in_one_order,
-    lacking,
+    list_lacking,
+    put_in_one_order,
 )
 
 _HALF = 0.5
@@ -89,13 +89,15 @@ class Plate:
         return np.concatenate([self.profiles[name].heights for name in LINES], axis=-1)
 
 
-def plate_of(lines: Mapping[str, PositionStatistics]) -> Plate | None:
+def find_plate_of(lines: Mapping[str, PositionStatistics]) -> Plate | None:
     """Return the heights of a plate, NaN where a reading is missing; None where a line is missing."""
-    if lacking(lines) or any(not line.positions.size or line.positions[-1] <= 0 for line in lines.values()):
+    if list_lacking(lines) or any(
+        not line.positions.size or line.positions[-1] <= 0 for line in lines.values()
+    ):
         return None
     measured = {
-        name: _profile(statistics, backwards=called != name)
-        for name, (called, statistics) in in_one_order(lines).items()
+        name: _sum_profile(statistics, backwards=called != name)
+        for name, (called, statistics) in put_in_one_order(lines).items()
     }
     laid: dict[str, Profile] = {}
     corners: dict[str, FloatArray] = {}
@@ -117,7 +119,7 @@ def plate_of(lines: Mapping[str, PositionStatistics]) -> Plate | None:
     return Plate(laid, closures)
 
 
-def _profile(statistics: PositionStatistics, *, backwards: bool) -> Profile:
+def _sum_profile(statistics: PositionStatistics, *, backwards: bool) -> Profile:
     """Return the heights along a line as its slopes add up; backwards: of one measured the other way."""
     slopes = statistics.of_both_or_single(statistics.mean_bidirectional, statistics.mean)
     feet = statistics.positions

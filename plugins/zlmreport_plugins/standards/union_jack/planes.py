@@ -22,17 +22,17 @@ _APART = 1e-7 * np.array([1.0, 0.83, 0.61, 0.37])
 _NO_STEP = 1e-12
 
 
-def least_squares_span(places: FloatArray, heights: FloatArray) -> FloatArray:
+def compute_least_squares_span(places: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the span of the heights about their plane of least squares, m, (...).
 
     `places`: (N, 2), m. `heights`: (..., N), m; a span is NaN where one of them is.
     """
-    base = _base(places)
+    base = _make_base(places)
     left = heights - heights @ np.linalg.pinv(base).T @ base.T
     return np.asarray(np.ptp(left, axis=-1))
 
 
-def minimum_zone(places: FloatArray, heights: FloatArray) -> FloatArray:
+def find_minimum_zone(places: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the least distance of two parallel planes that hold all points, m, (...).
 
     Along the vertical, which slopes of a plate do not tell from the normal. `places`: (N, 2), m, with one in
@@ -43,29 +43,29 @@ def minimum_zone(places: FloatArray, heights: FloatArray) -> FloatArray:
     sound = np.flatnonzero(np.isfinite(tests).all(axis=-1))
     sizes = np.abs(tests[sound]).max(axis=-1)
     sizes[sizes == 0] = 1.0
-    widths[sound] = sizes * _widths(_base(places), tests[sound] / sizes[:, np.newaxis])
+    widths[sound] = sizes * _measure_widths(_make_base(places), tests[sound] / sizes[:, np.newaxis])
     return widths.reshape(heights.shape[:-1])
 
 
-def _base(places: FloatArray) -> FloatArray:
+def _make_base(places: FloatArray) -> FloatArray:
     """Return 1, x and y of each place, (N, 3), on a scale of their own."""
     middle, reach = places.mean(axis=0), np.ptp(places, axis=0)
     return np.column_stack([np.ones(len(places)), (places - middle) / np.where(reach > 0, reach, 1.0)])
 
 
-def _widths(base: FloatArray, heights: FloatArray) -> FloatArray:
+def _measure_widths(base: FloatArray, heights: FloatArray) -> FloatArray:
     """Return the widths of the zones of tests, (test,); `heights` are about 1."""
-    points, signs, weights = _corners(base)
+    points, signs, weights = _choose_corners(base)
     number = len(heights)
     points, signs = np.tile(points, (number, 1)), np.tile(signs, (number, 1))
-    wanted = _columns(base, points[:1], signs[:1])[0] @ (weights + _APART) if number else weights
+    wanted = _make_columns(base, points[:1], signs[:1])[0] @ (weights + _APART) if number else weights
     widths, open_tests = np.full(number, np.nan), np.arange(number)
     for _ in range(_MOST_EXCHANGES):
         if not open_tests.size:
             break
         held, way = points[open_tests], signs[open_tests]
         of_held = way * np.take_along_axis(heights[open_tests], held, axis=-1)
-        columns = _columns(base, held, way)
+        columns = _make_columns(base, held, way)
         plane = np.linalg.solve(np.swapaxes(columns, -1, -2), of_held[..., np.newaxis])[..., 0]
         left = heights[open_tests] - plane[:, :3] @ base.T
         widths[open_tests] = np.ptp(left, axis=-1)
@@ -76,12 +76,14 @@ def _widths(base: FloatArray, heights: FloatArray) -> FloatArray:
             break
         open_tests, columns = open_tests[outside], columns[outside]
         entering, side = worst[outside], np.sign(farthest[outside])
-        leaving = _leaving(columns, _columns(base, entering[:, np.newaxis], side[:, np.newaxis]), wanted)
+        leaving = _find_leaving(
+            columns, _make_columns(base, entering[:, np.newaxis], side[:, np.newaxis]), wanted
+        )
         points[open_tests, leaving], signs[open_tests, leaving] = entering, side
     return widths
 
 
-def _corners(base: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
+def _choose_corners(base: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
     """Return the four points to begin with, on which side of the plane each lies, and its weight."""
     rises, falls = base[:, 1] + base[:, 2], base[:, 1] - base[:, 2]
     points = np.array([rises.argmin(), falls.argmax(), rises.argmax(), falls.argmin()])
@@ -90,13 +92,13 @@ def _corners(base: FloatArray) -> tuple[IntArray, FloatArray, FloatArray]:
     return points, signs, np.abs(weights) / np.abs(weights).sum()
 
 
-def _columns(base: FloatArray, points: IntArray, signs: FloatArray) -> FloatArray:
+def _make_columns(base: FloatArray, points: IntArray, signs: FloatArray) -> FloatArray:
     """Return what a point adds to the four equations of the weights, (test, 4, point)."""
     own = signs[..., np.newaxis] * base[points]
     return np.swapaxes(np.concatenate([own, np.ones((*points.shape, 1))], axis=-1), -1, -2)
 
 
-def _leaving(columns: FloatArray, entering: FloatArray, wanted: FloatArray) -> IntArray:
+def _find_leaving(columns: FloatArray, entering: FloatArray, wanted: FloatArray) -> IntArray:
     """Return which of the four points leaves as one enters: the first whose weight falls to 0, (test,)."""
     right = np.concatenate([np.broadcast_to(wanted[:, np.newaxis], entering.shape), entering], axis=-1)
     solved = np.linalg.solve(columns, right)

@@ -12,19 +12,19 @@ from zlmreport_plugins.union_jack_lines import CENTRE_LINES
 MOST_CLOSURE = 2.54e-6
 
 
-def closure_symbol(name: str) -> str:
+def make_closure_symbol(name: str) -> str:
     """Return the symbol of the closure of a centre line."""
     return f"closure_{name.replace('-', '')}"
 
 
-def _span(symbol: str, notation: str, name: Words, formula: str, meaning: Words) -> Quantity:
+def _define_span(symbol: str, notation: str, name: Words, formula: str, meaning: Words) -> Quantity:
     return Quantity(symbol, notation, name, QuantityGroup.SYSTEMATIC, formula, meaning)
 
 
-def _closures() -> Iterator[Quantity]:
+def _define_closures() -> Iterator[Quantity]:
     for name in CENTRE_LINES:
         yield Quantity(
-            closure_symbol(name),
+            make_closure_symbol(name),
             f"c_{{{name.replace('-', '')}}}",
             Words("Closure of the centre line {name}").given(name=name),
             QuantityGroup.SYSTEMATIC,
@@ -37,7 +37,7 @@ def _closures() -> Iterator[Quantity]:
 
 
 QUANTITIES = (
-    _span(
+    _define_span(
         "t",
         "t",
         Words("Flatness deviation from the base plane"),
@@ -46,21 +46,21 @@ QUANTITIES = (
             "The largest height of the plate above its lowest point, over the base plane of the union jack."
         ),
     ),
-    _span(
+    _define_span(
         "t_LS",
         "t_{LS}",
         Words("Flatness deviation, least squares plane"),
         "max(h − h_{LS}) − min(h − h_{LS})",
         Words("The same about the plane from which the squares of all heights are least."),
     ),
-    _span(
+    _define_span(
         "t_MZ",
         "t_{MZ}",
         Words("Flatness deviation, minimum zone"),
         "min(max(h − h_{E}) − min(h − h_{E}))",
         Words("The least distance of two parallel planes that hold all points: never more than the others."),
     ),
-    *_closures(),
+    *_define_closures(),
 )
 NOTES = (
     Words(

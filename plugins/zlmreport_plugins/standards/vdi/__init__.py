@@ -60,7 +60,7 @@ from zlmreport.plugin.standard import (
     span_over_positions,
     worst_position,
 )
-from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, quantities
+from zlmreport_plugins.standards.vdi.guidelines import BY_POSITION, GUIDELINES, Guideline, list_quantities
 
 _WIDTHS = Words(
     "No parameter is a ± value: spreads and ranges are full widths. The position spread is {k} times the sum "
@@ -77,7 +77,7 @@ _SOURCE = Words("Formulas as in the manual of the program ZLM Position, G 1.3.")
 _MEAN = Words("Mean deviation")
 
 
-def notes(guideline: Guideline) -> tuple[Words, ...]:
+def list_notes(guideline: Guideline) -> tuple[Words, ...]:
     """Return the notes of a guideline."""
     return (_WIDTHS.given(k=guideline.factor), _NOT_ACCURACY, _INDEX, _SOURCE)
 
@@ -102,12 +102,12 @@ class VdiGuideline:
         self.identifier = guideline.identifier
         self.designation = guideline.designation
         self.title = guideline.title
-        self.quantities = quantities(guideline)
-        self.notes = notes(guideline)
+        self.quantities = list_quantities(guideline)
+        self.notes = list_notes(guideline)
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold the guideline's requirements against the test."""
-        return findings(self.guideline, measurements)
+        return check_requirements(self.guideline, measurements)
 
     def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no keys of its own
         """Return the guideline's parameters, and U_j and P_sj by position."""
@@ -125,7 +125,7 @@ _ONE_DIRECTION_ONLY = Words(
 )
 
 
-def findings(guideline: Guideline, measurements: MeasurementSet) -> Iterator[Finding]:
+def check_requirements(guideline: Guideline, measurements: MeasurementSet) -> Iterator[Finding]:
     """Yield the guideline's requirements, held against the test: its numbers as in ZLM Position, G 1.1."""
     yield both_directions(measurements, _ONE_DIRECTION_ONLY, Basis.PUBLISHED)
     yield number_of_runs(measurements, _RUNS, Basis.APPLIED)

@@ -93,7 +93,7 @@ _SPREAD = Words("Position spread")
 _REVERSAL = Words("Reversal span")
 
 
-def quantities(guideline: Guideline) -> tuple[Quantity, ...]:
+def list_quantities(guideline: Guideline) -> tuple[Quantity, ...]:
     """Return the parameters of the axis in the order of the results table."""
     k = guideline.factor
     band, mean = "½(U_{j} + P_{sj})", "x̄_{j}"

@@ -83,14 +83,14 @@ _WANTED = (
 )
 
 
-def parsers() -> tuple[CommandParser, ...]:
+def make_parsers() -> tuple[CommandParser, ...]:
     """Return the parser of the main job, and then of every command."""
-    return tuple(parser_for(command) for command in ("", *COMMANDS))
+    return tuple(make_parser_for(command) for command in ("", *COMMANDS))
 
 
-def parser_for(command: str) -> CommandParser:
+def make_parser_for(command: str) -> CommandParser:
     """Return the parser of a command; of the main job, which has no word of its own, for an empty one."""
-    return COMMANDS[command][1](command) if command else _main_parser()
+    return COMMANDS[command][1](command) if command else _make_main_parser()
 
 
 def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
@@ -100,36 +100,36 @@ def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
     after ``--help`` and ``--version`` have been printed.
     """
     if not arguments:
-        raise InputError.at(Place("zlmreport"), _overview())
+        raise InputError.at(Place("zlmreport"), _show_overview())
     words = 2 if " ".join(arguments[:2]) in COMMANDS else 1
-    if _may_be_an_extensions(arguments):
-        from zlmreport.cli.extension import command_of_extension, parser_of
+    if _is_perhaps_of_an_extension(arguments):
+        from zlmreport.cli.extension import find_command_of_extension, make_parser_of
 
-        own = command_of_extension(arguments)
+        own = find_command_of_extension(arguments)
         if own:
-            return EXTENSION, parser_of(own[0]).parse_strictly(arguments[own[1] :])
+            return EXTENSION, make_parser_of(own[0]).parse_strictly(arguments[own[1] :])
     command, rest = " ".join(arguments[:words]), arguments[words:]
     if command in COMMANDS:
-        parser = parser_for(command)
+        parser = make_parser_for(command)
         options = parser.parse_strictly(rest)
         if command == "model":
             documents.demand_model_action(options, parser)
         if command == "machine":
             documents.demand_machine_action(options, parser)
         return command, options
-    options = parser_for("").parse_strictly(arguments)
+    options = make_parser_for("").parse_strictly(arguments)
     for job in options.jobs:
         _refuse_mistaken_command(job)
     return MAIN_JOB, options
 
 
-def _overview() -> str:
+def _show_overview() -> str:
     wide = max(len(command) for command, _ in _WANTED)
     lines = (f"  zlmreport {command:{wide}}  {result}" for command, result in _WANTED)
     return "\n".join(("name a job, or say what you want:", *lines))
 
 
-def _may_be_an_extensions(arguments: Sequence[str]) -> bool:
+def _is_perhaps_of_an_extension(arguments: Sequence[str]) -> bool:
     """Return whether only the plugins can tell if arguments begin with a command of an extension.
 
     It is a word that is no command, option or file, or a device behind `emulate`.
@@ -141,7 +141,7 @@ def _may_be_an_extensions(arguments: Sequence[str]) -> bool:
     return bool(first) and first not in COMMANDS and first.isidentifier() and not word.exists()
 
 
-def _main_parser() -> CommandParser:
+def _make_main_parser() -> CommandParser:
     return main_job({command: summary for command, (summary, _) in COMMANDS.items()})
 
 

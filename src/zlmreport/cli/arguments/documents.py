@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
-from zlmreport.cli.arguments.parser import JSON_HELP, CommandParser, add_jobs, point, port, position
+from zlmreport.cli.arguments.parser import JSON_HELP, CommandParser, add_jobs, point, read_port, read_position
 from zlmreport.errors import did_you_mean
 from zlmreport.version import __version__
 
@@ -49,7 +49,7 @@ _MOST_WORKERS = 1024
 
 def main_job(commands: Mapping[str, str]) -> CommandParser:
     """Return the parser of the main job; its help lists the other commands, each with a line."""
-    parser = CommandParser("zlmreport", _description(commands), _MAIN_EPILOG)
+    parser = CommandParser("zlmreport", _describe(commands), _MAIN_EPILOG)
     parser.add_argument("--version", action="version", version=f"zlmreport {__version__}")
     add_jobs(parser)
     parser.add_argument(
@@ -70,7 +70,7 @@ def main_job(commands: Mapping[str, str]) -> CommandParser:
     return parser
 
 
-def _description(commands: Mapping[str, str]) -> str:
+def _describe(commands: Mapping[str, str]) -> str:
     listed = "\n".join(f"  {name:13} {summary}" for name, summary in commands.items())
     return (
         "Read the measurements that a job names, evaluate them by its standards, and write\n"
@@ -241,7 +241,7 @@ def model(command: str) -> CommandParser:
     parser.add_argument(
         "--at",
         metavar="P",
-        type=position,
+        type=read_position,
         action="append",
         default=[],
         help="of fit: a position, mm or degrees, at which to state the deviation; may be given several times",
@@ -306,7 +306,7 @@ def machine(command: str) -> CommandParser:
     parser.add_argument(
         "--step",
         metavar="MM",
-        type=position,
+        type=read_position,
         help="of compensate: between rows; as measured without it",
     )
     parser.flag("--dry-run", "of build: write nothing")
@@ -372,12 +372,12 @@ def fleet(command: str) -> CommandParser:
     _add_fleet(parser)
     parser.flag("--dry-run", "say what would be done, and why; make and write nothing")
     parser.add_argument(
-        "--workers", metavar="N", type=_workers, help="number of processes, instead of the fleet file's"
+        "--workers", metavar="N", type=_read_workers, help="number of processes, instead of the fleet file's"
     )
     parser.add_argument(
         "--max-time",
         metavar="MINUTES",
-        type=_minutes,
+        type=_read_minutes,
         help="begin no job after that; the rest is the next night's",
     )
     parser.flag("--quiet", "print nothing but failures")
@@ -426,7 +426,7 @@ def fleet_rebuild(command: str) -> CommandParser:
     return parser
 
 
-def _minutes(text: str) -> float:
+def _read_minutes(text: str) -> float:
     """Read a duration."""
     with contextlib.suppress(ValueError):
         minutes = float(text)
@@ -435,7 +435,7 @@ def _minutes(text: str) -> float:
     raise argparse.ArgumentTypeError(f"{text!r} is no number of minutes; write 90")
 
 
-def _workers(text: str) -> int:
+def _read_workers(text: str) -> int:
     """Read a number of processes."""
     if not (text.isascii() and text.isdigit() and 0 < int(text) <= _MOST_WORKERS):
         raise argparse.ArgumentTypeError(f"{text!r} is no number of processes; write 2")
@@ -470,7 +470,7 @@ def workbench(command: str) -> CommandParser:
         "of readings, for which a job is written beside it",
     )
     parser.add_argument(
-        "--port", metavar="N", type=port, default=0, help="a TCP port; without it any free one"
+        "--port", metavar="N", type=read_port, default=0, help="a TCP port; without it any free one"
     )
     parser.flag("--no-browser", "print the address, and open no browser")
     return parser

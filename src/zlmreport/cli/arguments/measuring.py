@@ -8,11 +8,11 @@ from zlmreport.cli.arguments.parser import (
     FAULTS,
     CommandParser,
     add_jobs,
-    course,
-    fault,
-    port,
-    position,
-    setting,
+    read_course,
+    read_fault,
+    read_port,
+    read_position,
+    read_setting,
 )
 
 
@@ -84,7 +84,7 @@ def compensate(command: str) -> CommandParser:
     parser.add_argument(
         "--set",
         metavar="KEY=VALUE",
-        type=setting,
+        type=read_setting,
         action="append",
         default=[],
         help="a key of the controller, such as type=1; may be given several times",
@@ -92,7 +92,7 @@ def compensate(command: str) -> CommandParser:
     parser.add_argument(
         "--step",
         metavar="S",
-        type=position,
+        type=read_position,
         help="distance of the rows, mm or degrees; without it a rule says where they are, and why",
     )
     parser.add_argument(
@@ -136,7 +136,7 @@ def emulate(command: str) -> CommandParser:
     parser.add_argument(
         "--course",
         metavar="P,P",
-        type=course,
+        type=read_course,
         default=(0.0, 100.0, 200.0, 100.0),
         help="positions that the axis goes to in turn, over and over, mm (--course=-5,0 for one that begins "
         "with a negative); 0,100,200,100 without it",
@@ -144,7 +144,7 @@ def emulate(command: str) -> CommandParser:
     parser.add_argument(
         "--dwell",
         metavar="S",
-        type=position,
+        type=read_position,
         default=5.0,
         help="how long the axis rests at each position, s; 5 without it",
     )
@@ -158,11 +158,13 @@ def add_line(parser: CommandParser, *, with_link: bool = True) -> None:
             "--link", metavar="PATH", type=Path, help="a name for the pseudo-terminal that stays the same"
         )
     instead = " instead of a pseudo-terminal" if with_link else ""
-    parser.add_argument("--port", metavar="N", type=port, help=f"a TCP port{instead}; 0 for any free one")
+    parser.add_argument(
+        "--port", metavar="N", type=read_port, help=f"a TCP port{instead}; 0 for any free one"
+    )
     parser.add_argument(
         "--fault",
         metavar="KIND@S",
-        type=fault,
+        type=read_fault,
         action="append",
         default=[],
         help=f"what goes wrong, and how many seconds after the start: {', '.join(FAULTS)}; may be given "
@@ -195,7 +197,7 @@ def simulate(command: str) -> CommandParser:
     parser.add_argument(
         "--start",
         metavar="S",
-        type=position,
+        type=read_position,
         default=10.0,
         help="with --emulate: how long the axis rests once somebody reads the port, s; 10 without it",
     )

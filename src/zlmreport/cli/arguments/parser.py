@@ -38,7 +38,7 @@ class CommandParser(argparse.ArgumentParser):
         self.add_argument(
             "--confine",
             metavar="DIR",
-            type=_folder,
+            type=_take_folder,
             help="read and write nothing outside of this folder, whatever jobs and links in it name",
         )
 
@@ -76,7 +76,7 @@ def add_jobs(parser: CommandParser) -> None:
     parser.add_argument("jobs", metavar="JOB.yaml", nargs="+", type=Path, help="job files")
 
 
-def _folder(text: str) -> Path:
+def _take_folder(text: str) -> Path:
     """Take a folder that is there."""
     path = Path(text)
     if not path.is_dir():
@@ -84,7 +84,7 @@ def _folder(text: str) -> Path:
     return path
 
 
-def fault(text: str) -> tuple[str, float]:
+def read_fault(text: str) -> tuple[str, float]:
     """Read a fault and when it happens."""
     kind, _, moment = text.partition("@")
     if kind not in FAULTS:
@@ -98,7 +98,7 @@ def fault(text: str) -> tuple[str, float]:
     return kind, start
 
 
-def setting(text: str) -> tuple[str, str]:
+def read_setting(text: str) -> tuple[str, str]:
     """Read a key and its value."""
     key, sign, value = text.partition("=")
     if not (key and sign and value):
@@ -106,19 +106,19 @@ def setting(text: str) -> tuple[str, str]:
     return key, value
 
 
-def course(text: str) -> tuple[float, ...]:
+def read_course(text: str) -> tuple[float, ...]:
     """Read positions, parted by commas."""
-    return tuple(position(part) for part in text.split(","))
+    return tuple(read_position(part) for part in text.split(","))
 
 
-def port(text: str) -> int:
+def read_port(text: str) -> int:
     """Read the number of a TCP port."""
     if not (text.isascii() and text.isdigit() and int(text) < 65_536):
         raise argparse.ArgumentTypeError(f"{text!r} is no TCP port; write a number up to 65535, such as 9090")
     return int(text)
 
 
-def position(text: str) -> float:
+def read_position(text: str) -> float:
     """Read a position."""
     try:
         position = float(text)

@@ -26,15 +26,15 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate import conformity, readings, results, uncertainty
 from zlmreport.document.certificate.circumstances import (
     Fact,
-    environment_facts,
-    measurement_facts,
-    stated_facts,
+    list_environment_facts,
+    list_measurement_facts,
+    select_stated_facts,
 )
-from zlmreport.document.certificate.conditions import correction_blocks
-from zlmreport.document.certificate.values import limit, told_apart
-from zlmreport.document.figures.prescribed import comparison_graph
-from zlmreport.document.writer import NOTHING, Writer, with_uncertainty, written
-from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, changes
+from zlmreport.document.certificate.conditions import lay_out_corrections
+from zlmreport.document.certificate.values import limit, tell_columns_apart
+from zlmreport.document.figures.prescribed import draw_comparison
+from zlmreport.document.writer import NOTHING, Writer, write_rounded_together, write_with_uncertainty
+from zlmreport.evaluation.evaluation import Change, Evaluation, Parameter, compare_parameters
 from zlmreport.language import Words
 
 if TYPE_CHECKING:
@@ -89,104 +89,106 @@ _CHANGES_WITH_U = Words(
 _LIMITS = Words("Limits as found and as left")
 
 
-def on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
+def say_on_cover(keys: AsFound | None, writer: Writer) -> Iterator[Paragraph]:
     """Yield which of the two measurements the first page shows."""
     if keys:
         work, done, _ = _WORK[keys.work]
         yield Paragraph(writer.say(_ON_COVER.given(work=work, done=done, title=_TITLE)))
 
 
-def beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
+def lay_out_beside_as_found(  # noqa: PLR0913, PLR0917 - two measurements of everything
     keys: AsFound,
     as_left: Iterable[Section],
     before: Sequence[Evaluated],
     after: Sequence[Evaluated],
     writer: Writer,
-    section: Callable[[Evaluated, Writer], Section] = results.section,
+    section: Callable[[Evaluated, Writer], Section] = results.lay_out_results,
 ) -> Iterator[Section]:
     """Yield the comparison, the results as left, and those as found; each says which it is.
 
     `before`, `after`: Evaluations of the two measurements, by the same standards in the same order.
     """
     state_before, state_after = NAMES[keys.work]
-    yield _comparison(keys, before, after, writer)
-    yield from (_labelled(each, state_after, writer) for each in as_left)
-    own = _scribe_of(before, writer)
-    yield from (_results(section, each, state_before, own) for each in before)
+    yield _lay_out_comparison(keys, before, after, writer)
+    yield from (_label_section(each, state_after, writer) for each in as_left)
+    own = _choose_scribe(before, writer)
+    yield from (_lay_out_results(section, each, state_before, own) for each in before)
 
 
-def readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer: Writer) -> Section:
+def lay_out_readings_as_found(keys: AsFound, before: Sequence[Evaluated], writer: Writer) -> Section:
     """Return the section of the readings as found."""
     measurements = before[0].evaluation.measurements
-    section = readings.section(measurements, _scribe_of(before, writer), "as_found.measurement.source")
-    return _labelled(replace(section, key="as-found-readings"), NAMES[keys.work][0], writer)
+    section = readings.lay_out_readings(
+        measurements, _choose_scribe(before, writer), "as_found.measurement.source"
+    )
+    return _label_section(replace(section, key="as-found-readings"), NAMES[keys.work][0], writer)
 
 
-def uncertainty_beside_as_found(
+def lay_out_uncertainty_beside_as_found(
     keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
 ) -> Iterator[Section]:
     """Yield the section on the uncertainty: one for both measurements, or two where their budgets differ."""
-    as_left = uncertainty.section(after[0].budget, [each.evaluation for each in after], writer)
+    as_left = uncertainty.lay_out_budgets(after[0].budget, [each.evaluation for each in after], writer)
     if before[0].budget == after[0].budget:
         yield as_left
         return
-    as_found = uncertainty.section(before[0].budget, [each.evaluation for each in before], writer)
+    as_found = uncertainty.lay_out_budgets(before[0].budget, [each.evaluation for each in before], writer)
     state_before, state_after = NAMES[keys.work]
-    yield _labelled(as_left, state_after, writer)
-    yield _labelled(replace(as_found, key="as-found-uncertainty"), state_before, writer)
+    yield _label_section(as_left, state_after, writer)
+    yield _label_section(replace(as_found, key="as-found-uncertainty"), state_before, writer)
 
 
-def _scribe_of(before: Sequence[Evaluated], writer: Writer) -> Writer:
+def _choose_scribe(before: Sequence[Evaluated], writer: Writer) -> Writer:
     """Return a writer for readings that may have other decimals than those as left."""
     return Writer.of(before[0].evaluation.measurements, writer.language, writer.marks)
 
 
-def _comparison(
+def _lay_out_comparison(
     keys: AsFound, before: Sequence[Evaluated], after: Sequence[Evaluated], writer: Writer
 ) -> Section:
     first, last = before[0].evaluation, after[0].evaluation
     pairs = [(one.evaluation, other.evaluation) for one, other in zip(before, after, strict=True)]
     blocks: list[Block] = [
-        *_circumstances(keys, first.measurements, writer),
-        *correction_blocks(first.measurements, writer),
-        *_differences(first.measurements, last.measurements, writer),
-        Graph(comparison_graph(first, last, NAMES[keys.work])),
-        changes_table(pairs, writer),
-        *limits(pairs, writer),
+        *_list_circumstances(keys, first.measurements, writer),
+        *lay_out_corrections(first.measurements, writer),
+        *_find_differences(first.measurements, last.measurements, writer),
+        Graph(draw_comparison(first, last, NAMES[keys.work])),
+        lay_out_changes(pairs, writer),
+        *lay_out_limits(pairs, writer),
     ]
     return Section("as-found-as-left", writer.say(_TITLE), tuple(blocks))
 
 
-def _results(
+def _lay_out_results(
     section_of: Callable[[Evaluated, Writer], Section], evaluated: Evaluated, state: Words, writer: Writer
 ) -> Section:
     """Return the results as found by a standard, whose definitions stand with the results as left."""
     section = section_of(evaluated, writer)
     blocks = tuple(
-        Graph(_named(block.figure, state)) if isinstance(block, Graph) else block
+        Graph(_name_figure(block.figure, state)) if isinstance(block, Graph) else block
         for block in section.blocks
         if not isinstance(block, Formulas)
     )
-    return _labelled(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, writer)
+    return _label_section(replace(section, key=f"as-found-{section.key}", blocks=blocks), state, writer)
 
 
-def _labelled(section: Section, state: Words, writer: Writer) -> Section:
+def _label_section(section: Section, state: Words, writer: Writer) -> Section:
     """Return a section whose title says to which of the two measurements it belongs."""
     return replace(section, title=writer.say(_LABELLED.given(title=section.title, state=state)))
 
 
-def _named(figure: Figure, state: Words) -> Figure:
+def _name_figure(figure: Figure, state: Words) -> Figure:
     title = _LABELLED.given(title=figure.title, state=state)
     return replace(figure, key=f"as-found-{figure.key}", title=title)
 
 
-def _circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) -> Iterator[Facts]:
+def _list_circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) -> Iterator[Facts]:
     within = "as_found.measurement"
-    environment = environment_facts(keys.environment, measurements, writer, "as_found.environment")
+    environment = list_environment_facts(keys.environment, measurements, writer, "as_found.environment")
     groups = (
         (
             Words("Measurement as found"),
-            measurement_facts(keys.measurement, measurements, writer, within),
+            list_measurement_facts(keys.measurement, measurements, writer, within),
         ),
         (Words("Environment as found"), environment),
         (
@@ -195,12 +197,12 @@ def _circumstances(keys: AsFound, measurements: MeasurementSet, writer: Writer) 
         ),
     )
     for heading, facts in groups:
-        pairs = stated_facts(facts, writer)
+        pairs = select_stated_facts(facts, writer)
         if pairs:
             yield Facts(pairs, writer.say(heading))
 
 
-def _differences(before: MeasurementSet, after: MeasurementSet, writer: Writer) -> Iterator[Notice]:
+def _find_differences(before: MeasurementSet, after: MeasurementSet, writer: Writer) -> Iterator[Notice]:
     """Yield what hinders a comparison of like with like."""
     found = []
     if not np.array_equal(before.target_positions, after.target_positions):
@@ -213,10 +215,10 @@ def _differences(before: MeasurementSet, after: MeasurementSet, writer: Writer) 
         yield Notice(writer.say(_NOT_ALIKE), tuple(map(writer.say, found)))
 
 
-def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
+def lay_out_changes(pairs: Sequence[Pair], writer: Writer) -> Table:
     """Return the table of parameters before and after, with their uncertainties where these are known."""
     unit = writer.deviation_unit.symbol
-    changed = [changes(*pair) for pair in pairs]
+    changed = [compare_parameters(*pair) for pair in pairs]
     every = [each for of_pair in changed for each in of_pair]
     known = any(one.expanded_uncertainty is not None for each in every for one in _both(each))
     uncertainty = [Column(Symbol("U"), unit, Align.RIGHT)] if known else []
@@ -236,7 +238,7 @@ def changes_table(pairs: Sequence[Pair], writer: Writer) -> Table:
     )
     caption = _CHANGES_WITH_U.given(changes=_CHANGES) if known else _CHANGES
     quantities = (each.either.quantity for each in every)
-    told, symbols = told_apart(caption, quantities, has_uncertainty=known, writer=writer)
+    told, symbols = tell_columns_apart(caption, quantities, has_uncertainty=known, writer=writer)
     return Table(told, columns, groups, symbols=symbols)
 
 
@@ -249,13 +251,13 @@ def _change(change: Change, writer: Writer, *, known: bool) -> tuple[Cell, ...]:
     return (
         Symbol(quantity.notation),
         writer.say(quantity.name),
-        *(written(change.before, writer) if change.before else (NOTHING, NOTHING))[:parts],
-        *(written(change.after, writer) if change.after else (NOTHING, NOTHING))[:parts],
-        *_value_of(change, writer)[:parts],
+        *(write_with_uncertainty(change.before, writer) if change.before else (NOTHING, NOTHING))[:parts],
+        *(write_with_uncertainty(change.after, writer) if change.after else (NOTHING, NOTHING))[:parts],
+        *_write_change(change, writer)[:parts],
     )
 
 
-def _value_of(change: Change, writer: Writer) -> tuple[str, str]:
+def _write_change(change: Change, writer: Writer) -> tuple[str, str]:
     """Write a change, with the sign that the standard's edition prints, and its U."""
     if change.value is None:
         return NOTHING, NOTHING
@@ -263,10 +265,10 @@ def _value_of(change: Change, writer: Writer) -> tuple[str, str]:
     value = change.either.quantity.printed_sign * change.value
     if change.expanded_uncertainty is None:
         return writer.deviation(value), NOTHING
-    return with_uncertainty(value, change.expanded_uncertainty, writer)
+    return write_rounded_together(value, change.expanded_uncertainty, writer)
 
 
-def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
+def lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of the limits before and after, where the job states any."""
     columns = (
         Column(writer.say(Words("Symbol"))),
@@ -280,7 +282,11 @@ def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     )
     groups = tuple(
         RowGroup(
-            tuple(_verdicts(each, writer) for each in changes(*pair) if each.either.limit is not None),
+            tuple(
+                _show_verdicts(each, writer)
+                for each in compare_parameters(*pair)
+                if each.either.limit is not None
+            ),
             pair[1].designation,
         )
         for pair in pairs
@@ -290,9 +296,12 @@ def limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
         yield Table(writer.say(_LIMITS), columns, limited)
 
 
-def _verdicts(change: Change, writer: Writer) -> tuple[Cell, ...]:
+def _show_verdicts(change: Change, writer: Writer) -> tuple[Cell, ...]:
     return (
         Symbol(change.either.quantity.notation),
         limit(change.either, writer),
-        *(conformity.verdict(each, writer) if each else NOTHING for each in (change.before, change.after)),
+        *(
+            conformity.make_verdict_cell(each, writer) if each else NOTHING
+            for each in (change.before, change.after)
+        ),
     )

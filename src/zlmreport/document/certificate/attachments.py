@@ -12,8 +12,8 @@ from pathlib import PurePosixPath
 from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place
-from zlmreport.job.tree import scalars
-from zlmreport.job.types import path_from_job
+from zlmreport.job.tree import walk_scalars
+from zlmreport.job.types import find_path_from_job
 from zlmreport.language import Language, Words
 
 if TYPE_CHECKING:
@@ -119,14 +119,14 @@ class Source:
     file: SourceFile
 
 
-def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -> tuple[Source, ...]:
+def list_sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -> tuple[Source, ...]:
     """Return every file that a certificate is made from, the job file first."""
     trees = (job.tree, *(part.tree for part in job.parts))
-    stated = frozenset(each.text for tree in trees for each in scalars(tree))
+    stated = frozenset(each.text for tree in trees for each in walk_scalars(tree))
     found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
 
     def add(role: SourceRole, file: SourceFile) -> None:
-        found.setdefault((_path(file, job, stated), file.sha256), (role, file))
+        found.setdefault((_find_path(file, job, stated), file.sha256), (role, file))
 
     known: dict[SourceFile, SourceRole] = {}
     for part in job.parts:
@@ -140,10 +140,10 @@ def sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -
         add(SourceRole.READINGS, file)
     if logo:
         add(SourceRole.LOGO, logo)
-    return _named(found, job.keys.certificate.number)
+    return _name_sources(found, job.keys.certificate.number)
 
 
-def sources_of(files: Sequence[SourceFile], number: str) -> tuple[Source, ...]:
+def list_sources_of_several(files: Sequence[SourceFile], number: str) -> tuple[Source, ...]:
     """Return every file that a document of several jobs is made from; the first names the others.
 
     `number`: Of the document.
@@ -151,23 +151,25 @@ def sources_of(files: Sequence[SourceFile], number: str) -> tuple[Source, ...]:
     found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
     first = files[0].path
     for file in files:
-        path = path_from_job(file.path, first) if first and file.path else None
+        path = find_path_from_job(file.path, first) if first and file.path else None
         found.setdefault(
             (path or file.name, file.sha256), (SourceRole.TEST if found else SourceRole.JOB, file)
         )
-    return _named(found, number)
+    return _name_sources(found, number)
 
 
-def _named(found: Mapping[tuple[str, str], tuple[SourceRole, SourceFile]], number: str) -> tuple[Source, ...]:
+def _name_sources(
+    found: Mapping[tuple[str, str], tuple[SourceRole, SourceFile]], number: str
+) -> tuple[Source, ...]:
     """Return files, by path and digest, each with a name of its own."""
     taken: set[str] = set()
     return tuple(
-        Source(role, _unique(_clean(file.name), taken, number), path, file)
+        Source(role, _make_unique(_clean(file.name), taken, number), path, file)
         for (path, _), (role, file) in found.items()
     )
 
 
-def source_attachments(sources: Iterable[Source], language: Language) -> Iterator[Attachment]:
+def attach_sources(sources: Iterable[Source], language: Language) -> Iterator[Attachment]:
     """Yield the sources as attachments; one whose reader did not keep its bytes cannot be attached."""
     for source in sources:
         if source.file.content is not None:
@@ -175,13 +177,13 @@ def source_attachments(sources: Iterable[Source], language: Language) -> Iterato
             yield Attachment(
                 source.name,
                 source.file.content,
-                media_type(source.name),
+                find_media_type(source.name),
                 Relationship.SOURCE,
                 description,
             )
 
 
-def arranged(attachments: Iterable[Attachment], number: str) -> tuple[Attachment, ...]:
+def arrange_attachments(attachments: Iterable[Attachment], number: str) -> tuple[Attachment, ...]:
     """Return the attachments of the certificate of this number in the order in which a PDF lists them.
 
     Raises `InputError` if they are more, or larger, than a certificate carries.
@@ -197,12 +199,12 @@ def arranged(attachments: Iterable[Attachment], number: str) -> tuple[Attachment
     return tuple(found)
 
 
-def media_type(name: str) -> str:
+def find_media_type(name: str) -> str:
     """Return the media type of a file by the suffix of its name."""
     return _MEDIA_TYPES.get(PurePosixPath(name).suffix.lower(), _UNKNOWN)
 
 
-def _path(file: SourceFile, job: Job, stated: Container[str]) -> str:
+def _find_path(file: SourceFile, job: Job, stated: Container[str]) -> str:
     """Return the path by which the job comes to a file; only its name where the job does not state one.
 
     A path from the root is told if it is among the values that the job states.
@@ -211,10 +213,10 @@ def _path(file: SourceFile, job: Job, stated: Container[str]) -> str:
     if file.path is None or job_path is None:
         return file.name
     from_root = str(file.path) if file.path.is_absolute() and str(file.path) in stated else None
-    return path_from_job(file.path, job_path, from_root) or file.name
+    return find_path_from_job(file.path, job_path, from_root) or file.name
 
 
-def _unique(name: str, taken: set[str], number: str) -> str:
+def _make_unique(name: str, taken: set[str], number: str) -> str:
     """Return a name that no file before has; names that begin like the certificate's own files are kept."""
     stem, dot, suffix = name.partition(".")
     count, candidate = 1, name

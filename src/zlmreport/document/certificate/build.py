@@ -6,19 +6,23 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from zlmreport.document.certificate.attachments import sources
+from zlmreport.document.certificate.attachments import list_sources
 from zlmreport.document.certificate.conditions import Described
-from zlmreport.document.certificate.cover import lines
+from zlmreport.document.certificate.cover import split_address
 from zlmreport.document.certificate.digest import digest_of
 from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
-from zlmreport.document.certificate.material import Interpretation, LaidOut, Material, in_full
-from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.material import Interpretation, LaidOut, Material, lay_out_in_full
+from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.own_look import Logo, read_logo, read_look
-from zlmreport.document.certificate.own_words import arranged, filled
-from zlmreport.document.certificate.statements import document_title, running_title, subject_of
+from zlmreport.document.certificate.own_words import arrange_sections, fill_in
+from zlmreport.document.certificate.statements import (
+    name_subject_of,
+    write_document_title,
+    write_running_title,
+)
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation import traceability
-from zlmreport.evaluation.evidence import evidence
+from zlmreport.evaluation.evidence import find_evidence
 from zlmreport.language import Words
 from zlmreport.version import __version__
 
@@ -61,20 +65,25 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     measurements = evaluated[0].evaluation.measurements
     writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
     if not certificate.readings_on_graphs:
-        evaluated, as_found = map(_without_readings, (evaluated, as_found))
-        tests = tuple(replace(each, evaluated=_without_readings(each.evaluated)) for each in tests)
+        evaluated, as_found = map(_drop_readings, (evaluated, as_found))
+        tests = tuple(replace(each, evaluated=_drop_readings(each.evaluated)) for each in tests)
     designations = tuple(each.evaluation.designation for each in evaluated)
-    logo = _logo(job)
+    logo = _read_logo(job)
     sessions = interpretation.sessions if interpretation else ()
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]), *sessions)
     files = [file for each in read for file in each.provenance.files]
-    made_from = sources(job, files, logo.file if logo else None)
+    made_from = list_sources(job, files, logo.file if logo else None)
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
     shown = (
-        *said_of_each((name, _shown(line, of_line)) for name, line, of_line in lines),
-        *_shown_as_found(job, as_found, [one for _, line, of_line in lines for one in _shown(line, of_line)]),
+        *say_of_each((name, _collect_shown(line, of_line)) for name, line, of_line in lines),
+        *_collect_shown_as_found(
+            job, as_found, [one for _, line, of_line in lines for one in _collect_shown(line, of_line)]
+        ),
     )
-    letterhead, title = letterhead_of(job.keys.laboratory, logo), writer.say(document_title(certificate))
+    letterhead, title = (
+        make_letterhead(job.keys.laboratory, logo),
+        writer.say(write_document_title(certificate)),
+    )
     results = tuple(each.evaluation for each in evaluated)
     results_as_found = tuple(each.evaluation for each in as_found)
     digest = digest_of(certificate.number, (*results, *results_as_found))
@@ -96,13 +105,13 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         tests,
         is_part,
     )
-    laid_out, style = _laid_out(material), certificate.style
-    sections = arranged(laid_out.sections, job)
-    linked = _linked(job, interpretation, writer)
+    laid_out, style = _lay_out(material), certificate.style
+    sections = arrange_sections(laid_out.sections, job)
+    linked = _link_readings(job, interpretation, writer)
     return Certificate(
         number=certificate.number,
         title=title,
-        subtitle=writer.say(subject_of(job)),
+        subtitle=writer.say(name_subject_of(job)),
         language=certificate.language,
         issued=certificate.issued,
         paper=certificate.paper,
@@ -111,12 +120,12 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         sections=sections,
         page_words=PageWords.said(
             certificate.language,
-            writer.say(running_title(certificate)),
-            head=filled(style.header or "", job, "certificate.style.header"),
-            foot=filled(style.footer or "", job, "certificate.style.footer"),
+            writer.say(write_running_title(certificate)),
+            head=fill_in(style.header or "", job, "certificate.style.header"),
+            foot=fill_in(style.footer or "", job, "certificate.style.footer"),
         ),
         description=writer.say(
-            _DESCRIPTION.given(subject=subject_of(job), standards=", ".join(designations))
+            _DESCRIPTION.given(subject=name_subject_of(job), standards=", ".join(designations))
         ),
         measurements=measurements,
         evaluations=results,
@@ -139,24 +148,26 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     )
 
 
-def _shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+def _collect_shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return what readings and calibrations of a measurement show that its job does not say."""
-    return (*evidence(job, measurements), *traceability.doubts(job, measurements))
+    return (*find_evidence(job, measurements), *traceability.find_doubts(job, measurements))
 
 
-def _shown_as_found(job: Job, as_found: Sequence[Evaluated], said: Sequence[Words]) -> Iterator[Words]:
+def _collect_shown_as_found(
+    job: Job, as_found: Sequence[Evaluated], said: Sequence[Words]
+) -> Iterator[Words]:
     """Yield the same of the measurement before an adjustment, but for what is said of the one after it."""
     before = job.as_found
     if before is None or job.keys.as_found is None:
         return
     from zlmreport.document.certificate.as_found import NAMES  # noqa: PLC0415 - of the few that need it
 
-    found = _shown(before, as_found[0].evaluation.measurements)
+    found = _collect_shown(before, as_found[0].evaluation.measurements)
     name = NAMES[job.keys.as_found.work][0]
-    yield from said_of_each([(name, [each for each in found if each not in said])])
+    yield from say_of_each([(name, [each for each in found if each not in said])])
 
 
-def _laid_out(material: Material) -> LaidOut:
+def _lay_out(material: Material) -> LaidOut:
     """Return the parts of the document in the layout that the job asks for."""
     match material.job.keys.certificate.layout:
         case "sheet":
@@ -164,11 +175,11 @@ def _laid_out(material: Material) -> LaidOut:
         case "standard":
             from zlmreport.document.certificate.standard_layout import lay_out  # noqa: PLC0415
         case _:
-            lay_out = in_full
+            lay_out = lay_out_in_full
     return lay_out(material)
 
 
-def _linked(job: Job, interpretation: Interpretation | None, writer: Writer) -> Linked | None:
+def _link_readings(job: Job, interpretation: Interpretation | None, writer: Writer) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
     keys = job.keys
     is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"
@@ -177,7 +188,7 @@ def _linked(job: Job, interpretation: Interpretation | None, writer: Writer) -> 
     return interpretation.linked(writer)
 
 
-def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
+def _drop_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
     """Return evaluations whose figures lack the single readings behind their curves."""
 
     def bare(figure: Figure) -> Figure:
@@ -186,19 +197,19 @@ def _without_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]
     return tuple(replace(each, figures=tuple(map(bare, each.figures))) for each in evaluated)
 
 
-def _logo(job: Job) -> Logo | None:
+def _read_logo(job: Job) -> Logo | None:
     laboratory = job.keys.laboratory
     if laboratory is None or laboratory.logo is None:
         return None
     return read_logo(laboratory.logo, job.place_of("laboratory.logo"))
 
 
-def letterhead_of(laboratory: Laboratory | None, logo: Logo | None) -> Letterhead | None:
+def make_letterhead(laboratory: Laboratory | None, logo: Logo | None) -> Letterhead | None:
     """Return the letterhead of a laboratory, with its logo if it has one."""
     if laboratory is None:
         return None
     return Letterhead(
-        Party(laboratory.name, lines(laboratory.address)),
+        Party(laboratory.name, split_address(laboratory.address)),
         laboratory.accreditation or "",
         logo.file.content if logo else None,
         logo.media_type if logo else "",

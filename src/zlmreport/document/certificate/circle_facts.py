@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from zlmreport.document.certificate.circumstances import Fact, with_unit
+from zlmreport.document.certificate.circumstances import Fact, write_with_unit
 from zlmreport.evaluation.checks import runs_in_words
 from zlmreport.language import Words
 from zlmreport.measurement import units
@@ -29,32 +29,32 @@ _ANGLES = Words("{count}, from {first} to {last} from +{from_axis} towards +{to_
 _AVERAGED = Words("{count}, averages of {readings} readings")
 
 
-def circle_in_words(keys: CircleKeys, writer: Writer) -> str:
+def describe_circle(keys: CircleKeys, writer: Writer) -> str:
     """Write which circle was run, in a line."""
     return writer.say(_IN_WORDS.given(plane=keys.plane, radius=keys.radius, feed=keys.feed))
 
 
-def circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
+def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
     """Yield which circle was run, and where in the machine."""
     stated = "centre" in keys.model_fields_set
     place = " / ".join(map(writer.number, keys.centre)) if stated else None
     length = writer.say(_CALIBRATED if keys.calibrated_length else _NOT_CALIBRATED)
     yield Fact(Words("Plane"), keys.plane, ("circle.plane",))
-    yield Fact(Words("Nominal radius"), with_unit(keys.radius, "mm", writer), ("circle.radius",))
+    yield Fact(Words("Nominal radius"), write_with_unit(keys.radius, "mm", writer), ("circle.radius",))
     yield Fact(
         Words("Feed along the path"),
-        with_unit(keys.feed, "mm/min", writer),
+        write_with_unit(keys.feed, "mm/min", writer),
         ("circle.feed",),
     )
     yield Fact(
         Words("Centre at X / Y / Z"),
-        with_unit(place, "mm", writer) and f"{place} mm",
+        write_with_unit(place, "mm", writer) and f"{place} mm",
         ("circle.centre",),
     )
     yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length",))
 
 
-def path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Iterator[Fact]:
+def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Iterator[Fact]:
     """Yield in which senses a circle was run, where each began, and at how many angles it was read."""
     source = (f"{within}.source",)
     senses = [measurements.axis.measurand.senses[each.index] for each in measurements.approaches]
@@ -71,10 +71,10 @@ def path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Ite
         angle = units.with_unit(writer.position(float(measurements.target_positions[first])), "°")
         begins.append(writer.say(_BEGINS.given(sense=sense, angle=angle)))
     yield Fact(Words("Evaluated from"), "; ".join(begins), source)
-    yield Fact(Words("Angles"), writer.say(_angles(measurements, writer)), source)
+    yield Fact(Words("Angles"), writer.say(_write_angles(measurements, writer)), source)
 
 
-def _angles(measurements: MeasurementSet, writer: Writer) -> Words:
+def _write_angles(measurements: MeasurementSet, writer: Writer) -> Words:
     targets, averaging = measurements.target_positions, measurements.provenance.averaging
     first, second = measurements.axis.circle.axes if measurements.axis.circle else ("1", "2")
     count: str | Words = str(len(targets))

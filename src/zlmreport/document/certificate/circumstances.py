@@ -11,7 +11,7 @@ import numpy as np
 from zlmreport.evaluation.checks import runs_in_words
 from zlmreport.language import Words
 from zlmreport.measurement import units
-from zlmreport.measurement.error_symbol import ROTARY_AXES, error_named
+from zlmreport.measurement.error_symbol import ROTARY_AXES, find_error_named
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 
@@ -29,7 +29,7 @@ _METHODS = {
 _DAYS = Words("{first} to {last}")
 
 
-def days(measurement: Measurement, writer: Writer) -> str | None:
+def write_days(measurement: Measurement, writer: Writer) -> str | None:
     """Write the day of a measurement, or its first and last day."""
     first, last = measurement.date, measurement.end
     if first is None:
@@ -39,12 +39,12 @@ def days(measurement: Measurement, writer: Writer) -> str | None:
     return writer.say(_DAYS.given(first=writer.date(first), last=writer.date(last)))
 
 
-def date(day: dt.date | None, writer: Writer) -> str | None:
+def write_date(day: dt.date | None, writer: Writer) -> str | None:
     """Write a day that may not be stated."""
     return None if day is None else writer.date(day)
 
 
-def measurement_facts(
+def list_measurement_facts(
     measurement: Measurement, measurements: MeasurementSet, writer: Writer, within: str
 ) -> Iterator[Fact]:
     """Yield how readings were taken; `within` is the dotted key of the job's group."""
@@ -54,30 +54,30 @@ def measurement_facts(
 
     unit = writer.position_unit.symbol
     method, plane = measurement.method, measurement.plane
-    yield fact(Words("Date"), days(measurement, writer), "date", "end")
+    yield fact(Words("Date"), write_days(measurement, writer), "date", "end")
     yield fact(
         Words("Positioning method"),
         writer.say(_METHODS[method]) if method else None,
         "method",
     )
     if measurements.axis.circle is not None:
-        from zlmreport.document.certificate.circle_facts import path_facts  # noqa: PLC0415 - of the few that need it
+        from zlmreport.document.certificate.circle_facts import list_path_facts  # noqa: PLC0415 - of the few that need it
 
-        yield from path_facts(measurements, writer, within)
+        yield from list_path_facts(measurements, writer, within)
     elif measurements.axis.measurand.coordinate is Coordinate.TIME and not measurements.tests:
         yield fact(Words("Record"), writer.say(_record(measurements)), "source")
     elif not measurements.tests:
-        yield fact(Words("Target positions"), writer.say(_targets(measurements, writer)), "source")
+        yield fact(Words("Target positions"), writer.say(_write_targets(measurements, writer)), "source")
         yield fact(
             Words("Approaches and runs"),
-            writer.say(_runs(measurements)),
+            writer.say(_write_runs(measurements)),
             "source",
         )
-    yield fact(Words("Measured"), _measured(measurement, measurements, writer), "error", "symbols")
-    yield fact(Words("Other axes at"), _elsewhere(measurement, writer), "at")
+    yield fact(Words("Measured"), _write_measured(measurement, measurements, writer), "error", "symbols")
+    yield fact(Words("Other axes at"), _write_elsewhere(measurement, writer), "at")
     feed = None if measurements.axis.circle else measurement.feed  # that of a circle stands with the circle
-    yield fact(Words("Feed"), with_unit(feed, f"{unit}/min", writer), "feed")
-    yield fact(Words("Dwell at each target"), with_unit(measurement.dwell, "s", writer), "dwell")
+    yield fact(Words("Feed"), write_with_unit(feed, f"{unit}/min", writer), "feed")
+    yield fact(Words("Dwell at each target"), write_with_unit(measurement.dwell, "s", writer), "dwell")
     yield fact(Words("Warm-up"), measurement.warm_up, "warm_up")
     yield fact(Words("Compensation"), measurement.compensation, "compensation")
     yield fact(Words("Measuring line"), measurement.line, "line")
@@ -98,7 +98,7 @@ def measurement_facts(
 _MEASURED = Words("{subject}: {sign}")
 
 
-def _measured(measurement: Measurement, measurements: MeasurementSet, writer: Writer) -> str | None:
+def _write_measured(measurement: Measurement, measurements: MeasurementSet, writer: Writer) -> str | None:
     """Write what was measured and its sign; nothing of positioning that no symbol names."""
     axis = measurements.axis
     if axis.measurand.is_position and not measurement.error:
@@ -106,12 +106,12 @@ def _measured(measurement: Measurement, measurements: MeasurementSet, writer: Wr
     subject = axis.subject
     if axis.error and measurement.symbols == "vdi-vde-2617-3":
         subject = axis.measurand.named(
-            axis.name, f"{axis.error} (VDI/VDE 2617-3: {error_named(axis.error).vdi})"
+            axis.name, f"{axis.error} (VDI/VDE 2617-3: {find_error_named(axis.error).vdi})"
         )
     return writer.say(_MEASURED.given(subject=subject, sign=axis.measurand.sign_of(axis.letter)))
 
 
-def _elsewhere(measurement: Measurement, writer: Writer) -> str | None:
+def _write_elsewhere(measurement: Measurement, writer: Writer) -> str | None:
     """Write where the other axes stood, and the tool's offset."""
     said = []
     for name, value in measurement.at.items():
@@ -126,20 +126,20 @@ def _elsewhere(measurement: Measurement, writer: Writer) -> str | None:
 _TOOL = Words("tool")
 
 
-def environment_facts(
+def list_environment_facts(
     environment: Environment | None, measurements: MeasurementSet, writer: Writer, within: str
 ) -> Iterator[Fact]:
     """Yield the conditions that the job states, and those that were logged beside the readings."""
     for name, key, unit, logged in _CONDITIONS:
         from_job = getattr(environment, key, None)
         if from_job is not None:
-            yield Fact(name, with_unit(from_job, unit, writer), (f"{within}.{key}",))
+            yield Fact(name, write_with_unit(from_job, unit, writer), (f"{within}.{key}",))
         elif logged:
-            yield Fact(name, _logged(measurements.conditions.get(key), key, writer))
+            yield Fact(name, _write_logged(measurements.conditions.get(key), key, writer))
     if environment is not None:
         sensors = Words("Sensor locations")
         yield Fact(sensors, environment.sensors, (f"{within}.sensors",))
-        calibrated = "; ".join(_sensor(each, writer) for each in environment.thermometers)
+        calibrated = "; ".join(_write_sensor(each, writer) for each in environment.thermometers)
         name = Words("Thermometers and sensors")
         yield Fact(name, calibrated, (f"{within}.thermometers",))
         yield Fact(Words("Remarks"), environment.remarks, (f"{within}.remarks",))
@@ -148,7 +148,7 @@ def environment_facts(
 _CALIBRATED = Words("calibrated {date}")
 
 
-def _sensor(sensor: SensorKeys, writer: Writer) -> str:
+def _write_sensor(sensor: SensorKeys, writer: Writer) -> str:
     """Write a sensor with its calibration certificate and date."""
     day = writer.say(_CALIBRATED.given(date=writer.date(sensor.calibrated))) if sensor.calibrated else None
     return ", ".join(filter(None, (sensor.name, sensor.certificate, day)))
@@ -176,14 +176,14 @@ _CONDITIONS = (
 )
 
 
-def with_unit(value: str | float | None, unit: str, writer: Writer) -> str | None:
+def write_with_unit(value: str | float | None, unit: str, writer: Writer) -> str | None:
     """Write a number with its unit; what the job states in words stays as it is."""
     if value is None or isinstance(value, str):
         return value
     return units.with_unit(writer.number(value), unit)
 
 
-def _targets(measurements: MeasurementSet, writer: Writer) -> Words:
+def _write_targets(measurements: MeasurementSet, writer: Writer) -> Words:
     first, last = measurements.target_positions[0], measurements.target_positions[-1]
     return Words("{count}, from {first} to {last}").given(
         count=len(measurements.target_positions),
@@ -204,7 +204,7 @@ _MOMENTS = Words("{duration} {unit}, read at {count} moments")
 _AVERAGES = Words("{duration} {unit}, as averages over {count} intervals")
 
 
-def _runs(measurements: MeasurementSet) -> Words:
+def _write_runs(measurements: MeasurementSet) -> Words:
     count = len(measurements.runs)
     if measurements.is_bidirectional:
         return Words("both directions (↑ and ↓), {runs} each").given(runs=runs_in_words(count))
@@ -213,7 +213,7 @@ def _runs(measurements: MeasurementSet) -> Words:
     )
 
 
-def _logged(values: FloatArray | None, key: str, writer: Writer) -> str | None:
+def _write_logged(values: FloatArray | None, key: str, writer: Writer) -> str | None:
     """Write the range of a logged condition in the unit that is printed."""
     if values is None or not np.any(np.isfinite(values)):
         return None
@@ -238,7 +238,7 @@ class Fact(NamedTuple):
     keys: tuple[str, ...] = ()
 
 
-def stated_facts(facts: Iterable[Fact], writer: Writer) -> tuple[tuple[str, str], ...]:
+def select_stated_facts(facts: Iterable[Fact], writer: Writer) -> tuple[tuple[str, str], ...]:
     """Return the facts that have a value, named and marked in the document's language."""
     return tuple(
         (writer.say(fact.name) + writer.marks.after(*fact.keys), fact.value) for fact in facts if fact.value

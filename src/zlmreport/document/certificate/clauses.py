@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.document.certificate.cover import place_of_work
-from zlmreport.document.certificate.own_words import left_out
+from zlmreport.document.certificate.own_words import find_left_out
 from zlmreport.errors import InputError, Problem
 
 if TYPE_CHECKING:
@@ -103,11 +103,11 @@ MANDATORY_ITEMS = (
 )
 
 
-def missing_items(job: Job) -> Iterator[Problem]:
+def find_missing_items(job: Job) -> Iterator[Problem]:
     """Yield what a calibration certificate must state and does not; a measuring report may leave it out."""
     if job.keys.certificate.kind != "certificate":
         return
-    yield from left_out(job)
+    yield from find_left_out(job)
     for item in MANDATORY_ITEMS:
         if not item.stated(job.keys):
             yield Problem(
@@ -122,6 +122,6 @@ def demand_mandatory_items(job: Job) -> None:
 
     Raises `InputError` with every missing item, its clause, and the key that states it.
     """
-    missing = tuple(missing_items(job))
+    missing = tuple(find_missing_items(job))
     if missing:
         raise InputError(missing)

@@ -8,20 +8,20 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conformity, cover, origin, statements, uncertainty
-from zlmreport.document.certificate.attachments import SourceRole, sources
-from zlmreport.document.certificate.circumstances import Fact, date, stated_facts
+from zlmreport.document.certificate.attachments import SourceRole, list_sources
+from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date
 from zlmreport.document.certificate.conditions import MACHINE_KINDS
 from zlmreport.document.certificate.digest import DIGEST, digest_of
 from zlmreport.document.certificate.document import Certificate
-from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.own_look import read_look
-from zlmreport.document.certificate.own_words import arranged, filled
-from zlmreport.document.certificate.readings import missing_readings
-from zlmreport.document.certificate.standard_layout import on_a_page
-from zlmreport.document.certificate.statements import document_title, in_a_line, running_title
+from zlmreport.document.certificate.own_words import arrange_sections, fill_in
+from zlmreport.document.certificate.readings import list_missing_readings
+from zlmreport.document.certificate.standard_layout import fit_on_a_page
+from zlmreport.document.certificate.statements import write_document_title, write_person, write_running_title
 from zlmreport.document.certificate.values import Values
 from zlmreport.document.writer import Marks, Writer
-from zlmreport.evaluation.uncertainty.joined_budget import joined_budget
+from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.language import Words
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ _DAYS = Words("{first} to {last}")
 _NAMED = Words("{names}: {heading}")
 
 
-def collected(
+def collect_certificates(
     job: Job, parts: Mapping[str, Certificate], plugins: Mapping[str, str], generator: str
 ) -> Certificate:
     """Return one document of the certificates of several measurements, by what they are called."""
@@ -54,28 +54,28 @@ def collected(
     digest = digest_of(certificate.number, (*evaluations, *as_found))
     files = [each for part in parts.values() for each in part.sources]
     logo = next((each.file for each in files if each.role is SourceRole.LOGO), None)
-    made_from = sources(job, [each.file for each in files if each.role is SourceRole.READINGS], logo)
-    budget = joined_budget({name: part.budget for name, part in parts.items() if part.budget})
+    made_from = list_sources(job, [each.file for each in files if each.role is SourceRole.READINGS], logo)
+    budget = join_budgets({name: part.budget for name, part in parts.items() if part.budget})
     machine = keys.machine.type or writer.say(_THE_MACHINE)
     subject = writer.say(
         (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
     )
-    sections = [each for name, part in parts.items() for each in _sections_of(name, part, writer)]
+    sections = [each for name, part in parts.items() for each in _lay_out_sections(name, part, writer)]
     if certificate.layout != "sheet":  # no sheet has it
-        sections.append(origin.section_of_several(made_from, parts, generator, plugins, writer))
+        sections.append(origin.lay_out_origin_of_several(made_from, parts, generator, plugins, writer))
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
     style = certificate.style
     return replace(
         first,
-        title=writer.say(document_title(certificate)),
+        title=writer.say(write_document_title(certificate)),
         subtitle=subject,
         cover=tuple(_cover(job, parts, budget, digest, writer)),
-        sections=arranged([*sections, *statements.opinion_sections(keys, writer)], job),
+        sections=arrange_sections([*sections, *statements.lay_out_opinions(keys, writer)], job),
         page_words=replace(
             first.page_words,
-            number=writer.say(running_title(certificate)),
-            head=filled(style.header or "", job, "certificate.style.header"),
-            foot=filled(style.footer or "", job, "certificate.style.footer"),
+            number=writer.say(write_running_title(certificate)),
+            head=fill_in(style.header or "", job, "certificate.style.header"),
+            foot=fill_in(style.footer or "", job, "certificate.style.footer"),
         ),
         description=writer.say(_DESCRIPTION.given(subject=subject, standards=", ".join(designations))),
         evaluations=evaluations,
@@ -90,8 +90,8 @@ def collected(
         job=job,
         sources=made_from,
         look=read_look(job),
-        doubts=tuple(said_of_each((name, part.doubts) for name, part in parts.items())),
-        evidence=tuple(said_of_each((name, part.evidence) for name, part in parts.items())),
+        doubts=tuple(say_of_each((name, part.doubts) for name, part in parts.items())),
+        evidence=tuple(say_of_each((name, part.evidence) for name, part in parts.items())),
         tests=(),
         parts=dict(parts),
     )
@@ -107,19 +107,21 @@ def _cover(
     """Yield the first page: who, what, when, and each measurement in a line."""
     keys = job.keys
     evaluations = [each for part in parts.values() for each in part.evaluations]
-    yield from statements.amendment_notice(keys.certificate, writer)
-    facts = stated_facts(_identity(job, evaluations, digest, writer), writer)
+    yield from statements.make_amendment_notice(keys.certificate, writer)
+    facts = select_stated_facts(_list_identity(job, evaluations, digest, writer), writer)
     yield Facts(facts, writer.say(statements.WORK[keys.certificate.kind]))
-    yield summary(parts, writer)
+    yield lay_out_summary(parts, writer)
     if budget.is_complete:
-        yield from uncertainty.statement(budget, evaluations, writer)
-    yield from conformity.rule_paragraph(keys.decision_rule, evaluations, writer)
-    yield from _said_by_parts(parts, writer)
-    yield from cover.shortfalls_of_parts({name: part.evaluations for name, part in parts.items()}, writer)
-    yield from statements.paragraphs(job, writer)
+        yield from uncertainty.say_uncertainty(budget, evaluations, writer)
+    yield from conformity.say_rule(keys.decision_rule, evaluations, writer)
+    yield from _gather_said_by_parts(parts, writer)
+    yield from cover.list_shortfalls_of_parts(
+        {name: part.evaluations for name, part in parts.items()}, writer
+    )
+    yield from statements.lay_out_paragraphs(job, writer)
 
 
-def summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
+def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
     """Return each measurement with what has a limit, or else its first parameter by each standard."""
     evaluations = [each for part in parts.values() for each in part.evaluations]
     values = replace(Values.of(evaluations, writer), is_mixed=True)
@@ -129,31 +131,33 @@ def summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
             own = replace(values, writer=Writer.of(evaluation.measurements, writer.language, writer.marks))
             rows = tuple(
                 (Symbol(each.quantity.notation), writer.say(each.quantity.name), *own.cells(each))
-                for each in _in_brief(evaluation)
+                for each in _choose_in_brief(evaluation)
             )
             heading = _GROUP.given(subject=part.subtitle, designation=evaluation.designation)
-            groups.append(RowGroup(rows, writer.say(heading), section=_key_of_first(name, part)))
+            groups.append(RowGroup(rows, writer.say(heading), section=_name_key_of_first(name, part)))
     return Table(
         writer.say(_SUMMARY), values.columns(), tuple(each for each in groups if each.rows), dense=True
     )
 
 
-def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+def _choose_in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
     return (
         tuple(each for each in evaluation.parameters if each.limit is not None) or evaluation.parameters[:1]
     )
 
 
-def _key_of_first(name: str, part: Certificate) -> str:
+def _name_key_of_first(name: str, part: Certificate) -> str:
     return f"{name}-{part.sections[0].key}" if part.sections else ""
 
 
-def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: Writer) -> Iterator[Fact]:
+def _list_identity(
+    job: Job, evaluations: Sequence[Evaluation], digest: str, writer: Writer
+) -> Iterator[Fact]:
     """Yield who the document is for, on what, and when each part was measured."""
     keys = job.keys
     machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
     if customer:
-        address = ", ".join(cover.lines(customer.address))
+        address = ", ".join(cover.split_address(customer.address))
         said = ", ".join(filter(None, (customer.name, address)))
         yield Fact(Words("Customer"), said, ("customer.name", "customer.address"))
     kind = writer.say(MACHINE_KINDS[machine.kind])
@@ -165,17 +169,17 @@ def _identity(job: Job, evaluations: Sequence[Evaluation], digest: str, writer: 
     place = cover.place_of_work(keys)
     if place:
         yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
-    yield Fact(Words("Received"), date(keys.dates.received, writer), ("dates.received",))
-    yield Fact(Words("Dates of measurement"), _days(job, writer))
-    yield Fact(Words("Date of issue"), date(keys.certificate.issued, writer))
+    yield Fact(Words("Received"), write_date(keys.dates.received, writer), ("dates.received",))
+    yield Fact(Words("Dates of measurement"), _write_days(job, writer))
+    yield Fact(Words("Date of issue"), write_date(keys.certificate.issued, writer))
     if keys.next_due:
         yield Fact(statements.NEXT_DUE[keys.certificate.kind], writer.date(keys.next_due.date))
     if person:
-        yield Fact(Words("Authorised by"), in_a_line(person))
+        yield Fact(Words("Authorised by"), write_person(person))
     yield Fact(DIGEST, digest)
 
 
-def _days(job: Job, writer: Writer) -> str | None:
+def _write_days(job: Job, writer: Writer) -> str | None:
     """Write the first and the last day on which anything was measured."""
     stated = [
         day
@@ -190,11 +194,11 @@ def _days(job: Job, writer: Writer) -> str | None:
     return first if first == last else writer.say(_DAYS.given(first=first, last=last))
 
 
-def _said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator[Block]:
+def _gather_said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator[Block]:
     """Yield what nobody may overlook of any part, once, with the names of the parts that say it."""
     found: dict[Notice, list[str]] = {}
     for name, part in parts.items():
-        for block in part.cover or _on_sheet(part, writer):
+        for block in part.cover or _lay_out_on_sheet(part, writer):
             if isinstance(block, Notice):
                 found.setdefault(block, []).append(name)
     for block, names in found.items():
@@ -202,35 +206,35 @@ def _said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> Iterator
         yield Notice(writer.say(heading), block.items)
 
 
-def _on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:
+def _lay_out_on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:
     """Yield what the first page says of a part that has none of its own, but for what it does not meet."""
     own = Writer.of(part.measurements, writer.language, writer.marks)
     if part.budget:
-        yield from uncertainty.statement(part.budget, part.evaluations, writer)
-    yield from cover.unlikely(part, own)
-    yield from missing_readings(part.measurements, own)
+        yield from uncertainty.say_uncertainty(part.budget, part.evaluations, writer)
+    yield from cover.list_unlikely(part, own)
+    yield from list_missing_readings(part.measurements, own)
     if part.job:
-        yield from statements.notices(part.job.keys, own)
+        yield from statements.list_notices(part.job.keys, own)
 
 
-def _sections_of(name: str, part: Certificate, writer: Writer) -> Iterator[Section]:
+def _lay_out_sections(name: str, part: Certificate, writer: Writer) -> Iterator[Section]:
     """Yield the sections of a part, each with its name; the first begins a page."""
     first, *others = (each for each in part.sections if each.key != "origin")
     first = replace(first, blocks=(*part.cover, *first.blocks))
     if part.is_compact:
-        first = on_a_page(first, columns.PAGES[part.paper])
+        first = fit_on_a_page(first, columns.PAGES[part.paper])
     for number, section in enumerate((first, *others)):
         title = part.subtitle if not number else _TITLE.given(name=name, title=section.title)
         yield replace(
             section,
             key=f"{name}-{section.key}",
             title=title if isinstance(title, str) else writer.say(title),
-            blocks=tuple(_named(block, name) for block in section.blocks),
+            blocks=tuple(_name_block(block, name) for block in section.blocks),
             new_page=section.new_page or not number,
         )
 
 
-def _named(block: Block, name: str) -> Block:
+def _name_block(block: Block, name: str) -> Block:
     """Return a block whose graph, and whose links to sections, are told from those of other parts."""
     match block:
         case Graph(figure):

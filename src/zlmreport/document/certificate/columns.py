@@ -29,11 +29,11 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
     Verdict,
-    text_of,
+    write_cell_text,
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead
 from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.metrics import advance
+from zlmreport.document.figures.metrics import measure_advance
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
 _NUMBER = re.compile(r"(?:[−+-]?\d+(?:[.,](?P<decimals>\d+))?|–)")
@@ -98,36 +98,36 @@ class TableLayout:
     in_fives: bool
 
 
-def table_layout(block: Table | Formulas) -> TableLayout:
+def lay_out_table(block: Table | Formulas) -> TableLayout:
     """Return how a table stands on a page, or definitions, which are a table without headings."""
     table = block if isinstance(block, Table) else Table("", (Column(""),) * 3, (RowGroup(block.rows),))
-    needs = measures(table)
-    chosen = size(table, needs)
-    shares = widths(needs, chosen.page_em)
+    needs = measure_columns(table)
+    chosen = choose_size(table, needs)
+    shares = share_widths(needs, chosen.page_em)
     rooms = tuple(chosen.page_em * share / 100 for share in shares)
-    body = lines(table, rooms)
+    body = count_table_lines(table, rooms)
     return TableLayout(
         size=chosen.name,
         widths=shares,
         rooms=rooms,
         lines=body,
-        apart=stands_apart(table.columns),
+        apart=find_apart(table.columns),
         is_whole=(body if isinstance(block, Table) else len(block.rows)) <= _WHOLE_LINES,
         in_fives=chosen.name != SIZES[0].name and table.columns[0].align is Align.RIGHT,
     )
 
 
-def measures(table: Table) -> tuple[Measure, ...]:
+def measure_columns(table: Table) -> tuple[Measure, ...]:
     """Return what each column of a table needs."""
     rows = [row for group in table.groups for row in group.rows]
-    gaps = [_APART_EM if apart else 0.0 for apart in stands_apart(table.columns)]
+    gaps = [_APART_EM if apart else 0.0 for apart in find_apart(table.columns)]
     return tuple(
         _measure(column, [row[index] for row in rows], gaps[index])
         for index, column in enumerate(table.columns)
     )
 
 
-def stands_apart(columns: Sequence[Column]) -> tuple[bool, ...]:
+def find_apart(columns: Sequence[Column]) -> tuple[bool, ...]:
     """Return which columns are words that follow a column of numbers: the two need a gap between them."""
     alignments = [column.align for column in columns]
     return tuple(
@@ -136,14 +136,14 @@ def stands_apart(columns: Sequence[Column]) -> tuple[bool, ...]:
     )
 
 
-def size(table: Table, needs: Sequence[Measure]) -> Size:
+def choose_size(table: Table, needs: Sequence[Measure]) -> Size:
     """Return the largest size in which the table's words need not be broken; the smallest if none is."""
     sizes = SIZES[1:] if table.dense else SIZES
     needed = sum(need.least for need in needs)
     return next((each for each in sizes if needed <= each.page_em), sizes[-1])
 
 
-def widths(needs: Sequence[Measure], available: float) -> tuple[float, ...]:
+def share_widths(needs: Sequence[Measure], available: float) -> tuple[float, ...]:
     """Share the available width (em) among columns; the result is in per cent and adds up to 100.
 
     Columns with room for their lines share what is left over in proportion; columns without it get what
@@ -161,14 +161,14 @@ def widths(needs: Sequence[Measure], available: float) -> tuple[float, ...]:
     return tuple(100 * share / sum(shares) for share in shares)
 
 
-def lines(table: Table, available: Sequence[float]) -> int:
+def count_table_lines(table: Table, available: Sequence[float]) -> int:
     """Estimate how many lines a table's body takes, its columns being so wide (em)."""
     headings = sum(bool(group.heading) for group in table.groups)
     rows = (row for group in table.groups for row in group.rows)
-    return headings + sum(max(map(_lines, row, available)) for row in rows)
+    return headings + sum(max(map(_count_lines, row, available)) for row in rows)
 
 
-def decimal_padding(table: Table) -> tuple[tuple[str, ...], ...]:
+def pad_decimals(table: Table) -> tuple[tuple[str, ...], ...]:
     """Return for each row the class names that bring the decimal signs of a column under each other.
 
     Figures are all of one width, so a number that lacks ``n`` decimals is moved left by as many figures
@@ -176,14 +176,14 @@ def decimal_padding(table: Table) -> tuple[tuple[str, ...], ...]:
     """
     rows = [row for group in table.groups for row in group.rows]
     by_column = [
-        _padding([row[index] for row in rows]) if column.align is Align.RIGHT else ("",) * len(rows)
+        _list_padding([row[index] for row in rows]) if column.align is Align.RIGHT else ("",) * len(rows)
         for index, column in enumerate(table.columns)
     ]
     return tuple(zip(*by_column, strict=True))
 
 
-def _padding(cells: Sequence[Cell]) -> tuple[str, ...]:
-    numbers = [_NUMBER.fullmatch(text_of(cell)) for cell in cells]
+def _list_padding(cells: Sequence[Cell]) -> tuple[str, ...]:
+    numbers = [_NUMBER.fullmatch(write_cell_text(cell)) for cell in cells]
     decimals = [len(number["decimals"] or "") if number else None for number in numbers]
     most = max((count for count in decimals if count is not None), default=0)
     return tuple(
@@ -194,42 +194,44 @@ def _padding(cells: Sequence[Cell]) -> tuple[str, ...]:
 
 def _measure(column: Column, cells: Sequence[Cell], gap: float) -> Measure:
     is_words = column.align is Align.LEFT
-    heading = _SEMIBOLD * width_of(text_of(column.heading))
-    least = max(_SEMIBOLD * _longest_word(text_of(column.heading)), width_of(column.unit))
+    heading = _SEMIBOLD * measure_width(write_cell_text(column.heading))
+    least = max(
+        _SEMIBOLD * _measure_longest_word(write_cell_text(column.heading)), measure_width(column.unit)
+    )
     natural = heading if is_words else least
     for cell in cells:
-        text = text_of(cell)
-        width = width_of(text)
+        text = write_cell_text(cell)
+        width = measure_width(text)
         match cell:
             case Explained(meaning=meaning):
-                width = max(width, _SMALL * width_of(meaning))
-                unbroken = max(_longest_word(text), _SMALL * _longest_word(meaning))
+                width = max(width, _SMALL * measure_width(meaning))
+                unbroken = max(_measure_longest_word(text), _SMALL * _measure_longest_word(meaning))
             case Verdict():
                 width = unbroken = _SEMIBOLD * width + _VERDICT_EM
             case Symbol():
                 unbroken = min(width, _LONGEST_FORMULA_EM)
             case _:
-                unbroken = _longest_word(text) if is_words else width
+                unbroken = _measure_longest_word(text) if is_words else width
         natural = max(natural, width)
         least = max(least, unbroken)
     return Measure(natural + _PADDING_EM + gap, least + _PADDING_EM + gap)
 
 
-def _lines(cell: Cell, available: float) -> int:
+def _count_lines(cell: Cell, available: float) -> int:
     room = max(available - _PADDING_EM, _FULL)
-    note = ceil(_SMALL * width_of(cell.meaning) / room - _ROUNDED) if isinstance(cell, Explained) else 0
-    return max(1, ceil(width_of(text_of(cell)) / room - _ROUNDED)) + note
+    note = ceil(_SMALL * measure_width(cell.meaning) / room - _ROUNDED) if isinstance(cell, Explained) else 0
+    return max(1, ceil(measure_width(write_cell_text(cell)) / room - _ROUNDED)) + note
 
 
-def _longest_word(text: str) -> float:
-    return min(max(map(width_of, text.split()), default=0.0), _LONGEST_WORD_EM)
+def _measure_longest_word(text: str) -> float:
+    return min(max(map(measure_width, text.split()), default=0.0), _LONGEST_WORD_EM)
 
 
 @lru_cache(maxsize=4096)
-def width_of(text: str) -> float:
+def measure_width(text: str) -> float:
     """Return how wide a text is in the regular face, in em."""
     ours = "".join(each for each in text if each < _FIRST_FULL_WIDTH_CHARACTER)
-    return advance(ours, TypeFace.REGULAR) + _FULL * (len(text) - len(ours))
+    return measure_advance(ours, TypeFace.REGULAR) + _FULL * (len(text) - len(ours))
 
 
 #: A block, or facts that follow each other.
@@ -268,7 +270,7 @@ class NumberedBlock:
     label: str = ""
 
 
-def numbered(certificate: Certificate) -> Iterator[tuple[NumberedBlock, ...]]:
+def number_blocks(certificate: Certificate) -> Iterator[tuple[NumberedBlock, ...]]:
     """Yield the blocks of the first page, then those of each section; tables and graphs are counted."""
     words = certificate.page_words
     of_tables, of_graphs = (words.table, count(1)), (words.figure, count(1))
@@ -285,7 +287,7 @@ def numbered(certificate: Certificate) -> Iterator[tuple[NumberedBlock, ...]]:
         yield tuple(map(number, gather_facts(blocks)))
 
 
-def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
+def balance_facts(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
     """Part groups of facts into two columns of nearly one height; a single group keeps the page's width.
 
     The first group stands first. Groups go over to the other column out of their order where that saves
@@ -293,7 +295,7 @@ def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
     """
     if len(groups) == 1:
         return (groups,)
-    lines = dict(enumerate(map(_fact_lines, groups)))
+    lines = dict(enumerate(map(_count_fact_lines, groups)))
 
     def height(left: tuple[int, ...]) -> int:
         beside = sum(lines.values()) - sum(lines[each] for each in left)
@@ -308,7 +310,7 @@ def side_by_side(groups: tuple[Facts, ...]) -> tuple[tuple[Facts, ...], ...]:
     return tuple(groups[each] for each in left), tuple(groups[each] for each in right)
 
 
-def _fact_lines(group: Facts) -> int:
+def _count_fact_lines(group: Facts) -> int:
     """Estimate the lines that a group takes in a column."""
     return _HEADING_LINES + sum(
         max(
@@ -363,98 +365,103 @@ _FACTS_MARGIN = 4.0
 _USUAL_GRAPH = 60 * MILLIMETRE
 
 
-def height(blocks: Iterable[Block]) -> float:
+def estimate_height(blocks: Iterable[Block]) -> float:
     """Return how high blocks stand, one below the other, facts that follow each other in two columns."""
-    return sum(map(_height, gather_facts(blocks)))
+    return sum(map(_estimate_height, gather_facts(blocks)))
 
 
-def head_height(letterhead: Letterhead | None, title: str, subject: str, number: str) -> float:
+def estimate_head_height(letterhead: Letterhead | None, title: str, subject: str, number: str) -> float:
     """Return how high the letterhead and the title stand, with what the first page has besides.
 
     The number stands behind the subject, or below it where it would be parted.
     """
-    below_title = _lines_of_words(f"{subject} {number.replace('-', '_')}", _SUBJECT_EM)
-    room = _lines_of(title, 26.0) * 17.5 + _SUBJECT_LINE * below_title + 7.0
+    below_title = _count_lines_of_words(f"{subject} {number.replace('-', '_')}", _SUBJECT_EM)
+    room = _count_lines_in_room(title, 26.0) * 17.5 + _SUBJECT_LINE * below_title + 7.0
     if letterhead:
         beside = ", ".join((*letterhead.laboratory.lines, letterhead.accreditation))
-        name = _lines_of_words(letterhead.laboratory.name, _LABORATORY_EM[bool(letterhead.logo)])
-        text = 1.0 + 12.8 * name + 9.8 * _lines_of(beside, 40.0)
+        name = _count_lines_of_words(letterhead.laboratory.name, _LABORATORY_EM[bool(letterhead.logo)])
+        text = 1.0 + 12.8 * name + 9.8 * _count_lines_in_room(beside, 40.0)
         room += max(text, _LOGO if letterhead.logo else 0.0) + 10.2
     return room - _OF_FIRST
 
 
-def heading_height(title: str) -> float:
+def estimate_heading_height(title: str) -> float:
     """Return how high the heading of a section stands that begins a page."""
-    return _SECTION_HEADING + (_lines_of(title, 38.0) - 1) * 14.0
+    return _SECTION_HEADING + (_count_lines_in_room(title, 38.0) - 1) * 14.0
 
 
-def _height(block: GatheredBlock) -> float:
+def _estimate_height(block: GatheredBlock) -> float:
     match block:
         case Table():
-            return _table_height(block)
+            return _estimate_table(block)
         case Formulas(rows=rows):
             return 25.0 + len(rows) * (_DENSE * _LINE + 3.4)
         case Graph(figure):
             drawing = figure.height * MILLIMETRE if figure.height else _USUAL_GRAPH * len(figure.panels)
             return drawing + 10.0 + _SMALL_TYPE * _LINE
         case Paragraph():
-            return _paragraph_height(block)
+            return _estimate_paragraph(block)
         case Notice(title, items):
             lines = sum(map(notice_lines, (title, *items)))
             return lines * _LINE + 1.5 * len(items) + 19.0
         case facts:
             return _FACTS_MARGIN + max(
-                _facts_height(each, is_wide=len(facts) == 1) for each in side_by_side(facts)
+                _estimate_facts(each, is_wide=len(facts) == 1) for each in balance_facts(facts)
             )
 
 
 def notice_lines(text: str) -> int:
     """Return how many lines a heading or an item of a notice takes."""
-    return _lines_of(text, _NOTICE_EM)
+    return _count_lines_in_room(text, _NOTICE_EM)
 
 
-def _paragraph_height(paragraph: Paragraph) -> float:
+def _estimate_paragraph(paragraph: Paragraph) -> float:
     if paragraph.verdict:
         said = f"{paragraph.verdict.word} {paragraph.text}"
-        return _lines_of_words(said, _PAGE_EM / _OUTCOME - _VERDICT_EM) * _OUTCOME_LINE + 4.0
+        return _count_lines_of_words(said, _PAGE_EM / _OUTCOME - _VERDICT_EM) * _OUTCOME_LINE + 4.0
     if paragraph.fine:
-        return _lines_of_words(paragraph.text, _PAGE_EM / _FINE) * _FINE_LINE + 2.0
-    return _lines_of_words(paragraph.text, _PAGE_EM) * _LINE + 3.0
+        return _count_lines_of_words(paragraph.text, _PAGE_EM / _FINE) * _FINE_LINE + 2.0
+    return _count_lines_of_words(paragraph.text, _PAGE_EM) * _LINE + 3.0
 
 
-def _table_height(table: Table) -> float:
-    layout = table_layout(table)
+def _estimate_table(table: Table) -> float:
+    layout = lay_out_table(table)
     rows = [row for group in table.groups for row in group.rows]
     em = (_SMALL_TYPE if layout.size == "regular" else _DENSE) * _TYPE
     head_lines = 2 if any(column.unit for column in table.columns) else 1
-    head = _lines_of(table.caption, _PAGE_EM) * _SMALL_TYPE * _LINE + 3.0 + head_lines * 1.25 * em + 5.0
-    body = lines(table, [_IN_COMPACT * room for room in layout.rooms])
+    head = (
+        _count_lines_in_room(table.caption, _PAGE_EM) * _SMALL_TYPE * _LINE
+        + 3.0
+        + head_lines * 1.25 * em
+        + 5.0
+    )
+    body = count_table_lines(table, [_IN_COMPACT * room for room in layout.rooms])
     between = len(rows) * (3.0 if layout.size == "regular" else 1.4)
     between += len(rows) // 5 * (_FIVE_FINEST if layout.size == "finest" else _FIVE) * layout.in_fives
     between += _MARK * sum(any(isinstance(cell, Verdict) for cell in row) for row in rows)
     return head + body * 1.3 * em + between + 8.0
 
 
-def _facts_height(groups: tuple[Facts, ...], *, is_wide: bool) -> float:
+def _estimate_facts(groups: tuple[Facts, ...], *, is_wide: bool) -> float:
     room = 0.0
     for group in groups:
         room += _LINE + 2.0 if group.heading else 0.0
-        room += sum(fact_lines(*pair, is_wide=is_wide) * _LINE + 1.6 for pair in group.pairs)
+        room += sum(count_fact_lines(*pair, is_wide=is_wide) * _LINE + 1.6 for pair in group.pairs)
     return room
 
 
-def fact_lines(name: str, value: str, *, is_wide: bool = False) -> int:
+def count_fact_lines(name: str, value: str, *, is_wide: bool = False) -> int:
     """Return how many lines a fact takes in one of two columns, or where it has the page's width."""
     of_name, of_value = (_WIDE_NAME_EM, _WIDE_VALUE_EM) if is_wide else (_NAME_EM, _VALUE_EM)
-    lines = sum(_lines_of_words(line, of_value, 1.0) for line in value.split("\n"))
-    return max(_lines_of_words(name, of_name, 1.0), lines)
+    lines = sum(_count_lines_of_words(line, of_value, 1.0) for line in value.split("\n"))
+    return max(_count_lines_of_words(name, of_name, 1.0), lines)
 
 
 #: Running text is narrower than its letters are estimated.
 _RUNNING = 1.04
 
 
-def _lines_of_words(text: str, room: float, running: float = _RUNNING) -> int:
+def _count_lines_of_words(text: str, room: float, running: float = _RUNNING) -> int:
     """Return how many lines a paragraph takes, whose words go over to the next line where they do not fit.
 
     A word that is wider than a line is parted.
@@ -462,14 +469,14 @@ def _lines_of_words(text: str, room: float, running: float = _RUNNING) -> int:
     room *= running
     lines, taken = 1, 0.0
     for word in text.split(" "):
-        width = width_of(word)
+        width = measure_width(word)
         if taken and taken + width > room:
             lines, taken = lines + 1, 0.0
         if width > room:
             lines, width = lines + int(width / room), width % room
-        taken += width + width_of(" ")
+        taken += width + measure_width(" ")
     return lines
 
 
-def _lines_of(text: str, room: float) -> int:
-    return max(1, ceil(width_of(text) / room))
+def _count_lines_in_room(text: str, room: float) -> int:
+    return max(1, ceil(measure_width(text) / room))

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Block, Cell, Column, Facts, Paragraph, RowGroup, Section, Table
-from zlmreport.document.certificate.circle_facts import circle_facts, circle_in_words
+from zlmreport.document.certificate.circle_facts import describe_circle, list_circle_facts
 from zlmreport.document.certificate.circumstances import (
     Fact,
-    date,
-    environment_facts,
-    measurement_facts,
-    stated_facts,
-    with_unit,
+    list_environment_facts,
+    list_measurement_facts,
+    select_stated_facts,
+    write_date,
+    write_with_unit,
 )
 from zlmreport.language import Words
 from zlmreport.measurement import units
@@ -59,80 +59,85 @@ class Described:
     blocks: tuple[Block, ...] = ()
 
 
-def section(
+def lay_out_conditions(
     job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
 ) -> Section:
     """Return the section on the item, the method, the instrument and the environment."""
-    blocks = (*facts(job, measurements, described, writer), *besides(measurements, described, writer))
+    blocks = (
+        *list_condition_blocks(job, measurements, described, writer),
+        *list_besides(measurements, described, writer),
+    )
     return Section("conditions", writer.say(_TITLE), blocks)
 
 
-def facts(
+def list_condition_blocks(
     job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
 ) -> Iterator[Block]:
     """Yield what is stated of the item, the method, the instrument and the environment."""
-    for _, group in groups(job, measurements, described, writer):
+    for _, group in list_groups(job, measurements, described, writer):
         yield group
-    yield from no_influence(job, measurements, writer)
+    yield from say_no_influence(job, measurements, writer)
 
 
-def groups_beside_identification(
+def list_groups_beside_identification(
     job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
 ) -> Iterator[tuple[str, Facts]]:
     """Yield the groups of which not everything stands in an identification of the machine in one line."""
-    said = identified(job, writer)
-    for key, group in groups(job, measurements, described, writer):
+    said = find_identified(job, writer)
+    for key, group in list_groups(job, measurements, described, writer):
         if any(value not in said for _, value in group.pairs):
             yield key, group
 
 
-def groups(
+def list_groups(
     job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
 ) -> Iterator[tuple[str, Facts]]:
     """Yield the groups of what is stated, each with its job key; an extension's with an empty one."""
     keys = job.keys
-    environment = environment_facts(keys.environment, measurements, writer, "environment")
+    environment = list_environment_facts(keys.environment, measurements, writer, "environment")
     all_of_them = (
-        ("machine", Words("Machine"), _machine(keys, writer)),
-        _moved(job, writer),
-        ("measurement", Words("Measurement"), _measurement(keys, measurements, writer)),
+        ("machine", Words("Machine"), _list_machine_facts(keys, writer)),
+        _describe_what_moved(job, writer),
+        ("measurement", Words("Measurement"), _list_measurement_facts(keys, measurements, writer)),
         (
             "instrument",
             Words("Measuring instrument"),
-            _instrument(keys.instrument, measurements, writer),
+            _list_instrument_facts(keys.instrument, measurements, writer),
         ),
         *(("", each.heading, each.facts) for each in described),
         ("environment", Words("Environment"), environment),
     )
     for key, heading, group in all_of_them:
-        if pairs := stated_facts(group, writer):
+        if pairs := select_stated_facts(group, writer):
             yield key, Facts(pairs, writer.say(heading))
 
 
-def no_influence(job: Job, measurements: MeasurementSet, writer: Writer) -> Iterator[Paragraph]:
+def say_no_influence(job: Job, measurements: MeasurementSet, writer: Writer) -> Iterator[Paragraph]:
     """Yield that a certificate names no condition of the environment, where it states none."""
-    environment = environment_facts(job.keys.environment, measurements, writer, "environment")
-    if job.keys.certificate.kind == "certificate" and not stated_facts(environment, writer):
+    environment = list_environment_facts(job.keys.environment, measurements, writer, "environment")
+    if job.keys.certificate.kind == "certificate" and not select_stated_facts(environment, writer):
         yield Paragraph(writer.say(_NO_INFLUENCE))
 
 
-def identified(job: Job, writer: Writer) -> frozenset[str]:
+def find_identified(job: Job, writer: Writer) -> frozenset[str]:
     """Return what an identification of the machine says in one line."""
     machine = job.keys.machine
     kind = writer.say(MACHINE_KINDS[machine.kind])
     return frozenset({machine.manufacturer or "", machine.model or "", machine.serial or "", kind})
 
 
-def besides(measurements: MeasurementSet, described: Sequence[Described], writer: Writer) -> Iterator[Block]:
+def list_besides(
+    measurements: MeasurementSet, described: Sequence[Described], writer: Writer
+) -> Iterator[Block]:
     """Yield what does not fit into facts: corrections, and what extensions show."""
-    yield from correction_blocks(measurements, writer)
+    yield from lay_out_corrections(measurements, writer)
     yield from (block for each in described for block in each.blocks)
 
 
-def axis_in_words(job: Job, writer: Writer) -> str:
+def describe_axis(job: Job, writer: Writer) -> str:
     """Write the axis's name and kind; of a circle, which one; of sensors, and of lines, their names."""
     if job.keys.circle is not None:
-        return circle_in_words(job.keys.circle, writer)
+        return describe_circle(job.keys.circle, writer)
     if job.axis.measurand.coordinate is Coordinate.TIME or _is_along_lines(job):
         return job.axis.name
     words = Words("{name} ({kind})")
@@ -144,7 +149,7 @@ def _is_along_lines(job: Job) -> bool:
     return job.axis.measurand.bearer != POSITIONING.bearer
 
 
-def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
+def _list_machine_facts(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
     machine = keys.machine
     kind = writer.say(MACHINE_KINDS[machine.kind])
     yield Fact(Words("Manufacturer"), machine.manufacturer, ("machine.manufacturer",))
@@ -155,7 +160,7 @@ def _machine(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
     yield Fact(Words("Condition"), machine.condition, ("machine.condition",))
 
 
-def measured_of(job: Job) -> Words:
+def say_measured_of(job: Job) -> Words:
     """Return what was measured of, as a heading: an axis, two on a circle, sensors over time, or lines."""
     if job.keys.circle is not None:
         return Words("Circle")
@@ -167,16 +172,16 @@ def measured_of(job: Job) -> Words:
     return Words("Axis")
 
 
-def _moved(job: Job, writer: Writer) -> tuple[str, Words, Iterator[Fact]]:
+def _describe_what_moved(job: Job, writer: Writer) -> tuple[str, Words, Iterator[Fact]]:
     """Return the group on what moved: its job key, its heading and its facts."""
     if job.keys.circle is not None:
-        return "circle", measured_of(job), circle_facts(job.keys.circle, writer)
-    return "axis", measured_of(job), _axis(job, writer)
+        return "circle", say_measured_of(job), list_circle_facts(job.keys.circle, writer)
+    return "axis", say_measured_of(job), _list_axis_facts(job, writer)
 
 
-def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
+def _list_axis_facts(job: Job, writer: Writer) -> Iterator[Fact]:
     axis, keys = job.axis, job.keys.axis
-    yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
+    yield Fact(say_measured_of(job), describe_axis(job, writer), ("axis.name", "axis.kind"))
     if axis.travel is not None:
         first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
         travel = f"{first} … {units.with_unit(last, writer.position_unit.symbol)}"
@@ -202,7 +207,7 @@ def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
         yield Fact(name, None if length is None else writer.length(length), (f"axis.{key}",))
     yield Fact(
         Words("Compensation table"),
-        _table(keys.compensation_table, writer),
+        _write_table(keys.compensation_table, writer),
         ("axis.compensation_table",),
     )
     yield Fact(
@@ -212,12 +217,12 @@ def _axis(job: Job, writer: Writer) -> Iterator[Fact]:
     )
     yield Fact(
         Words("Distance of the measuring line from the scale"),
-        with_unit(keys.abbe_offset, "mm", writer),
+        write_with_unit(keys.abbe_offset, "mm", writer),
         ("axis.abbe_offset",),
     )
 
 
-def _table(stated: str | Path | None, writer: Writer) -> str | None:
+def _write_table(stated: str | Path | None, writer: Writer) -> str | None:
     """Write the table that was active during the test; the word for none."""
     return _file_name(stated) if isinstance(stated, Path | None) else writer.say(_NO_TABLE)
 
@@ -226,18 +231,18 @@ def _file_name(path: Path | None) -> str | None:
     return path.name if path else None
 
 
-def _measurement(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:
-    yield from measurement_facts(keys.measurement, measurements, writer, "measurement")
+def _list_measurement_facts(keys: JobKeys, measurements: MeasurementSet, writer: Writer) -> Iterator[Fact]:
+    yield from list_measurement_facts(keys.measurement, measurements, writer, "measurement")
     yield Fact(Words("Procedure"), keys.procedure)
     yield Fact(Words("Sampling"), keys.sampling, ("sampling",))
     yield Fact(
         Words("Date of sampling"),
-        date(keys.dates.sampled, writer),
+        write_date(keys.dates.sampled, writer),
         ("dates.sampled",),
     )
 
 
-def _instrument(
+def _list_instrument_facts(
     instrument: Instrument | None, measurements: MeasurementSet, writer: Writer
 ) -> Iterator[Fact]:
     """Yield what is stated of the instrument; its U of several lines with each of them, in their units."""
@@ -248,18 +253,18 @@ def _instrument(
         (Words("Manufacturer"), instrument.manufacturer, "manufacturer"),
         (Words("Serial number"), instrument.serial, "serial"),
         (Words("Calibration certificate"), instrument.certificate, "certificate"),
-        (Words("Calibrated"), date(instrument.calibrated, writer), "calibrated"),
-        (Words("Calibration due"), date(instrument.due, writer), "due"),
+        (Words("Calibrated"), write_date(instrument.calibrated, writer), "calibrated"),
+        (Words("Calibration due"), write_date(instrument.due, writer), "due"),
     ):
         yield Fact(name, value, (f"instrument.{key}",))
     yield Fact(
         Words("Expanded uncertainty"),
-        None if measurements.tests else _uncertainty(instrument, writer),
+        None if measurements.tests else _write_uncertainty(instrument, writer),
         ("instrument.expanded_uncertainty", "instrument.expanded_uncertainty_per_metre"),
     )
     yield Fact(
         Words("Expansion coefficient of the instrument"),
-        with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
+        write_with_unit(instrument.expansion_coefficient, "µm/(m·K)", writer),
         ("instrument.expansion_coefficient",),
     )
     yield Fact(
@@ -269,7 +274,7 @@ def _instrument(
     )
     yield Fact(
         Words("Corrected by the instrument"),
-        _compensates(instrument.compensates, writer),
+        _write_compensates(instrument.compensates, writer),
         ("instrument.compensates",),
     )
 
@@ -279,7 +284,7 @@ _AIR = Words("refractive index of the air")
 _NOTHING = Words("nothing")
 
 
-def _compensates(keys: CompensatesKeys | None, writer: Writer) -> str | None:
+def _write_compensates(keys: CompensatesKeys | None, writer: Writer) -> str | None:
     """Write what the instrument has corrected already; None where the job does not tell."""
     if keys is None:
         return None
@@ -289,20 +294,20 @@ def _compensates(keys: CompensatesKeys | None, writer: Writer) -> str | None:
     return "; ".join(map(writer.say, parts)) or writer.say(_NOTHING)
 
 
-def _uncertainty(instrument: Instrument, writer: Writer) -> str | None:
+def _write_uncertainty(instrument: Instrument, writer: Writer) -> str | None:
     """Write the instrument's expanded uncertainty, with its part that grows with the length."""
     stated, unit = instrument.stated_uncertainty, writer.deviation_unit.symbol
     if stated is None:
         fixed = instrument.expanded_uncertainty
         return fixed if isinstance(fixed, str) else None
     constant, per_metre = stated
-    parts = [with_unit(constant, unit, writer)] if constant or not per_metre else []
+    parts = [write_with_unit(constant, unit, writer)] if constant or not per_metre else []
     if per_metre:
         parts.append(f"{writer.number(per_metre)} µm/m · L")
     return f"U = {' + '.join(filter(None, parts))} (k = 2)"
 
 
-def correction_blocks(measurements: MeasurementSet, writer: Writer) -> Iterator[Block]:
+def lay_out_corrections(measurements: MeasurementSet, writer: Writer) -> Iterator[Block]:
     """Yield what was corrected, in its order; nothing where the readings are as they were read."""
     corrections = measurements.provenance.corrections
     if not corrections:

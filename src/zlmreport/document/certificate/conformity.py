@@ -20,10 +20,10 @@ from zlmreport.document.blocks import (
     Table,
     Verdict,
 )
-from zlmreport.document.writer import NOTHING, Writer, with_uncertainty
+from zlmreport.document.writer import NOTHING, Writer, write_rounded_together
 from zlmreport.evaluation.evaluation import Conformity
 from zlmreport.language import Words, same
-from zlmreport.language.formatting import fixed_number, percentage, plain
+from zlmreport.language.formatting import write_fixed_number, write_percentage, write_plain
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
@@ -91,7 +91,7 @@ _CAPTION = Words(
 )
 
 
-def verdict(parameter: Parameter, writer: Writer) -> Cell:
+def make_verdict_cell(parameter: Parameter, writer: Writer) -> Cell:
     """Return what is stated of a parameter's limit; nothing where it has none."""
     if parameter.limit is None or parameter.decision is None:
         return NOTHING
@@ -99,23 +99,23 @@ def verdict(parameter: Parameter, writer: Writer) -> Cell:
     return Verdict(mark, writer.say(words))
 
 
-def rule_paragraph(
+def say_rule(
     keys: DecisionRuleKeys, evaluations: Sequence[Evaluation], writer: Writer
 ) -> Iterator[Paragraph]:
     """Yield the decision rule with its risk, where any limit is stated."""
     limited = [each for evaluation in evaluations for each in evaluation.parameters if each.limit is not None]
     if not limited:
         return
-    words = _rule(keys, limited, writer)
+    words = _say_rule(keys, limited, writer)
     if keys.rule != "simple" and any(each.expanded_uncertainty is None for each in limited):
         words = _WITHOUT_UNCERTAINTY.given(rule=words)
     if any(each.known_error for each in limited):
         words = _KNOWN_ERRORS.given(rule=words)
     symbols = (*_OF_RULES, *(each.quantity.notation for each in limited if "_" in each.quantity.notation))
-    yield Paragraph(writer.say(_source_of_limits(evaluations, writer).given(rule=words)), symbols=symbols)
+    yield Paragraph(writer.say(_say_source_of_limits(evaluations, writer).given(rule=words)), symbols=symbols)
 
 
-def _source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> Words:
+def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> Words:
     """Return the sentence on the document that limits come from (ISO/IEC 17025:2017, 7.8.6.2 b)."""
     limited = [each for each in evaluations if any(one.limit is not None for one in each.parameters)]
     named = dict.fromkeys(each.specification for each in limited if each.specification)
@@ -133,7 +133,7 @@ def _source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> Word
     return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)
 
 
-def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
+def lay_out_conformity(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
     """Yield the graph of a standard's limits, and the table of what is stated of them.
 
     Nothing where the job states no limit; no table where no uncertainty is known: it would say no more than
@@ -141,16 +141,16 @@ def blocks(evaluation: Evaluation, writer: Writer) -> Iterator[Block]:
     """
     if all(each.limit is None for each in evaluation.parameters):
         return
-    from zlmreport.document.figures.bars import conformity_graph  # noqa: PLC0415 - only with limits
+    from zlmreport.document.figures.bars import draw_conformity  # noqa: PLC0415 - only with limits
 
-    graph = conformity_graph(evaluation)
+    graph = draw_conformity(evaluation)
     if graph is None:
         return
     yield Graph(graph)
-    yield from statements([evaluation], writer)
+    yield from lay_out_statements([evaluation], writer)
 
 
-def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Table]:
+def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Table]:
     """Yield the table of what is stated of limits, by standard where there are several."""
     limited = {
         each.designation: [one for one in each.parameters if one.limit is not None] for each in evaluations
@@ -175,7 +175,8 @@ def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Ta
     )
     groups = tuple(
         RowGroup(
-            tuple(_row(each, writer, is_mixed=is_mixed) for each in some), name if len(limited) > 1 else ""
+            tuple(_lay_out_row(each, writer, is_mixed=is_mixed) for each in some),
+            name if len(limited) > 1 else "",
         )
         for name, some in limited.items()
         if some
@@ -183,7 +184,7 @@ def statements(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Ta
     yield Table(writer.say(_CAPTION), columns, groups)
 
 
-def _row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell, ...]:
+def _lay_out_row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell, ...]:
     writer = writer.of_quantity(parameter.quantity)
 
     def shown(number: str) -> str:
@@ -194,42 +195,42 @@ def _row(parameter: Parameter, writer: Writer, *, is_mixed: bool) -> tuple[Cell,
     risk = None if decision is None else decision.risk
     return (
         Symbol(parameter.quantity.notation),
-        shown(_rounded(abs(parameter.value), parameter, writer)),
+        shown(_write_rounded(abs(parameter.value), parameter, writer)),
         shown(writer.number(writer.deviation_unit.from_si(parameter.limit or 0.0))),
-        NOTHING if accepted is None else shown(_accepted(accepted, parameter, writer)),
-        verdict(parameter, writer),
-        NOTHING if risk is None else percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
+        NOTHING if accepted is None else shown(_write_accepted(accepted, parameter, writer)),
+        make_verdict_cell(parameter, writer),
+        NOTHING if risk is None else write_percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
     )
 
 
-def _accepted(limit: float, parameter: Parameter, writer: Writer) -> str:
+def _write_accepted(limit: float, parameter: Parameter, writer: Writer) -> str:
     if limit == parameter.limit:
         return writer.number(writer.deviation_unit.from_si(limit))
-    return _rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words("none"))
+    return _write_rounded(limit, parameter, writer) if limit >= 0 else writer.say(Words("none"))
 
 
-def _rounded(value: float, parameter: Parameter, writer: Writer) -> str:
+def _write_rounded(value: float, parameter: Parameter, writer: Writer) -> str:
     """Write a value (m or rad) with the decimals that the parameter has in every other table."""
     expanded = parameter.expanded_uncertainty
-    return with_uncertainty(value, expanded, writer)[0] if expanded else writer.deviation(value)
+    return write_rounded_together(value, expanded, writer)[0] if expanded else writer.deviation(value)
 
 
-def _rule(keys: DecisionRuleKeys, limited: Sequence[Parameter], writer: Writer) -> Words:
+def _say_rule(keys: DecisionRuleKeys, limited: Sequence[Parameter], writer: Writer) -> Words:
     coverage_factor = max(2.0, min((each.coverage_factor or 2.0) for each in limited))
     match keys.rule:
         case "guard-band":
             factor = keys.guard_band_factor
             width = "U" if factor == 1 else f"{writer.number(factor)}·U"
-            return _GUARD_BAND.given(width=width, risk=_tail(factor * coverage_factor, writer))
+            return _GUARD_BAND.given(width=width, risk=_compute_tail(factor * coverage_factor, writer))
         case "iso14253-1":
             return _ISO_14253
         case "non-binary":
-            return _NON_BINARY.given(risk=_tail(coverage_factor, writer))
+            return _NON_BINARY.given(risk=_compute_tail(coverage_factor, writer))
         case _:
-            return _SIMPLE.given(largest=_largest_risk(limited, writer))
+            return _SIMPLE.given(largest=_say_largest_risk(limited, writer))
 
 
-def _largest_risk(limited: Sequence[Parameter], writer: Writer) -> Words:
+def _say_largest_risk(limited: Sequence[Parameter], writer: Writer) -> Words:
     """Return what is said of the largest risk of a document: nothing where none is known."""
     risks = [
         (each.decision.risk, each) for each in limited if each.decision and each.decision.risk is not None
@@ -238,13 +239,13 @@ def _largest_risk(limited: Sequence[Parameter], writer: Writer) -> Words:
         return same("")
     risk, of = max(risks, key=operator.itemgetter(0))
     words = _LARGEST.given(
-        risk=percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
-        symbol=plain(of.quantity.notation),
+        risk=write_percentage(risk or _UNDERFLOW, writer.language.decimal_sign, 1),
+        symbol=write_plain(of.quantity.notation),
     )
     return _LARGER_IF_WIDE.given(largest=words) if risk > _EVEN else words
 
 
-def _tail(distance: float, writer: Writer) -> str:
+def _compute_tail(distance: float, writer: Writer) -> str:
     """Return the percentage of a normal distribution beyond so many standard deviations, rounded up."""
     percent = 50.0 * math.erfc(distance / math.sqrt(2.0))
-    return fixed_number(math.ceil(10.0 * percent) / 10.0, 1, writer.language.decimal_sign)
+    return write_fixed_number(math.ceil(10.0 * percent) / 10.0, 1, writer.language.decimal_sign)

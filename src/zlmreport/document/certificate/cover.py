@@ -8,21 +8,21 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Facts, Notice, Paragraph, RowGroup, Symbol, Table
 from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
-from zlmreport.document.certificate.circumstances import Fact, date, days, stated_facts
+from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date, write_days
 from zlmreport.document.certificate.conditions import (
     MACHINE_KINDS,
-    axis_in_words,
-    groups as conditions_in_groups,
-    groups_beside_identification,
-    measured_of,
-    no_influence,
-    section as conditions_section,
+    describe_axis,
+    lay_out_conditions as conditions_section,
+    list_groups as conditions_in_groups,
+    list_groups_beside_identification,
+    say_measured_of,
+    say_no_influence,
 )
 from zlmreport.document.certificate.digest import DIGEST
-from zlmreport.document.certificate.readings import missing_readings
-from zlmreport.document.certificate.results import Evaluated, section_key
-from zlmreport.document.certificate.statements import amendment_notice, in_a_line
-from zlmreport.document.certificate.values import Values, told_apart
+from zlmreport.document.certificate.readings import list_missing_readings
+from zlmreport.document.certificate.results import Evaluated, make_section_key
+from zlmreport.document.certificate.statements import make_amendment_notice, write_person
+from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.evaluation.evaluation import Group
 from zlmreport.job.document_keys import Location
 from zlmreport.language import Words, same
@@ -49,7 +49,7 @@ _IN_SECTION = Words("In section “{title}”: {what}.")
 _MEANING_OF_U = Words("what U means, and what it is made of")
 
 
-def blocks(
+def lay_out_cover(
     of: Material, pages: Sequence[tuple[Evaluated, ...]] | None = None, behind: Behind = Behind()
 ) -> tuple[Block, ...]:
     """Return the blocks under the title.
@@ -58,40 +58,40 @@ def blocks(
     for what stands `behind`.
     """
     if of.is_part:
-        return tuple(_of_part(of))
+        return tuple(_lay_out_part(of))
     job, measurements, evaluated, writer = of.job, of.measurements, of.evaluated, of.writer
     evaluations = tuple(each.evaluation for each in evaluated)
-    facts = stated_facts(identity(of, evaluations), writer)
+    facts = select_stated_facts(list_identity(of, evaluations), writer)
     if pages is None:
         first: tuple[Block, ...] = (Facts(facts),)
     else:
-        further = groups_beside_identification(job, measurements, of.described, writer)
+        further = list_groups_beside_identification(job, measurements, of.described, writer)
         first = (
             Facts(facts, writer.say(statements.WORK[job.keys.certificate.kind])),
             *(group for key, group in further if key not in behind.conditions),
-            *no_influence(job, measurements, writer),
+            *say_no_influence(job, measurements, writer),
         )
-    in_brief = _results(pages or [(each,) for each in evaluated], writer, dense=pages is not None)
-    of_uncertainty = uncertainty.statement(evaluated[0].budget, evaluations, writer)
+    in_brief = _lay_out_results(pages or [(each,) for each in evaluated], writer, dense=pages is not None)
+    of_uncertainty = uncertainty.say_uncertainty(evaluated[0].budget, evaluations, writer)
     return (
-        *amendment_notice(job.keys.certificate, writer),
+        *make_amendment_notice(job.keys.certificate, writer),
         *first,
         *(() if behind.results else (in_brief,)),
         *(each for each in of_uncertainty if isinstance(each, Notice) or not behind.explains_uncertainty),
-        *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
-        *_elsewhere(of, behind),
-        *unlikely(of, writer),
-        *missing_readings(measurements, writer),
-        *measured_lines.notices(of.tests, writer),
-        *_shortfalls(evaluations, writer, in_a_line=pages is not None),
-        *_as_found(job, writer),
-        *statements.notices(job.keys, writer),
-        *statements.paragraphs(job, writer),
+        *conformity.say_rule(job.keys.decision_rule, evaluations, writer),
+        *_say_elsewhere(of, behind),
+        *list_unlikely(of, writer),
+        *list_missing_readings(measurements, writer),
+        *measured_lines.list_notices(of.tests, writer),
+        *_list_shortfalls(evaluations, writer, in_a_line=pages is not None),
+        *_say_as_found(job, writer),
+        *statements.list_notices(job.keys, writer),
+        *statements.lay_out_paragraphs(job, writer),
         *((in_brief,) if behind.results else ()),
     )
 
 
-def _elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
+def _say_elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
     """Yield where that stands for which the page has no room."""
     writer = of.writer
     if behind.conditions:
@@ -100,7 +100,7 @@ def _elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
         title = conditions_section(of.job, of.measurements, of.described, writer).title
         yield Paragraph(writer.say(_IN_SECTION.given(title=title, what=named)))
     if behind.explains_uncertainty:
-        title = uncertainty.section(
+        title = uncertainty.lay_out_budgets(
             of.evaluated[0].budget, [each.evaluation for each in of.evaluated], writer
         ).title
         yield Paragraph(writer.say(_IN_SECTION.given(title=title, what=_MEANING_OF_U)))
@@ -110,43 +110,43 @@ def _elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
 OF_MEASUREMENT = {"evaluate.standard", "measurement.date", "as_found.measurement.date"}
 
 
-def _of_part(of: Material) -> Iterator[Block]:
+def _lay_out_part(of: Material) -> Iterator[Block]:
     """Yield what one of several measurements has of its own on the first page of their document."""
     job, measurements, writer = of.job, of.measurements, of.writer
     evaluations = tuple(each.evaluation for each in of.evaluated)
-    own = [each for each in identity(of, evaluations) if set(each.keys) & OF_MEASUREMENT]
-    yield Facts(stated_facts(own, writer), writer.say(statements.WORK[job.keys.certificate.kind]))
+    own = [each for each in list_identity(of, evaluations) if set(each.keys) & OF_MEASUREMENT]
+    yield Facts(select_stated_facts(own, writer), writer.say(statements.WORK[job.keys.certificate.kind]))
     for key, group in conditions_in_groups(job, measurements, of.described, writer):
         if key != "machine":
             yield group
-    yield from uncertainty.statement(of.evaluated[0].budget, evaluations, writer)
-    yield from unlikely(of, writer)
-    yield from missing_readings(measurements, writer)
-    yield from measured_lines.notices(of.tests, writer)
-    yield from _as_found(job, writer)
-    yield from statements.notices(job.keys, writer)
+    yield from uncertainty.say_uncertainty(of.evaluated[0].budget, evaluations, writer)
+    yield from list_unlikely(of, writer)
+    yield from list_missing_readings(measurements, writer)
+    yield from measured_lines.list_notices(of.tests, writer)
+    yield from _say_as_found(job, writer)
+    yield from statements.list_notices(job.keys, writer)
 
 
 _UNUSUAL = Words("Values that are unusual in the unit in which they are stated")
 _EVIDENCE = Words("What readings and calibrations show")
 
 
-def unlikely(of: Material | Certificate, writer: Writer) -> Iterator[Notice]:
+def list_unlikely(of: Material | Certificate, writer: Writer) -> Iterator[Notice]:
     """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
     for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
         if sentences:
             yield Notice(writer.say(heading), tuple(map(writer.say, sentences)))
 
 
-def _as_found(job: Job, writer: Writer) -> Iterator[Block]:
+def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
     """Yield which of two measurements the first page shows, if there are two."""
     if job.keys.as_found:
-        from zlmreport.document.certificate.as_found import on_cover  # noqa: PLC0415 - of the few that need it
+        from zlmreport.document.certificate.as_found import say_on_cover  # noqa: PLC0415 - of the few that need it
 
-        yield from on_cover(job.keys.as_found, writer)
+        yield from say_on_cover(job.keys.as_found, writer)
 
 
-def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
+def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
     values = Values.of((page[0].evaluation for page in pages), writer)
     columns = values.columns()
     groups = tuple(
@@ -157,20 +157,20 @@ def _results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: b
                     writer.say(parameter.quantity.name),
                     *values.cells(parameter),
                 )
-                for parameter in _in_brief(page[0].evaluation)
+                for parameter in _choose_in_brief(page[0].evaluation)
             ),
             ", ".join(each.evaluation.designation for each in page),
-            section=section_key(page[0].evaluation),
+            section=make_section_key(page[0].evaluation),
         )
         for page in pages
     )
     caption = Words("Results in brief")
-    shown = (each.quantity for page in pages for each in _in_brief(page[0].evaluation))
-    told, symbols = told_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
+    shown = (each.quantity for page in pages for each in _choose_in_brief(page[0].evaluation))
+    told, symbols = tell_columns_apart(caption, shown, has_uncertainty=values.has_uncertainty, writer=writer)
     return Table(told, columns, groups, dense, symbols)
 
 
-def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+def _choose_in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
     """Return what a customer looks for: what has a limit, else the composite parameters, else all."""
     limited = tuple(parameter for parameter in evaluation.parameters if parameter.limit is not None)
     composite = tuple(
@@ -179,7 +179,7 @@ def _in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
     return limited or composite or evaluation.parameters
 
 
-def shortfalls_of_parts(parts: Mapping[str, Sequence[Evaluation]], writer: Writer) -> Iterator[Notice]:
+def list_shortfalls_of_parts(parts: Mapping[str, Sequence[Evaluation]], writer: Writer) -> Iterator[Notice]:
     """Yield which requirements the measurements of one document do not meet, by what these are called."""
     items = [
         writer.say(_IN_A_PART.given(name=name, designation=each.designation, count=unmet))
@@ -195,7 +195,9 @@ _IN_A_PART = Words("{name}, {designation}: {count} not met; see its section")
 _NOT_MET = Words("Requirements that the test does not meet")
 
 
-def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_line: bool) -> Iterator[Notice]:
+def _list_shortfalls(
+    evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_line: bool
+) -> Iterator[Notice]:
     one = Words("{designation}: {count} not met; see its section")
     items = tuple(
         writer.say(one.given(designation=evaluation.designation, count=unmet))
@@ -210,13 +212,13 @@ def _shortfalls(evaluations: tuple[Evaluation, ...], writer: Writer, *, in_a_lin
         yield Notice(writer.say(_NOT_MET), items)
 
 
-def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
+def list_identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
     """Yield the facts, in the order of the page; `evaluations` are those of the page."""
     job, writer = of.job, of.writer
     keys = job.keys
     machine, customer, person = keys.machine, keys.customer, keys.certificate.authorised_by
     if customer:
-        address = ", ".join(lines(customer.address))
+        address = ", ".join(split_address(customer.address))
         yield Fact(
             Words("Customer"),
             ", ".join(filter(None, (customer.name, address))),
@@ -229,7 +231,7 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
         ("machine.manufacturer", "machine.model", "machine.kind"),
     )
     yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
-    yield Fact(measured_of(job), axis_in_words(job, writer), ("axis.name", "axis.kind"))
+    yield Fact(say_measured_of(job), describe_axis(job, writer), ("axis.name", "axis.kind"))
     yield Fact(
         Words("Evaluated in accordance with"),
         ", ".join(evaluation.designation for evaluation in evaluations),
@@ -238,32 +240,32 @@ def identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[Fact]:
     place = place_of_work(keys)
     if place:
         yield Fact(Words("Place of the work"), writer.say(place.words), place.keys)
-    received = date(keys.dates.received, writer)
+    received = write_date(keys.dates.received, writer)
     yield Fact(Words("Received"), received, ("dates.received",))
     if keys.as_found:
         yield Fact(
             Words("Date of measurement as found"),
-            days(keys.as_found.measurement, writer),
+            write_days(keys.as_found.measurement, writer),
             ("as_found.measurement.date", "as_found.measurement.end"),
         )
     yield Fact(
         Words("Date of measurement"),
-        days(keys.measurement, writer),
+        write_days(keys.measurement, writer),
         ("measurement.date", "measurement.end"),
     )
-    yield Fact(Words("Date of issue"), date(keys.certificate.issued, writer))
+    yield Fact(Words("Date of issue"), write_date(keys.certificate.issued, writer))
     if keys.next_due:
         yield Fact(
             statements.NEXT_DUE[keys.certificate.kind],
             writer.date(keys.next_due.date),
         )
     if person:
-        yield Fact(Words("Authorised by"), in_a_line(person))
+        yield Fact(Words("Authorised by"), write_person(person))
     if not of.is_part:
         yield Fact(DIGEST, of.digest)
 
 
-def lines(address: str | None) -> tuple[str, ...]:
+def split_address(address: str | None) -> tuple[str, ...]:
     """Part an address into lines, at its commas or line breaks."""
     if not address:
         return ()
@@ -296,28 +298,28 @@ def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
     """Return where the work was done: the place that is stated, or where the machine is said to stand."""
     match keys.location:
         case Location(kind=kind, address=address):
-            return _of_kind(kind, address or _own_address(kind, keys))
+            return _find_place_of_kind(kind, address or _write_own_address(kind, keys))
         case str(location):
-            return PlaceOfWork("other", location, same(_in_a_line(location)), ("location",))
+            return PlaceOfWork("other", location, same(_write_in_a_line(location)), ("location",))
     if keys.machine.location:
         words = _WHERE_IT_STANDS.given(location=keys.machine.location)
         return PlaceOfWork("other", keys.machine.location, words, ("machine.location",))
     return None
 
 
-def _of_kind(kind: str, address: str) -> PlaceOfWork:
+def _find_place_of_kind(kind: str, address: str) -> PlaceOfWork:
     words = _KINDS.get(kind)
     if words is None:
-        words = same(_in_a_line(address))
+        words = same(_write_in_a_line(address))
     elif address:
-        words = _AT.given(kind=words, address=_in_a_line(address))
+        words = _AT.given(kind=words, address=_write_in_a_line(address))
     return PlaceOfWork(kind, address, words, ("location",))
 
 
-def _own_address(kind: str, keys: JobKeys) -> str:
+def _write_own_address(kind: str, keys: JobKeys) -> str:
     party = keys.laboratory if kind == "laboratory" else keys.customer
     return party.address or "" if party else ""
 
 
-def _in_a_line(address: str) -> str:
+def _write_in_a_line(address: str) -> str:
     return ", ".join(line.strip().removesuffix(",") for line in address.splitlines() if line.strip())

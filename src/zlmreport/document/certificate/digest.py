@@ -38,7 +38,7 @@ def digest_of(number: str, evaluations: Sequence[Evaluation]) -> str:
     `number`: Of the certificate.
     `evaluations`: Of the axis as left, then those as found.
     """
-    text = "".join(f"{line}\n" for line in _lines(number, evaluations))
+    text = "".join(f"{line}\n" for line in _list_lines(number, evaluations))
     value = int.from_bytes(hashlib.sha256(text.encode("utf-8", "backslashreplace")).digest()[: _BITS // 8])
     letters = [
         _ALPHABET[value >> shift & (1 << _BITS_OF_LETTER) - 1]
@@ -47,25 +47,25 @@ def digest_of(number: str, evaluations: Sequence[Evaluation]) -> str:
     return "-".join("".join(letters[start : start + _GROUP]) for start in range(0, len(letters), _GROUP))
 
 
-def _lines(number: str, evaluations: Sequence[Evaluation]) -> Iterator[str]:
+def _list_lines(number: str, evaluations: Sequence[Evaluation]) -> Iterator[str]:
     yield f"certificate {number}"
     known: list[MeasurementSet] = []
     for evaluation in evaluations:
         measurements = evaluation.measurements
         if not any(each is measurements for each in known):
             known.append(measurements)
-            yield from _readings(measurements)
+            yield from _list_readings(measurements)
             for name, each in measurements.tests.items():
                 yield f"test {name}"
-                yield from _readings(each)
+                yield from _list_readings(each)
         yield f"standard {evaluation.standard}"
         unit = measurements.axis.deviation_unit
         yield from (
-            _result(parameter, parameter.quantity.unit_or(unit)) for parameter in evaluation.parameters
+            _write_result(parameter, parameter.quantity.unit_or(unit)) for parameter in evaluation.parameters
         )
 
 
-def _readings(measurements: MeasurementSet) -> Iterator[str]:
+def _list_readings(measurements: MeasurementSet) -> Iterator[str]:
     axis = measurements.axis
     yield f"axis {axis.name}"
     for index, approach, run, deviation in zip(
@@ -75,18 +75,18 @@ def _readings(measurements: MeasurementSet) -> Iterator[str]:
         measurements.deviation.tolist(),
         strict=True,
     ):
-        target = _written(float(measurements.target_positions[index]), axis.position_unit)
-        yield f"reading {target} {approach:+d} {run} {_written(deviation, axis.deviation_unit)}"
+        target = _write_value(float(measurements.target_positions[index]), axis.position_unit)
+        yield f"reading {target} {approach:+d} {run} {_write_value(deviation, axis.deviation_unit)}"
 
 
-def _result(parameter: Parameter, unit: Unit) -> str:
+def _write_result(parameter: Parameter, unit: Unit) -> str:
     numbers = parameter.value, parameter.expanded_uncertainty, parameter.limit
     decision = parameter.decision.conformity.value if parameter.decision else _ABSENT
-    written = " ".join(_written(each, unit) for each in numbers)
+    written = " ".join(_write_value(each, unit) for each in numbers)
     return f"result {parameter.quantity.symbol} {written} {unit.ascii} {decision}"
 
 
-def _written(value: float | None, unit: Unit) -> str:
+def _write_value(value: float | None, unit: Unit) -> str:
     if value is None or math.isnan(value):
         return _ABSENT
     # Half of the last place would be written as a zero with a sign or without one.

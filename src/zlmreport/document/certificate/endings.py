@@ -33,7 +33,7 @@ class Ending:
     is_joined: bool = False
 
 
-def endings(certificate: Certificate) -> tuple[Ending, ...]:
+def find_endings(certificate: Certificate) -> tuple[Ending, ...]:
     """Return the ending of each section."""
     sections, page = certificate.sections, columns.PAGES[certificate.paper]
     if not sections:
@@ -45,20 +45,20 @@ def endings(certificate: Certificate) -> tuple[Ending, ...]:
         for number in range(last, -1, -1):
             section = sections[number]
             blocks = tuple(columns.gather_facts(section.blocks))
-            kept, taken = _kept(blocks, taken, page)
+            kept, taken = _count_kept(blocks, taken, page)
             is_joined = kept == len(blocks) and taken < _LEAST * page and number > 0 and not section.new_page
             found[number] = Ending(kept, is_joined)
             if not is_joined:
                 break
-            taken += columns.heading_height(section.title)
+            taken += columns.estimate_heading_height(section.title)
     return tuple(found)
 
 
-def _kept(blocks: Sequence[GatheredBlock], taken: float, page: float) -> tuple[int, float]:
+def _count_kept(blocks: Sequence[GatheredBlock], taken: float, page: float) -> tuple[int, float]:
     """Return how many blocks stay together before what is taken of a page, and what then is."""
     kept = 0
     for block in reversed(blocks):
-        height = columns.height(block if isinstance(block, tuple) else (block,))
+        height = columns.estimate_height(block if isinstance(block, tuple) else (block,))
         if taken >= _LEAST * page or taken + height > _MOST * page or _is_parted(block):
             break
         kept, taken = kept + 1, taken + height
@@ -67,9 +67,9 @@ def _kept(blocks: Sequence[GatheredBlock], taken: float, page: float) -> tuple[i
 
 def _is_parted(block: GatheredBlock) -> bool:
     """Return whether pages may part a block."""
-    return isinstance(block, Table | Formulas) and not columns.table_layout(block).is_whole
+    return isinstance(block, Table | Formulas) and not columns.lay_out_table(block).is_whole
 
 
-def all_of(section: Section, ending: Ending) -> bool:
+def is_all_of(section: Section, ending: Ending) -> bool:
     """Return whether a section stays together with its heading."""
     return bool(ending.kept) and ending.kept == sum(1 for _ in columns.gather_facts(section.blocks))

@@ -24,28 +24,28 @@ if TYPE_CHECKING:
 _LEAST_LOOKED_FOR = ("", "environment", "instrument", "measurement", "axis", "circle", "machine")
 
 
-def first_page(
+def lay_out_first_page(
     of: Material, pages: Sequence[tuple[Evaluated, ...]], room: float
 ) -> tuple[tuple[Block, ...], tuple[Facts, ...]]:
     """Return the blocks under the title, and the groups of conditions that stand behind.
 
     `pages`: Evaluations that share their results in brief. `room`: What the page has below its title, points.
     """
-    for behind in _ways(of):
-        blocks = cover.blocks(of, pages, behind)
-        if columns.height(blocks) <= room:
+    for behind in _list_ways(of):
+        blocks = cover.lay_out_cover(of, pages, behind)
+        if columns.estimate_height(blocks) <= room:
             break
-    left = [group for key, group in _conditions(of) if key in behind.conditions]
+    left = [group for key, group in _choose_conditions(of) if key in behind.conditions]
     return blocks, tuple(left)
 
 
-def _ways(of: Material) -> Iterator[Behind]:
+def _list_ways(of: Material) -> Iterator[Behind]:
     """Yield what stands behind, from nothing to all that can; a section that a job leaves out takes none."""
     wanted = of.job.keys.certificate.sections
     behind = Behind()
     yield behind
     if wanted is None or "conditions" in wanted:
-        keys = [key for key, _ in _conditions(of)]
+        keys = [key for key, _ in _choose_conditions(of)]
         for key in _LEAST_LOOKED_FOR:
             if key in keys:
                 behind = replace(behind, conditions=behind.conditions | {key})
@@ -56,6 +56,8 @@ def _ways(of: Material) -> Iterator[Behind]:
     yield replace(behind, results=True)
 
 
-def _conditions(of: Material) -> list[tuple[str, Facts]]:
+def _choose_conditions(of: Material) -> list[tuple[str, Facts]]:
     """Return the groups that the first page has where there is room, with their job keys."""
-    return list(conditions.groups_beside_identification(of.job, of.measurements, of.described, of.writer))
+    return list(
+        conditions.list_groups_beside_identification(of.job, of.measurements, of.described, of.writer)
+    )

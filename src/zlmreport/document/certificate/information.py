@@ -10,7 +10,7 @@ from enum import Enum
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from zlmreport.evaluation.correction.compensated import compensated_by_instrument
+from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
 from zlmreport.evaluation.uncertainty.reasons import is_reference
@@ -60,7 +60,7 @@ _AT_REFERENCE = Words("measured at 20 °C")
 _CORRECTED = Words("corrected by α = {coefficient} µm/(m·K)")
 
 
-def findings(
+def check_information(
     asked: Iterable[Information], job: Job, measurements: MeasurementSet, budget: Budget | NoBudget
 ) -> Iterator[Finding]:
     """Yield what a standard asks to be reported, held against the job.
@@ -72,21 +72,23 @@ def findings(
         if each is Information.PATH and job.axis.circle is None:
             continue
         if each is not Information.REFERENCE_TEMPERATURE:
-            lacking = tuple(_lacking(each, job, measurements))
+            lacking = tuple(_list_lacking(each, job, measurements))
             found = _LACKING.given(lacking=Row(lacking)) if lacking else _STATED
             yield Finding(_REQUIREMENTS[each], found, met=None if lacking else True)
         elif job.axis.has_length:
-            yield _at_reference(job, measurements, budget)
+            yield _check_reference_temperature(job, measurements, budget)
 
 
-def _at_reference(job: Job, measurements: MeasurementSet, budget: Budget | NoBudget) -> Finding:
+def _check_reference_temperature(
+    job: Job, measurements: MeasurementSet, budget: Budget | NoBudget
+) -> Finding:
     requirement = _REQUIREMENTS[Information.REFERENCE_TEMPERATURE]
-    coefficient = _used_coefficient(job)
+    coefficient = _find_used_coefficient(job)
     if coefficient is not None:
         return Finding(requirement, _CORRECTED.given(coefficient=coefficient), met=True)
     if budget.uncorrected_expansion is None:
         return Finding(requirement, _UNKNOWN_TEMPERATURE, met=None)
-    by_instrument = compensated_by_instrument(job, measurements).material
+    by_instrument = find_compensated_by_instrument(job, measurements).material
     if by_instrument is not None:
         coefficient = float(f"{by_instrument / MICROMETRE_PER_METRE_KELVIN:.6g}")
         return Finding(requirement, _BY_INSTRUMENT.given(coefficient=coefficient), met=True)
@@ -99,7 +101,7 @@ def _at_reference(job: Job, measurements: MeasurementSet, budget: Budget | NoBud
     return Finding(requirement, _IN_U if is_near else _FAR_IN_U.given(difference=difference), met=is_near)
 
 
-def _used_coefficient(job: Job) -> float | None:
+def _find_used_coefficient(job: Job) -> float | None:
     """Return the coefficient by which readings are corrected to 20 °C, µm/(m·K); None where they are not."""
     material = job.keys.corrections.material if job.keys.corrections else None
     if material is None:
@@ -108,7 +110,7 @@ def _used_coefficient(job: Job) -> float | None:
     return material.expansion_coefficient or (stated if isinstance(stated, float) else None)
 
 
-def _lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield what of the information the job does not state."""
     keys = job.keys
     measurement, instrument, environment = keys.measurement, keys.instrument, keys.environment

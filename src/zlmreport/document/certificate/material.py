@@ -15,7 +15,7 @@ from zlmreport.document.certificate import (
     results,
     uncertainty,
 )
-from zlmreport.document.certificate.statements import opinion_sections
+from zlmreport.document.certificate.statements import lay_out_opinions
 
 if TYPE_CHECKING:
     from zlmreport.document.blocks import Block, Section
@@ -100,72 +100,72 @@ class LaidOut:
     is_compact: bool = False
 
 
-def uncertainty_sections(of: Material) -> Iterator[Section]:
+def lay_out_uncertainty(of: Material) -> Iterator[Section]:
     """Yield the uncertainty budget; of an axis that was adjusted, that of both measurements."""
     keys = of.job.keys.as_found
     if keys:
-        from zlmreport.document.certificate.as_found import uncertainty_beside_as_found  # noqa: PLC0415 - of few
+        from zlmreport.document.certificate.as_found import lay_out_uncertainty_beside_as_found  # noqa: PLC0415 - of few
 
-        yield from uncertainty_beside_as_found(keys, of.as_found, of.evaluated, of.writer)
+        yield from lay_out_uncertainty_beside_as_found(keys, of.as_found, of.evaluated, of.writer)
     elif of.tests:
-        yield measured_lines.uncertainty_of_lines(of.evaluated[0], of.tests, of.writer)
+        yield measured_lines.lay_out_uncertainty(of.evaluated[0], of.tests, of.writer)
     else:
-        yield uncertainty.section(
+        yield uncertainty.lay_out_budgets(
             of.evaluated[0].budget, [each.evaluation for each in of.evaluated], of.writer
         )
 
 
-def readings_sections(of: Material) -> Iterator[Section]:
+def lay_out_readings(of: Material) -> Iterator[Section]:
     """Yield the readings, unless the customer agreed to a document without them."""
     keys = of.job.keys
     if keys.agreement.simplified:
         return
     if of.tests:
-        yield from measured_lines.readings_of_lines(of.tests, of.writer)
+        yield from measured_lines.lay_out_readings(of.tests, of.writer)
         return
-    yield readings.section(of.measurements, of.writer)
+    yield readings.lay_out_readings(of.measurements, of.writer)
     if keys.as_found:
-        from zlmreport.document.certificate.as_found import readings_as_found  # noqa: PLC0415 - of few
+        from zlmreport.document.certificate.as_found import lay_out_readings_as_found  # noqa: PLC0415 - of few
 
-        yield readings_as_found(keys.as_found, of.as_found, of.writer)
+        yield lay_out_readings_as_found(keys.as_found, of.as_found, of.writer)
 
 
-def origin_section(of: Material) -> Section:
+def lay_out_origin(of: Material) -> Section:
     """Return where the numbers come from."""
-    return origin.section(of.sources, of.read, of.generator, of.plugins, of.writer)
+    return origin.lay_out_origin(of.sources, of.read, of.generator, of.plugins, of.writer)
 
 
-def opinions_and_model(of: Material) -> Iterator[Section]:
+def lay_out_opinions_and_model(of: Material) -> Iterator[Section]:
     """Yield what is an opinion and no result: the job's, and what the error model says."""
-    yield from opinion_sections(of.job.keys, of.writer)
+    yield from lay_out_opinions(of.job.keys, of.writer)
     if of.interpretation:
         yield of.interpretation.section(of.writer)
 
 
-def in_full(of: Material) -> LaidOut:
+def lay_out_in_full(of: Material) -> LaidOut:
     """Return the layout ``full``: a chapter for each standard, with all that is to be said of it."""
     return LaidOut(
-        cover.blocks(of),
+        cover.lay_out_cover(of),
         (
-            conditions.section(of.job, of.measurements, of.described, of.writer),
-            *_results(of),
-            *measured_lines.results_of_lines(
-                of.tests, conditions.groups(of.job, of.measurements, of.described, of.writer), of.writer
+            conditions.lay_out_conditions(of.job, of.measurements, of.described, of.writer),
+            *_lay_out_results(of),
+            *measured_lines.lay_out_results(
+                of.tests, conditions.list_groups(of.job, of.measurements, of.described, of.writer), of.writer
             ),
-            *uncertainty_sections(of),
-            *readings_sections(of),
-            origin_section(of),
-            *opinions_and_model(of),
+            *lay_out_uncertainty(of),
+            *lay_out_readings(of),
+            lay_out_origin(of),
+            *lay_out_opinions_and_model(of),
         ),
     )
 
 
-def _results(of: Material) -> Iterator[Section]:
+def _lay_out_results(of: Material) -> Iterator[Section]:
     """Yield the results by each standard; of an axis that was adjusted, those before, after, and compared."""
-    sections = (results.section(each, of.writer) for each in of.evaluated)
+    sections = (results.lay_out_results(each, of.writer) for each in of.evaluated)
     keys = of.job.keys.as_found
     if keys is None:
         return sections
-    from zlmreport.document.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+    from zlmreport.document.certificate.as_found import lay_out_beside_as_found  # noqa: PLC0415 - of the few that need it
 
-    return beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer)
+    return lay_out_beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer)

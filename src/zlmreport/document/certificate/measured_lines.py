@@ -20,30 +20,30 @@ _OWN = ("axis", "measurement", "instrument", "environment")
 _TABLE = Words("{name}: {caption}")
 
 
-def said_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
+def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
     """Yield sentences, each with the name of the line that it is on; without one where there is only one."""
     for name, sentences in lines:
         for said in sentences:
             yield _NAMED.given(name=name, said=said) if name else said
 
 
-def writer_of(test: Tested, writer: Writer) -> Writer:
+def make_writer_of(test: Tested, writer: Writer) -> Writer:
     """Return a writer for the readings of a line, which have units and decimals of their own."""
     return Writer.of(test.measurements, writer.language, writer.marks)
 
 
-def notices(tests: Sequence[Tested], writer: Writer) -> Iterator[Notice]:
+def list_notices(tests: Sequence[Tested], writer: Writer) -> Iterator[Notice]:
     """Yield which readings of which line are missing."""
     for test in tests:
-        for each in readings.missing_readings(test.measurements, writer_of(test, writer)):
-            yield replace(each, heading=_titled(test, each.heading, writer))
+        for each in readings.list_missing_readings(test.measurements, make_writer_of(test, writer)):
+            yield replace(each, heading=_write_title(test, each.heading, writer))
 
 
-def results_of_lines(
+def lay_out_results(
     tests: Sequence[Tested],
     known: Iterable[tuple[str, Facts]],
     writer: Writer,
-    section_of: Callable[[Evaluated, Writer], Section] = results.section,
+    section_of: Callable[[Evaluated, Writer], Section] = results.lay_out_results,
 ) -> Iterator[Section]:
     """Yield a section for each line: its circumstances, and what standards give for it alone.
 
@@ -51,15 +51,15 @@ def results_of_lines(
     """
     said = {pair for _, facts in known for pair in facts.pairs}
     for test in tests:
-        own = writer_of(test, writer)
+        own = make_writer_of(test, writer)
         yield Section(
             f"{test.name}-line",
-            _titled(test, own.say(test.measurements.axis.subject), own),
+            _write_title(test, own.say(test.measurements.axis.subject), own),
             (
-                *_circumstances(test, said, own),
-                *conditions.correction_blocks(test.measurements, own),
+                *_list_circumstances(test, said, own),
+                *conditions.lay_out_corrections(test.measurements, own),
                 *(
-                    _renamed(block, test)
+                    _rename_block(block, test)
                     for each in test.evaluated
                     for block in section_of(each, own).blocks
                     if not isinstance(block, Formulas)
@@ -68,38 +68,38 @@ def results_of_lines(
         )
 
 
-def readings_of_lines(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
+def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
     """Yield the readings of each line."""
     for test in tests:
-        own = writer_of(test, writer)
-        section = readings.section(test.measurements, own, f"measurement.tests.{test.name}.source")
-        yield replace(section, key=f"{test.name}-readings", title=_titled(test, section.title, own))
+        own = make_writer_of(test, writer)
+        section = readings.lay_out_readings(test.measurements, own, f"measurement.tests.{test.name}.source")
+        yield replace(section, key=f"{test.name}-readings", title=_write_title(test, section.title, own))
 
 
-def uncertainty_of_lines(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
+def lay_out_uncertainty(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
     """Return the uncertainty of what follows from the lines, and the budget of each."""
-    section = uncertainty.section(evaluated.budget, (evaluated.evaluation,), writer)
+    section = uncertainty.lay_out_budgets(evaluated.budget, (evaluated.evaluation,), writer)
     blocks = list(section.blocks)
     for test in tests:
-        own = writer_of(test, writer)
-        of_line = uncertainty.own_blocks(test.budget, test.measurements.axis, own)
-        blocks += (_captioned(_renamed(block, test), test, own) for block in of_line)
+        own = make_writer_of(test, writer)
+        of_line = uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own)
+        blocks += (_caption_block(_rename_block(block, test), test, own) for block in of_line)
     return replace(section, blocks=tuple(blocks))
 
 
-def _circumstances(test: Tested, said: set[tuple[str, str]], writer: Writer) -> Iterator[Facts]:
+def _list_circumstances(test: Tested, said: set[tuple[str, str]], writer: Writer) -> Iterator[Facts]:
     """Yield what is stated of a line and not of all of them."""
-    for key, facts in conditions.groups(test.job, test.measurements, (), writer):
+    for key, facts in conditions.list_groups(test.job, test.measurements, (), writer):
         pairs = tuple(pair for pair in facts.pairs if pair not in said)
         if key in _OWN and pairs:
             yield replace(facts, pairs=pairs)
 
 
-def _titled(test: Tested, title: str, writer: Writer) -> str:
+def _write_title(test: Tested, title: str, writer: Writer) -> str:
     return writer.say(_NAMED.given(name=test.name, said=title))
 
 
-def _renamed(block: Block, test: Tested) -> Block:
+def _rename_block(block: Block, test: Tested) -> Block:
     """Return a block whose graph, if it is one, is told from those of the other lines."""
     if not isinstance(block, Graph):
         return block
@@ -108,7 +108,7 @@ def _renamed(block: Block, test: Tested) -> Block:
     return Graph(replace(figure, key=f"{test.name}-{figure.key}", title=title))
 
 
-def _captioned(block: Block, test: Tested, writer: Writer) -> Block:
+def _caption_block(block: Block, test: Tested, writer: Writer) -> Block:
     if not isinstance(block, Table):
         return block
     return replace(block, caption=writer.say(_TABLE.given(name=test.name, caption=block.caption)))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Block, Column, Facts, Paragraph, RowGroup, Section, Table
 from zlmreport.document.certificate.attachments import Source, SourceRole
-from zlmreport.document.certificate.measured_lines import said_of_each
+from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.language import Language, Words
 
 if TYPE_CHECKING:
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _TITLE = Words("Origin of the results")
 
 
-def section(
+def lay_out_origin(
     sources: Sequence[Source],
     measurements: Sequence[MeasurementSet],
     generator: str,
@@ -29,30 +29,30 @@ def section(
 
     `measurements`: What was read: the axis as left, and as found if it was adjusted.
     """
-    programs = _programs(generator, plugins, writer)
+    programs = _list_programs(generator, plugins, writer)
     axis = measurements[0].axis
     deviation = _INDICATED if measurements[0].is_indication else axis.measurand.sign_of(axis.letter)
     signs = (_SIGN if axis.measurand.joins_tests or axis.measurand.is_closed else _SIGNS).given(
         deviation=deviation, reversal=axis.measurand.reversal
     )
     blocks: list[Block] = [
-        *(Paragraph(writer.say(words)) for words in (_READING_AID, *_terms(writer), signs)),
-        _files(sources, measurements, writer),
+        *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer), signs)),
+        _lay_out_files(sources, measurements, writer),
         programs,
     ]
     remarks = tuple(
-        said_of_each(
+        say_of_each(
             (name, line.provenance.remarks)
             for each in measurements
             for name, line in (each.tests or {"": each}).items()
         )
     )
     if remarks:
-        blocks.append(_remarks(remarks, writer))
+        blocks.append(_lay_out_remarks(remarks, writer))
     return Section("origin", writer.say(_TITLE), tuple(blocks))
 
 
-def section_of_several(
+def lay_out_origin_of_several(
     sources: Sequence[Source],
     parts: Mapping[str, Certificate],
     generator: str,
@@ -67,12 +67,12 @@ def section_of_several(
     ]
     headed = [(_OF_LINE.given(name=name, source=each.provenance.source), each) for name, each in found]
     blocks: list[Block] = [
-        *(Paragraph(writer.say(words)) for words in (_READING_AID, *_terms(writer))),
-        _files_of(sources, headed, writer),
-        _programs(generator, plugins, writer),
+        *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer))),
+        _lay_out_files_of(sources, headed, writer),
+        _list_programs(generator, plugins, writer),
     ]
-    if remarks := tuple(said_of_each((name, each.provenance.remarks) for name, each in found)):
-        blocks.append(_remarks(remarks, writer))
+    if remarks := tuple(say_of_each((name, each.provenance.remarks) for name, each in found)):
+        blocks.append(_lay_out_remarks(remarks, writer))
     return Section("origin", writer.say(_TITLE), tuple(blocks))
 
 
@@ -99,20 +99,20 @@ _SIGN = Words("Sign: {deviation}.")
 _INDICATED = Words("indicated − calibrated position")
 
 
-def _terms(writer: Writer) -> Iterator[Words]:
+def _say_whose_terms(writer: Writer) -> Iterator[Words]:
     """Yield whose the terms are, where they are not those of the editions that were read."""
     if writer.language is not Language.ENGLISH:
         yield _TERMS
 
 
-def _remarks(remarks: Iterable[Words], writer: Writer) -> Table:
+def _lay_out_remarks(remarks: Iterable[Words], writer: Writer) -> Table:
     """Return what the reader of the files has to say of them."""
     heading = writer.say(Words("How the readings were understood"))
     rows = tuple((said,) for said in dict.fromkeys(map(writer.say, remarks)))
     return Table(writer.say(Words("Remarks")), (Column(heading),), (RowGroup(rows),))
 
 
-def _programs(generator: str, plugins: Mapping[str, str], writer: Writer) -> Facts:
+def _list_programs(generator: str, plugins: Mapping[str, str], writer: Writer) -> Facts:
     return Facts(
         (
             (writer.say(Words("Program")), generator),
@@ -125,17 +125,19 @@ def _programs(generator: str, plugins: Mapping[str, str], writer: Writer) -> Fac
     )
 
 
-def _files(sources: Sequence[Source], measurements: Sequence[MeasurementSet], writer: Writer) -> Table:
+def _lay_out_files(
+    sources: Sequence[Source], measurements: Sequence[MeasurementSet], writer: Writer
+) -> Table:
     """Return the files of each measurement, and of each of several measured lines."""
     headed = [
         ((_OF_LINE if name else heading).given(name=name, source=line.provenance.source), line)
         for heading, each in zip(_READINGS, measurements, strict=False)
         for name, line in (each.tests or {"": each}).items()
     ]
-    return _files_of(sources, headed, writer)
+    return _lay_out_files_of(sources, headed, writer)
 
 
-def _files_of(
+def _lay_out_files_of(
     sources: Sequence[Source], headed: Sequence[tuple[Words, MeasurementSet]], writer: Writer
 ) -> Table:
     columns = (
@@ -146,12 +148,12 @@ def _files_of(
     readings = [source for source in sources if source.role is SourceRole.READINGS]
     groups = [
         RowGroup(
-            tuple(_row(source) for source in readings if source.file in line.provenance.files),
+            tuple(_lay_out_row(source) for source in readings if source.file in line.provenance.files),
             writer.say(heading),
         )
         for heading, line in headed
     ]
-    others = tuple(_row(source) for source in sources if source not in readings)
+    others = tuple(_lay_out_row(source) for source in sources if source not in readings)
     groups.append(RowGroup(others, writer.say(Words("Job"))))
     return Table(
         writer.say(Words("Files")),
@@ -161,5 +163,5 @@ def _files_of(
     )
 
 
-def _row(source: Source) -> tuple[str, str, str]:
+def _lay_out_row(source: Source) -> tuple[str, str, str]:
     return source.name, str(source.file.size), source.file.sha256

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.certificate.document import Look, Typeface
 from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.metrics import advance
+from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean, quoted
-from zlmreport.files import demanded, reason
+from zlmreport.files import demand, say_reason
 from zlmreport.measurement.provenance import SourceFile
 
 if TYPE_CHECKING:
@@ -49,22 +49,22 @@ def read_look(job: Job) -> Look:
     typeface = None
     if style.typeface:
         place = job.place_of("certificate.style.typeface")
-        regular, figure, sign = _font(style.typeface.regular, TypeFace.REGULAR, place)
-        semibold, _, _ = _font(style.typeface.semibold, TypeFace.SEMIBOLD, place)
+        regular, figure, sign = _load_font(style.typeface.regular, TypeFace.REGULAR, place)
+        semibold, _, _ = _load_font(style.typeface.semibold, TypeFace.SEMIBOLD, place)
         typeface = Typeface(regular, semibold, figure, sign)
     folder = style.templates
-    templates = _templates(folder, job.place_of("certificate.style.templates")) if folder else ()
+    templates = _read_templates(folder, job.place_of("certificate.style.templates")) if folder else ()
     return Look(style.accent, style.logo, typeface, templates)
 
 
-def _font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float]:
+def _load_font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float]:
     """Return a font that takes as much room as a bundled face, and widths of a figure and a decimal sign.
 
     Its em is made another, so that neither its figures nor its words are wider, and its lines not higher.
     """
     from fontTools.ttLib import TTFont  # noqa: PLC0415 - of the few that need it
 
-    content = _content(path, place)
+    content = _read_content(path, place)
     try:
         font = TTFont(BytesIO(content), recalcTimestamp=False)
         letters, metrics, rights = font.getBestCmap(), font["hmtx"].metrics, font["OS/2"].fsType
@@ -85,7 +85,9 @@ def _font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float
     def width(text: str) -> int:
         return sum(metrics[letters[ord(each)]][0] for each in text)
 
-    font["head"].unitsPerEm = em = round(max(width(text) / advance(text, face) for text in ("0", _WORDS)))
+    font["head"].unitsPerEm = em = round(
+        max(width(text) / measure_advance(text, face) for text in ("0", _WORDS))
+    )
     if "CFF " in font:
         font["CFF "].cff.topDictIndex[0].FontMatrix = [1 / em, 0, 0, 1 / em, 0, 0]
     table, rises, falls = font["OS/2"], round(_RISES * em), round(_FALLS * em)
@@ -97,23 +99,23 @@ def _font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float
     return scaled.getvalue(), width("0") / em, width(".") / em
 
 
-def _templates(folder: Path, place: Place) -> tuple[tuple[str, str], ...]:
+def _read_templates(folder: Path, place: Place) -> tuple[tuple[str, str], ...]:
     try:
         names = sorted(each.name for each in folder.iterdir() if not each.name.startswith("."))
     except OSError as error:
-        raise AccessError.at(place, f"the folder {folder} cannot be read: {reason(error)}") from error
+        raise AccessError.at(place, f"the folder {folder} cannot be read: {say_reason(error)}") from error
     for name in names:
         if name not in TEMPLATES:
             told = did_you_mean(name, TEMPLATES)
             raise InputError.at(place, f"{folder.name}/{name} stands for no block of a document; {told}")
     try:
-        return tuple((name, _content(folder / name, place).decode()) for name in names)
+        return tuple((name, _read_content(folder / name, place).decode()) for name in names)
     except UnicodeDecodeError as error:
         raise InputError.at(place, f"a template of {folder.name} is no UTF-8") from error
 
 
-def _content(path: Path, place: Place) -> bytes:
-    content = demanded(path, _LARGEST, place)
+def _read_content(path: Path, place: Place) -> bytes:
+    content = demand(path, _LARGEST, place)
     if len(content) > _LARGEST:
         raise InputError.at(place, f"{path.name} is larger than {_LARGEST >> 20} MiB")
     return content
@@ -139,7 +141,7 @@ def read_logo(path: Path, place: Place) -> Logo:
     formats that hold a picture and nothing else. If its colours are those of a printing press, for which an
     archived document has no meaning.
     """
-    content = demanded(path, _LARGEST_LOGO, place)
+    content = demand(path, _LARGEST_LOGO, place)
     if len(content) > _LARGEST_LOGO:
         raise InputError.at(
             place, f"the logo {path.name} is larger than 2 MiB; a logo of some 100 kB prints as well"
@@ -176,20 +178,20 @@ class Picture:
 def describe(content: bytes) -> Picture | None:
     """Return what there is to say of a picture; None for what is neither PNG nor JPEG."""
     if content.startswith(b"\x89PNG\r\n\x1a\n"):
-        return _png(content)
+        return _read_png(content)
     if content.startswith(b"\xff\xd8\xff"):
-        return _jpeg(content)
+        return _read_jpeg(content)
     return None
 
 
-def _png(content: bytes) -> Picture:
+def _read_png(content: bytes) -> Picture:
     """Read the header (ISO/IEC 15948), which comes first and knows no inks."""
     if content[12:16] != b"IHDR":
         return Picture("image/png")
     return Picture("image/png", int.from_bytes(content[16:20]), int.from_bytes(content[20:24]))
 
 
-def _jpeg(content: bytes) -> Picture:
+def _read_jpeg(content: bytes) -> Picture:
     """Read the first header of a frame (ISO/IEC 10918-1, B.2.2): C0 to CF, but for C4, C8 and CC."""
     place = 2
     while content[place : place + 1] == b"\xff" and place + 10 <= len(content):

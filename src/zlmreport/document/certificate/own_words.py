@@ -30,7 +30,7 @@ _MANDATORY = {
 }
 
 
-def filled(text: str, job: Job, key: str) -> str:
+def fill_in(text: str, job: Job, key: str) -> str:
     """Return a text with the values of the keys that it names in braces.
 
     `text`: As the job states it at `key`.
@@ -38,7 +38,7 @@ def filled(text: str, job: Job, key: str) -> str:
 
     Raises `InputError` if it names a key that the job does not state: every such key.
     """
-    known = dict(_values(job.keys.model_dump(exclude_none=True)))
+    known = dict(_list_values(job.keys.model_dump(exclude_none=True)))
     problems = tuple(
         Problem(
             job.place_of(key),
@@ -52,16 +52,16 @@ def filled(text: str, job: Job, key: str) -> str:
     return _PLACEHOLDER.sub(lambda found: known[found[1]], text)
 
 
-def _values(keys: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, str]]:
+def _list_values(keys: Mapping[str, Any], within: str = "") -> Iterator[tuple[str, str]]:
     for name, value in keys.items():
         match value:
             case dict():
-                yield from _values(value, f"{within}{name}.")
+                yield from _list_values(value, f"{within}{name}.")
             case str() | int() | float() | date():  # and no path: it tells of the laboratory's folders
                 yield f"{within}{name}", str(value)
 
 
-def arranged(sections: Sequence[Section], job: Job) -> tuple[Section, ...]:
+def arrange_sections(sections: Sequence[Section], job: Job) -> tuple[Section, ...]:
     """Return the sections that the job wants, in its order, with its own texts among them."""
     wanted = job.keys.certificate.sections
     if wanted is None:
@@ -70,10 +70,10 @@ def arranged(sections: Sequence[Section], job: Job) -> tuple[Section, ...]:
     for number, each in enumerate(wanted):
         if isinstance(each, OwnText):
             key = f"certificate.sections.{number}"
-            lines = filled(each.text, job, f"{key}.text").splitlines()
+            lines = fill_in(each.text, job, f"{key}.text").splitlines()
             heading = _QUOTED.in_language(job.keys.certificate.language)
             said = Notice(heading, tuple(filter(None, map(str.strip, lines))), is_quoted=True)
-            found.append(Section(f"text-{number + 1}", filled(each.title, job, f"{key}.title"), (said,)))
+            found.append(Section(f"text-{number + 1}", fill_in(each.title, job, f"{key}.title"), (said,)))
         else:
             found += (section for section in sections if _name(section, job) == each)
     return tuple(found)
@@ -87,7 +87,7 @@ def _name(section: Section, job: Job) -> str:
     return name if name in _NAMES else "results"
 
 
-def left_out(job: Job) -> Iterator[Problem]:
+def find_left_out(job: Job) -> Iterator[Problem]:
     """Yield what a calibration certificate must state and the job's list of sections leaves out."""
     wanted = job.keys.certificate.sections
     for name, (what, clause) in _MANDATORY.items():

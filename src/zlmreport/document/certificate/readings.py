@@ -18,7 +18,7 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
 )
-from zlmreport.document.certificate.statements import exclusion_notice
+from zlmreport.document.certificate.statements import make_exclusion_notice
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.measurand import Coordinate
@@ -49,14 +49,16 @@ _CAPTION = Words("Deviations x = {sign}, in the order of runs")
 _INDICATION = Words("Deviations x = indicated − calibrated position, in the order of runs")
 
 
-def section(measurements: MeasurementSet, writer: Writer, key: str = "measurement.source") -> Section:
+def lay_out_readings(
+    measurements: MeasurementSet, writer: Writer, key: str = "measurement.source"
+) -> Section:
     """Return the section of raw readings: one row a target, runs as columns.
 
     `key`: The job key that names their source: marked if the readings are the customer's.
     """
     blocks: list[Block] = [
-        *missing_readings(measurements, writer),
-        *exclusion_notice(measurements, writer, f"{key.removesuffix('source')}excluded"),
+        *list_missing_readings(measurements, writer),
+        *make_exclusion_notice(measurements, writer, f"{key.removesuffix('source')}excluded"),
     ]
     if measurements.axis.measurand.is_continuous:
         count = int(np.count_nonzero(np.isfinite(measurements.deviation)))
@@ -69,12 +71,13 @@ def section(measurements: MeasurementSet, writer: Writer, key: str = "measuremen
     ]
     fit = len(columns) <= _MOST_COLUMNS
     blocks.extend(
-        _table(measurements, chosen, writer) for chosen in ([columns] if fit else _by_approach(columns))
+        _lay_out_table(measurements, chosen, writer)
+        for chosen in ([columns] if fit else _split_by_approach(columns))
     )
     return Section("readings", writer.say(_TITLE) + writer.marks.after(key), tuple(blocks))
 
 
-def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[Notice]:
+def list_missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[Notice]:
     """Yield the notice that names the missing readings, if there are any beside those that were set aside."""
     aside = {(each.target_position, each.approach, each.run) for each in measurements.provenance.exclusions}
     missing = [
@@ -105,7 +108,7 @@ def missing_readings(measurements: MeasurementSet, writer: Writer) -> Iterator[N
     yield Notice(writer.say(heading), tuple(items))
 
 
-def _by_approach(columns: Sequence[tuple[Approach, int]]) -> Iterator[list[tuple[Approach, int]]]:
+def _split_by_approach(columns: Sequence[tuple[Approach, int]]) -> Iterator[list[tuple[Approach, int]]]:
     """Yield columns that fit on a page: one approach at a time, so many runs at a time."""
     for approach in Approach:
         of_approach = [column for column in columns if column[0] is approach]
@@ -113,7 +116,9 @@ def _by_approach(columns: Sequence[tuple[Approach, int]]) -> Iterator[list[tuple
             yield of_approach[start : start + _MOST_COLUMNS]
 
 
-def _table(measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]], writer: Writer) -> Table:
+def _lay_out_table(
+    measurements: MeasurementSet, chosen: Sequence[tuple[Approach, int]], writer: Writer
+) -> Table:
     grid = measurements.deviations()
     unit = writer.deviation_unit.symbol
     columns = [

@@ -26,12 +26,12 @@ from zlmreport.document.blocks import (
     Verdict,
 )
 from zlmreport.document.certificate import conformity
-from zlmreport.document.certificate.values import Values, told_apart
-from zlmreport.document.writer import written_uncertainty
+from zlmreport.document.certificate.values import Values, tell_columns_apart
+from zlmreport.document.writer import write_uncertainty
 from zlmreport.evaluation.evaluation import Basis, Finding, Group
 from zlmreport.evaluation.uncertainty.wording import RAISED_TO
 from zlmreport.language import Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 
 if TYPE_CHECKING:
     from zlmreport.document.figures.figure import Figure
@@ -88,35 +88,41 @@ _NOT_MET = Words("not met")
 _OPEN = Words("open")
 
 
-def title_of(evaluations: Sequence[Evaluation], writer: Writer) -> str:
+def write_title_of(evaluations: Sequence[Evaluation], writer: Writer) -> str:
     """Return the title of the results by one standard or method, or by several that give the same numbers."""
     title = _BY_METHOD if evaluations[0].is_method else _BY_STANDARD
     return writer.say(title.given(designations=", ".join(each.designation for each in evaluations)))
 
 
-def section_key(evaluation: Evaluation) -> str:
+def make_section_key(evaluation: Evaluation) -> str:
     """Return the key of the section on the results by one standard."""
     return evaluation.standard.replace(":", "-")
 
 
-def section(evaluated: Evaluated, writer: Writer) -> Section:
+def lay_out_results(evaluated: Evaluated, writer: Writer) -> Section:
     """Return the section on the results by one standard."""
     evaluation = evaluated.evaluation
     blocks: list[Block] = [
         Paragraph(writer.say(evaluation.title)),
-        *([shortfall(evaluation.designation, items, writer)] if (items := unmet(evaluation, writer)) else []),
-        _parameters(evaluation, writer) if evaluation.parameters else Paragraph(writer.say(_NO_PARAMETER)),
-        *raised(evaluation, writer),
+        *(
+            [make_shortfall(evaluation.designation, items, writer)]
+            if (items := list_unmet(evaluation, writer))
+            else []
+        ),
+        _lay_out_parameters(evaluation, writer)
+        if evaluation.parameters
+        else Paragraph(writer.say(_NO_PARAMETER)),
+        *say_raised(evaluation, writer),
         *map(Graph, evaluated.figures),
-        *conformity.blocks(evaluation, writer),
-        *by_position(evaluation, writer),
-        *([requirements([evaluation], writer)] if evaluation.findings else []),
-        *([definitions(evaluation, writer)] if evaluation.parameters else []),
+        *conformity.lay_out_conformity(evaluation, writer),
+        *lay_out_by_position(evaluation, writer),
+        *([lay_out_requirements([evaluation], writer)] if evaluation.findings else []),
+        *([lay_out_definitions(evaluation, writer)] if evaluation.parameters else []),
         *(Paragraph(writer.say(note)) for note in evaluation.notes),
     ]
     return Section(
-        key=section_key(evaluation),
-        title=title_of([evaluation], writer),
+        key=make_section_key(evaluation),
+        title=write_title_of([evaluation], writer),
         blocks=tuple(blocks),
     )
 
@@ -127,7 +133,7 @@ _UNMET = {
 }
 
 
-def unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
+def list_unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
     """Return the requirements that the test does not meet, each with what was found."""
     return tuple(
         writer.say(_UNMET[finding.basis].given(requirement=finding.requirement, found=finding.found))
@@ -136,19 +142,19 @@ def unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
     )
 
 
-def shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Notice:
+def make_shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Notice:
     """Return the notice of requirements that are not met."""
     heading = Words("The test deviates from {designation}")
     return Notice(writer.say(heading.given(designation=designations)), items)
 
 
-def parameters_in_words(evaluation: Evaluation) -> Words:
+def say_parameters(evaluation: Evaluation) -> Words:
     """Return what a table of parameters is called: those of an axis, or of whatever was measured."""
     is_position = evaluation.measurements.axis.measurand.is_position
     return _OF_THE_AXIS if is_position else _PARAMETERS
 
 
-def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
+def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     values = Values.of([evaluation], writer, with_interval=True)
     columns = values.columns(Words("Parameter and what it means"))
     groups = []
@@ -166,8 +172,8 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
             groups.append(RowGroup(rows, writer.say(heading), writer.say(note)))
     if len(groups) == 1 and not evaluation.measurements.axis.measurand.is_position:
         groups = [replace(groups[0], heading="", note="")]  # nothing that they would be told apart from
-    caption, symbols = told_apart(
-        parameters_in_words(evaluation),
+    caption, symbols = tell_columns_apart(
+        say_parameters(evaluation),
         (each.quantity for each in evaluation.parameters),
         has_uncertainty=values.has_uncertainty,
         writer=writer,
@@ -175,17 +181,17 @@ def _parameters(evaluation: Evaluation, writer: Writer) -> Table:
     return Table(caption, columns, tuple(groups), symbols=symbols)
 
 
-def raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
+def say_raised(evaluation: Evaluation, writer: Writer) -> Iterator[Paragraph]:
     """Yield which uncertainties were raised, and to what."""
     for least, words in RAISED_TO.items():
         symbols = [each.quantity.notation for each in evaluation.parameters if each.raised_to is least]
         if symbols:
             statement = Words("U of {symbols}: {what}.")
-            said = writer.say(statement.given(symbols=", ".join(map(plain, symbols)), what=words))
+            said = writer.say(statement.given(symbols=", ".join(map(write_plain, symbols)), what=words))
             yield Paragraph(said, symbols=("U", *symbols))
 
 
-def by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Table]:
+def lay_out_by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Table]:
     """Yield the table by position.
 
     None of several lines, which have theirs one by one, and none of what was read without targets: the graph
@@ -193,10 +199,10 @@ def by_position(evaluation: Evaluation, writer: Writer) -> Iterator[Table]:
     """
     measurements = evaluation.measurements
     if not measurements.tests and not measurements.axis.measurand.is_continuous:
-        yield positions(evaluation, writer)
+        yield lay_out_positions(evaluation, writer)
 
 
-def positions(evaluation: Evaluation, writer: Writer) -> Table:
+def lay_out_positions(evaluation: Evaluation, writer: Writer) -> Table:
     """Return the table by position; it shows n where readings are missing somewhere."""
     statistics = evaluation.statistics
     measurements = evaluation.measurements
@@ -225,14 +231,14 @@ def positions(evaluation: Evaluation, writer: Writer) -> Table:
     if measurements.is_bidirectional and not measurements.one_sided_targets:
         add(f"x̄{index}", statistics.mean_bidirectional)
         add(f"B{index}", statistics.reversal_value)
-    for arrows, expanded in _mean_uncertainties(evaluation):
+    for arrows, expanded in _list_mean_uncertainties(evaluation):
         columns.append(Column(Symbol(f"U(x̄{index}{arrows})"), unit, Align.RIGHT))
-        cells.append(tuple(written_uncertainty(float(value), writer) for value in expanded))
+        cells.append(tuple(write_uncertainty(float(value), writer) for value in expanded))
     for column in evaluation.columns:
         if any(value == value for value in column.values.tolist()):  # noqa: PLR0124 - NaN is what differs from itself
             add(column.quantity.notation, column.values)
     caption = Words("Results by target position")
-    told, symbols = told_apart(
+    told, symbols = tell_columns_apart(
         caption,
         (column.quantity for column in evaluation.columns),
         has_uncertainty=evaluation.mean_uncertainty is not None,
@@ -242,7 +248,7 @@ def positions(evaluation: Evaluation, writer: Writer) -> Table:
     return Table(told, tuple(columns), (RowGroup(rows),), dense=True, symbols=symbols)
 
 
-def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:
+def _list_mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArray]]:
     """Yield U of the mean deviations by direction: once, if it is alike in both directions."""
     expanded = evaluation.mean_uncertainty
     if expanded is None:
@@ -256,7 +262,7 @@ def _mean_uncertainties(evaluation: Evaluation) -> Iterator[tuple[str, FloatArra
         yield approach.arrow, values
 
 
-def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
+def lay_out_requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
     """Return what standards require of a test, and what was found; standards that agree share their rows."""
     columns = (
         Column(writer.say(Words("Requirement on the test"))),
@@ -266,7 +272,7 @@ def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
     groups: dict[tuple[tuple[Cell, ...], ...], list[str]] = {}
     for evaluation in evaluations:
         rows = tuple(
-            (_requirement(finding, writer), writer.say(finding.found), _mark(finding, writer))
+            (_write_requirement(finding, writer), writer.say(finding.found), _mark(finding, writer))
             for finding in evaluation.findings
         )
         groups.setdefault(rows, []).append(evaluation.designation)
@@ -284,7 +290,7 @@ def requirements(evaluations: Sequence[Evaluation], writer: Writer) -> Table:
     )
 
 
-def _requirement(finding: Finding, writer: Writer) -> str:
+def _write_requirement(finding: Finding, writer: Writer) -> str:
     words = writer.say(finding.requirement)
     return words if finding.basis is Basis.PUBLISHED else f"{words}\N{NO-BREAK SPACE}*"
 
@@ -297,7 +303,7 @@ def _mark(finding: Finding, writer: Writer) -> Verdict:
     return Verdict(Mark.NOT_MET, writer.say(_NOT_MET))
 
 
-def definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
+def lay_out_definitions(evaluation: Evaluation, writer: Writer) -> Formulas:
     """Return the definitions of a standard's parameters."""
     caption = Words("Definitions. Names describe the parameters; the formulas define what was computed.")
     return Formulas(

@@ -77,19 +77,19 @@ class Filled:
     @property
     def height(self) -> float:
         """How much of the page all of it takes, points."""
-        return columns.height(self.notices) + columns.height(self.others)
+        return columns.estimate_height(self.notices) + columns.estimate_height(self.others)
 
 
 def fill(said: Said, room: float, writer: Writer, gained: float = 0.0) -> Filled:
     """Return what a page with so much room holds; `gained` is what it has besides if it is not the last."""
-    whole = _all_of_it(said, room, writer)
+    whole = _fill_with_all(said, room, writer)
     if whole:
         return whole
-    filled = _what_matters_most(said, room + gained, writer, _NAMES)
-    return _what_matters_most(said, room + gained, writer, filled.left.names)
+    filled = _fill_with_what_matters(said, room + gained, writer, _NAMES)
+    return _fill_with_what_matters(said, room + gained, writer, filled.left.names)
 
 
-def details(left: Iterable[Said], writer: Writer) -> tuple[str, tuple[Block, ...]]:
+def lay_out_details(left: Iterable[Said], writer: Writer) -> tuple[str, tuple[Block, ...]]:
     """Return title and blocks of the page of what sheets do not hold; what several lack stands there once."""
     lacking = tuple(left)
     groups: dict[str, dict[Pair, None]] = {"": dict.fromkeys(pair for each in lacking for pair in each.who)}
@@ -105,19 +105,19 @@ def details(left: Iterable[Said], writer: Writer) -> tuple[str, tuple[Block, ...
     return writer.say(_DETAILS), tuple(dict.fromkeys(blocks))
 
 
-def _all_of_it(said: Said, room: float, writer: Writer) -> Filled | None:
+def _fill_with_all(said: Said, room: float, writer: Writer) -> Filled | None:
     """Return everything, with as many facts in columns as there is room for; None where not all fits."""
-    notices = _in_a_box(said.notices, writer)
-    short, _ = _short_and_long(said.who)
+    notices = _box_notices(said.notices, writer)
+    short, _ = _split_by_length(said.who)
     short += tuple(pair for group in said.conditions for pair in group.pairs if pair in said.plain)
     most = min(len(short), _MOST_IN_COLUMNS)
     for count in range(most, min(most, _FEWEST_IN_COLUMNS) - 1, -1):
         shown = short[:count]
         others = (
-            *_in_two_columns(shown),
-            *_facts_in_a_line(_others(said.who, shown)),
-            *_sentences(said.law),
-            *_fine(_in_running_text(_without(said.conditions, shown))),
+            *_balance_columns(shown),
+            *_write_facts_in_a_line(_keep_others(said.who, shown)),
+            *_split_sentences(said.law),
+            *_set_fine(_write_in_running_text(_drop_facts(said.conditions, shown))),
             *said.corrections,
         )
         filled = Filled(notices, others, Said())
@@ -126,41 +126,41 @@ def _all_of_it(said: Said, room: float, writer: Writer) -> Filled | None:
     return None
 
 
-def _what_matters_most(said: Said, room: float, writer: Writer, reserved: Iterable[str]) -> Filled:
+def _fill_with_what_matters(said: Said, room: float, writer: Writer, reserved: Iterable[str]) -> Filled:
     """Return the page whose room is taken in the order of what matters, with the line that says what is gone.
 
     `reserved`: What of its names that line has room for.
     """
-    ways = _ways_to_note(said.notices, writer)
+    ways = _list_ways_to_note(said.notices, writer)
     in_full, pointed_at = ways[0], ways[-1]
     page = _Room(room)
-    page.take([_elsewhere(reserved, writer), *pointed_at])
+    page.take([_say_elsewhere(reserved, writer), *pointed_at])
     noted = page.upgrade(pointed_at, ways[1:])
     who, long_who = _who(said, page)
-    law = page.choose(said.law, _sentences)
+    law = page.choose(said.law, _split_sentences)
     noted = page.upgrade(noted, ways)
     plain = [pair for group in said.conditions for pair in group.pairs if pair in said.plain]
-    shown = page.choose(plain[: _MOST_IN_COLUMNS - len(who)], _in_two_columns, after=who)
-    further = _without(said.conditions, shown)
+    shown = page.choose(plain[: _MOST_IN_COLUMNS - len(who)], _balance_columns, after=who)
+    further = _drop_facts(said.conditions, shown)
     pairs = [pair for group in further for pair in group.pairs]
-    running = page.choose(pairs, lambda pairs: _fine(_in_running_text(_only(further, pairs))))
+    running = page.choose(pairs, lambda pairs: _set_fine(_write_in_running_text(_keep_facts(further, pairs))))
     corrections = page.upgrade((), [said.corrections])
     cut = said.notices if noted == pointed_at else _cut(said.notices, writer)
     left = Said(
         notices=() if noted == in_full else cut,
-        who=_others(said.who, (*who, *long_who)),
-        law=_others(said.law, law),
-        conditions=_without(further, running),
-        corrections=_others(said.corrections, corrections),
+        who=_keep_others(said.who, (*who, *long_who)),
+        law=_keep_others(said.law, law),
+        conditions=_drop_facts(further, running),
+        corrections=_keep_others(said.corrections, corrections),
     )
     others = (
-        *_in_two_columns((*who, *shown)),
-        *_facts_in_a_line(long_who),
-        *_sentences(law),
-        *_fine(_in_running_text(_only(further, running))),
+        *_balance_columns((*who, *shown)),
+        *_write_facts_in_a_line(long_who),
+        *_split_sentences(law),
+        *_set_fine(_write_in_running_text(_keep_facts(further, running))),
         *corrections,
     )
-    pointer = [_elsewhere(left.names, writer)] if left.names else []
+    pointer = [_say_elsewhere(left.names, writer)] if left.names else []
     return Filled(noted, (*others, *pointer), left)
 
 
@@ -169,15 +169,15 @@ def _who(said: Said, page: _Room) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
 
     In columns stands what leaves room for the law.
     """
-    short, _ = _short_and_long(said.who)
-    ways = [(short[:count], _others(said.who, short[:count])) for count in (_FEWEST_IN_COLUMNS, 0)]
-    for beside in (_sentences(said.law), ()):
+    short, _ = _split_by_length(said.who)
+    ways = [(short[:count], _keep_others(said.who, short[:count])) for count in (_FEWEST_IN_COLUMNS, 0)]
+    for beside in (_split_sentences(said.law), ()):
         for in_columns, in_a_line in ways:
-            blocks: list[Block] = [*_in_two_columns(in_columns), *_facts_in_a_line(in_a_line)]
+            blocks: list[Block] = [*_balance_columns(in_columns), *_write_facts_in_a_line(in_a_line)]
             if page.holds((*blocks, *beside)):
                 page.take(blocks)
                 return in_columns, in_a_line
-    return (), page.choose(said.who, _facts_in_a_line)
+    return (), page.choose(said.who, _write_facts_in_a_line)
 
 
 class _Room:
@@ -187,10 +187,10 @@ class _Room:
         self._free = free
 
     def holds(self, blocks: Sequence[Block]) -> bool:
-        return columns.height(blocks) <= self._free
+        return columns.estimate_height(blocks) <= self._free
 
     def take(self, blocks: Sequence[Block]) -> None:
-        self._free -= columns.height(blocks)
+        self._free -= columns.estimate_height(blocks)
 
     def choose(
         self,
@@ -199,25 +199,25 @@ class _Room:
         after: tuple[_T, ...] = (),
     ) -> tuple[_T, ...]:
         """Take room for those items that it holds, in their order; those they stand `after` have theirs."""
-        already = columns.height(laid(after))
+        already = columns.estimate_height(laid(after))
         chosen: tuple[_T, ...] = ()
         for item in items:
-            if columns.height(laid((*after, *chosen, item))) - already <= self._free:
+            if columns.estimate_height(laid((*after, *chosen, item))) - already <= self._free:
                 chosen = (*chosen, item)
-        self._free -= columns.height(laid((*after, *chosen))) - already
+        self._free -= columns.estimate_height(laid((*after, *chosen))) - already
         return chosen
 
     def upgrade(self, now: tuple[_B, ...], ways: Sequence[tuple[_B, ...]]) -> tuple[_B, ...]:
         """Return the first of the ways that there is room for in place of what stands there now, or that."""
-        free = self._free + columns.height(now)
+        free = self._free + columns.estimate_height(now)
         for way in ways:
-            if columns.height(way) <= free:
-                self._free = free - columns.height(way)
+            if columns.estimate_height(way) <= free:
+                self._free = free - columns.estimate_height(way)
                 return way
         return now
 
 
-def _ways_to_note(notices: tuple[Notice, ...], writer: Writer) -> list[tuple[Notice, ...]]:
+def _list_ways_to_note(notices: tuple[Notice, ...], writer: Writer) -> list[tuple[Notice, ...]]:
     """Return from long to short how notices stand.
 
     In full; those of a line in full, and the others by their headings; pointed at.
@@ -226,7 +226,7 @@ def _ways_to_note(notices: tuple[Notice, ...], writer: Writer) -> list[tuple[Not
         return [()]
     brief = tuple(each if _is_short(each, writer) else replace(each, items=()) for each in notices)
     pointed_at = Notice(writer.say(_SEE_DETAILS.given(details=_DETAILS)), ())
-    return [_in_a_box(notices, writer), _in_a_box(brief, writer), (pointed_at,)]
+    return [_box_notices(notices, writer), _box_notices(brief, writer), (pointed_at,)]
 
 
 def _cut(notices: Iterable[Notice], writer: Writer) -> tuple[Notice, ...]:
@@ -236,78 +236,80 @@ def _cut(notices: Iterable[Notice], writer: Writer) -> tuple[Notice, ...]:
 
 def _is_short(notice: Notice, writer: Writer) -> bool:
     """Return whether a notice is a line, and no more is to be said of it."""
-    return columns.notice_lines(_as_item(notice, writer)) == 1
+    return columns.notice_lines(_write_as_item(notice, writer)) == 1
 
 
-def _in_a_box(notices: tuple[Notice, ...], writer: Writer) -> tuple[Notice, ...]:
+def _box_notices(notices: tuple[Notice, ...], writer: Writer) -> tuple[Notice, ...]:
     """Return several notices as one: frames take room."""
     if len(notices) < 2:
         return notices
-    return (Notice(writer.say(_TO_BE_NOTED), tuple(_as_item(each, writer) for each in notices)),)
+    return (Notice(writer.say(_TO_BE_NOTED), tuple(_write_as_item(each, writer) for each in notices)),)
 
 
-def _as_item(notice: Notice, writer: Writer) -> str:
+def _write_as_item(notice: Notice, writer: Writer) -> str:
     if not notice.items:
         return notice.heading
     return writer.say(_ITEM.given(heading=notice.heading, items="; ".join(notice.items)))
 
 
-def _elsewhere(names: Iterable[str], writer: Writer) -> Paragraph:
+def _say_elsewhere(names: Iterable[str], writer: Writer) -> Paragraph:
     """Return the line that says what stands on the page of details."""
     what = ", ".join(writer.say(_NAMES[name]) for name in names)
     return Paragraph(writer.say(_ELSEWHERE.given(details=_DETAILS, what=what)), fine=True)
 
 
-def _short_and_long(pairs: Sequence[Pair]) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
+def _split_by_length(pairs: Sequence[Pair]) -> tuple[tuple[Pair, ...], tuple[Pair, ...]]:
     """Return the facts that a column holds in a few lines, and the others."""
-    short = tuple(pair for pair in pairs if columns.fact_lines(*pair) <= _MOST_LINES)
-    return short, _others(pairs, short)
+    short = tuple(pair for pair in pairs if columns.count_fact_lines(*pair) <= _MOST_LINES)
+    return short, _keep_others(pairs, short)
 
 
-def _others(items: Iterable[_T], taken: Container[_T]) -> tuple[_T, ...]:
+def _keep_others(items: Iterable[_T], taken: Container[_T]) -> tuple[_T, ...]:
     return tuple(each for each in items if each not in taken)
 
 
-def _without(groups: Iterable[Facts], taken: Container[Pair]) -> tuple[Facts, ...]:
+def _drop_facts(groups: Iterable[Facts], taken: Container[Pair]) -> tuple[Facts, ...]:
     """Return groups without some of their facts, and without groups that have no other."""
-    left = (replace(group, pairs=_others(group.pairs, taken)) for group in groups)
+    left = (replace(group, pairs=_keep_others(group.pairs, taken)) for group in groups)
     return tuple(group for group in left if group.pairs)
 
 
-def _only(groups: Sequence[Facts], kept: Container[Pair]) -> tuple[Facts, ...]:
-    return _without(groups, {pair for group in groups for pair in group.pairs if pair not in kept})
+def _keep_facts(groups: Sequence[Facts], kept: Container[Pair]) -> tuple[Facts, ...]:
+    return _drop_facts(groups, {pair for group in groups for pair in group.pairs if pair not in kept})
 
 
-def _fine(text: str) -> tuple[Paragraph, ...]:
+def _set_fine(text: str) -> tuple[Paragraph, ...]:
     return (Paragraph(text, fine=True),) if text else ()
 
 
-def _sentences(paragraphs: Sequence[Paragraph]) -> tuple[Paragraph, ...]:
+def _split_sentences(paragraphs: Sequence[Paragraph]) -> tuple[Paragraph, ...]:
     symbols = dict.fromkeys(symbol for each in paragraphs for symbol in each.symbols)
-    fine = _fine(" ".join(each.text for each in paragraphs))
+    fine = _set_fine(" ".join(each.text for each in paragraphs))
     return tuple(replace(each, symbols=tuple(symbols)) for each in fine)
 
 
-def _facts_in_a_line(pairs: Iterable[Pair]) -> tuple[Paragraph, ...]:
-    return _fine(_in_a_line(pairs))
+def _write_facts_in_a_line(pairs: Iterable[Pair]) -> tuple[Paragraph, ...]:
+    return _set_fine(_write_in_a_line(pairs))
 
 
-def _in_a_line(pairs: Iterable[Pair]) -> str:
+def _write_in_a_line(pairs: Iterable[Pair]) -> str:
     text = "; ".join(map(": ".join, pairs))
     return f"{text.rstrip('. ')}." if text else ""
 
 
-def _in_running_text(groups: Iterable[Facts]) -> str:
+def _write_in_running_text(groups: Iterable[Facts]) -> str:
     return " ".join(
-        f"{group.heading} – {_in_a_line(group.pairs)}" if group.heading else _in_a_line(group.pairs)
+        f"{group.heading} – {_write_in_a_line(group.pairs)}"
+        if group.heading
+        else _write_in_a_line(group.pairs)
         for group in groups
     )
 
 
-def _in_two_columns(pairs: Sequence[Pair]) -> tuple[Facts, ...]:
+def _balance_columns(pairs: Sequence[Pair]) -> tuple[Facts, ...]:
     """Return facts as two groups of nearly one height, which stand beside each other."""
     if len(pairs) < 2:
         return (Facts(tuple(pairs)),) if pairs else ()
-    lines = [columns.fact_lines(*pair) for pair in pairs]
+    lines = [columns.count_fact_lines(*pair) for pair in pairs]
     end = min(range(1, len(pairs)), key=lambda end: max(sum(lines[:end]), sum(lines[end:])))
     return Facts(tuple(pairs[:end])), Facts(tuple(pairs[end:]))

@@ -23,25 +23,25 @@ from zlmreport.document.certificate import (
     statements,
     uncertainty,
 )
-from zlmreport.document.certificate.circumstances import stated_facts
+from zlmreport.document.certificate.circumstances import select_stated_facts
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.material import LaidOut, Material
-from zlmreport.document.certificate.readings import missing_readings
-from zlmreport.document.certificate.results import Evaluated, section_key
-from zlmreport.document.certificate.sheet_filling import Pair, Said, details, fill
+from zlmreport.document.certificate.readings import list_missing_readings
+from zlmreport.document.certificate.results import Evaluated, make_section_key
+from zlmreport.document.certificate.sheet_filling import Pair, Said, fill, lay_out_details
 from zlmreport.document.certificate.standard_layout import (
-    designations,
-    head_height,
-    in_smaller_type,
-    main_graph,
-    on_a_page,
-    parameters,
-    results_by_line,
-    said_of_all,
-    together,
+    find_main_graph,
+    fit_on_a_page,
+    group_together,
+    lay_out_parameters,
+    lay_out_results_by_line,
+    list_designations,
+    measure_head_height,
+    say_of_all,
+    set_in_smaller_type,
 )
 from zlmreport.language import Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 
 if TYPE_CHECKING:
     from zlmreport.document.figures.figure import Figure
@@ -94,36 +94,36 @@ class _Sheet:
 def lay_out(of: Material) -> LaidOut:
     """Return the document: the sheets, and what they do not hold."""
     keys, whole = of.job.keys, columns.PAGES[of.job.keys.certificate.paper]
-    *before_last, last = together(of.evaluated, of.writer)
+    *before_last, last = group_together(of.evaluated, of.writer)
     goes_on = bool(keys.as_found or keys.opinions or of.tests or of.is_part)
     pages = [
         *(_Page(page, whole + _GAINED, 0.0) for page in before_last),
         _Page(last, whole + _GAINED, 0.0) if goes_on else _Page(last, whole, _GAINED),
     ]
     if not of.is_part:  # or else the summary stands before them
-        pages[0] = replace(pages[0], free=pages[0].free - head_height(of) - columns.BELOW_TITLE)
-    sheets = [_sheet(of, page) for page in pages]
+        pages[0] = replace(pages[0], free=pages[0].free - measure_head_height(of) - columns.BELOW_TITLE)
+    sheets = [_fill_sheet(of, page) for page in pages]
     before = {
-        each.evaluation.standard: _sheet(of, _Page((each,), whole + _GAINED, 0.0, is_as_found=True))
+        each.evaluation.standard: _fill_sheet(of, _Page((each,), whole + _GAINED, 0.0, is_as_found=True))
         for each in of.as_found
     }
     left = [each.left for each in (*sheets, *before.values())]
-    first, *others = _beside_as_found(of, [each.section for each in sheets], before, whole)
-    title, lacking = details(left, of.writer)
+    first, *others = _lay_out_beside_as_found(of, [each.section for each in sheets], before, whole)
+    title, lacking = lay_out_details(left, of.writer)
     last_pages = (
         *([Section("details", title, lacking)] if lacking else []),
-        *statements.opinion_sections(keys, of.writer),
+        *statements.lay_out_opinions(keys, of.writer),
     )
-    begun = (*_on_pages(others), *results_by_line(of, _of_a_line), *_on_pages(last_pages))
+    begun = (*_begin_pages(others), *lay_out_results_by_line(of, _lay_out_line), *_begin_pages(last_pages))
     return LaidOut((), (first, *begun), is_compact=True)
 
 
-def _on_pages(sections: Iterable[Section]) -> Iterator[Section]:
+def _begin_pages(sections: Iterable[Section]) -> Iterator[Section]:
     """Yield sections that each begin a page."""
     return (replace(each, new_page=True) for each in sections)
 
 
-def _beside_as_found(
+def _lay_out_beside_as_found(
     of: Material, sections: Sequence[Section], before: Mapping[str, _Sheet], free: float
 ) -> Iterator[Section]:
     """Yield the sheets; of an axis that was adjusted, those after, both states compared, and those before.
@@ -133,9 +133,9 @@ def _beside_as_found(
     keys = of.job.keys.as_found
     if keys is None:
         return iter(sections)
-    from zlmreport.document.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+    from zlmreport.document.certificate.as_found import lay_out_beside_as_found  # noqa: PLC0415 - of the few that need it
 
-    comparison, *others = beside_as_found(
+    comparison, *others = lay_out_beside_as_found(
         keys,
         sections,
         of.as_found,
@@ -144,46 +144,50 @@ def _beside_as_found(
         lambda each, _: before[each.evaluation.standard].section,
     )
     after, before_that = others[: len(sections)], others[len(sections) :]
-    return iter((*after, on_a_page(in_smaller_type(comparison), free), *before_that))
+    return iter((*after, fit_on_a_page(set_in_smaller_type(comparison), free), *before_that))
 
 
-def _sheet(of: Material, page: _Page) -> _Sheet:
+def _fill_sheet(of: Material, page: _Page) -> _Sheet:
     """Return a page, and what has no place on it."""
     writer, evaluation = of.writer, page.evaluations[0]
-    title = results.title_of(page.evaluations, writer)
-    outcome, listed = tuple(_outcome(evaluation, of)), _parameters(evaluation, writer)
+    title = results.write_title_of(page.evaluations, writer)
+    outcome, listed = tuple(_say_outcome(evaluation, of)), _lay_out_parameters(evaluation, writer)
     digest = tuple(_digest(of))
-    free = page.free - columns.heading_height(title) - columns.height((*outcome, *listed, *digest))
-    main = main_graph(page.evaluated[0].figures)
-    filled = fill(_said(of, page), _room_beside(main, free), writer, page.gained)
+    free = (
+        page.free
+        - columns.estimate_heading_height(title)
+        - columns.estimate_height((*outcome, *listed, *digest))
+    )
+    main = find_main_graph(page.evaluated[0].figures)
+    filled = fill(_gather_said(of, page), _measure_room_beside(main, free), writer, page.gained)
     free += page.gained if filled.left != Said() else 0.0
-    free -= columns.height(filled.notices) + columns.height(filled.others)
-    table = tuple(results.by_position(evaluation, writer))
+    free -= columns.estimate_height(filled.notices) + columns.estimate_height(filled.others)
+    table = tuple(results.lay_out_by_position(evaluation, writer))
     with_graph = (_GRAPH + _BESIDE_GRAPH) * columns.MILLIMETRE if main else 0.0
-    holds_table = columns.height(table) <= free - with_graph
+    holds_table = columns.estimate_height(table) <= free - with_graph
     if holds_table:
-        free -= columns.height(table)
+        free -= columns.estimate_height(table)
     blocks = (
         *outcome,
-        *([Graph(_as_high_as(main, free))] if main else []),
+        *([Graph(_fit_height(main, free))] if main else []),
         *filled.notices,
         *listed,
         *(table if holds_table else ()),
         *filled.others,
         *digest,
     )
-    return _Sheet(Section(section_key(evaluation), title, blocks), filled.left)
+    return _Sheet(Section(make_section_key(evaluation), title, blocks), filled.left)
 
 
-def _of_a_line(each: Evaluated, writer: Writer) -> Section:
+def _lay_out_line(each: Evaluated, writer: Writer) -> Section:
     """Return what a standard gives of one of several measured lines: their graph and their parameters."""
-    main, evaluation = main_graph(each.figures), each.evaluation
+    main, evaluation = find_main_graph(each.figures), each.evaluation
     graph = [Graph(replace(main, height=_GRAPH_OF_A_LINE))] if main else []
-    title = results.title_of([evaluation], writer)
-    return Section(section_key(evaluation), title, (*graph, *_parameters(evaluation, writer)))
+    title = results.write_title_of([evaluation], writer)
+    return Section(make_section_key(evaluation), title, (*graph, *_lay_out_parameters(evaluation, writer)))
 
 
-def _room_beside(figure: Figure | None, free: float) -> float:
+def _measure_room_beside(figure: Figure | None, free: float) -> float:
     """Return what a page leaves to all but the graph, which is lower only where nothing else had room."""
     if figure is None:
         return free
@@ -191,28 +195,28 @@ def _room_beside(figure: Figure | None, free: float) -> float:
     return max(free - usual, min(_LEAST_ROOM, free - least))
 
 
-def _as_high_as(figure: Figure, free: float) -> Figure:
+def _fit_height(figure: Figure, free: float) -> Figure:
     usual = min(free / columns.MILLIMETRE - _BESIDE_GRAPH, _GRAPH)
     height = max(usual, (free - _SPARE) / columns.MILLIMETRE - _BESIDE_GRAPH)
     return replace(figure, height=round(min(max(height, _LEAST_GRAPH), _LARGEST_GRAPH), 1))
 
 
-def _outcome(evaluation: Evaluation, of: Material) -> Iterator[Paragraph]:
+def _say_outcome(evaluation: Evaluation, of: Material) -> Iterator[Paragraph]:
     """Yield what is stated of the limits, a line for each verdict: those who read no more have read this."""
     found: dict[Verdict, list[str]] = {}
     for each in evaluation.parameters:
-        verdict = conformity.verdict(each, of.writer)
+        verdict = conformity.make_verdict_cell(each, of.writer)
         if isinstance(verdict, Verdict):
             found.setdefault(verdict, []).append(each.quantity.notation)
     for verdict in sorted(found, key=lambda each: _GRAVEST_FIRST.index(each.mark.value)):
         symbols = tuple(found[verdict])
-        yield Paragraph(", ".join(map(plain, symbols)), verdict=verdict, symbols=symbols)
+        yield Paragraph(", ".join(map(write_plain, symbols)), verdict=verdict, symbols=symbols)
 
 
-def _parameters(evaluation: Evaluation, writer: Writer) -> tuple[Block, ...]:
+def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> tuple[Block, ...]:
     if not evaluation.parameters:
         return ()
-    return (parameters(evaluation, writer), *results.raised(evaluation, writer))
+    return (lay_out_parameters(evaluation, writer), *results.say_raised(evaluation, writer))
 
 
 def _digest(of: Material) -> Iterator[Paragraph]:
@@ -221,26 +225,26 @@ def _digest(of: Material) -> Iterator[Paragraph]:
         yield Paragraph(of.writer.say(_DIGEST.given(name=DIGEST, digest=of.digest)), fine=True)
 
 
-def _said(of: Material, page: _Page) -> Said:
+def _gather_said(of: Material, page: _Page) -> Said:
     """Return what a page says besides; that of several measurements leaves out what their document says."""
     job, writer, evaluations = of.job, of.writer, page.evaluations
     said = (
-        *uncertainty.statement(page.evaluated[0].budget, evaluations, writer),
-        *uncertainty.neglected(page.evaluated[0].budget, writer),
-        *conformity.rule_paragraph(job.keys.decision_rule, evaluations, writer),
-        *conditions.no_influence(job, of.measurements, writer),
-        *(() if of.is_part else statements.paragraphs(job, writer)),
-        *said_of_all(evaluations, writer),
+        *uncertainty.say_uncertainty(page.evaluated[0].budget, evaluations, writer),
+        *uncertainty.say_neglected(page.evaluated[0].budget, writer),
+        *conformity.say_rule(job.keys.decision_rule, evaluations, writer),
+        *conditions.say_no_influence(job, of.measurements, writer),
+        *(() if of.is_part else statements.lay_out_paragraphs(job, writer)),
+        *say_of_all(evaluations, writer),
     )
     notices = (
-        *statements.amendment_notice(job.keys.certificate, writer),
+        *statements.make_amendment_notice(job.keys.certificate, writer),
         *(each for each in said if isinstance(each, Notice)),
-        *cover.unlikely(of, writer),
-        *missing_readings(evaluations[0].measurements, writer),
-        *measured_lines.notices(of.tests, writer),
-        *statements.notices(job.keys, writer, names_all=True),
+        *cover.list_unlikely(of, writer),
+        *list_missing_readings(evaluations[0].measurements, writer),
+        *measured_lines.list_notices(of.tests, writer),
+        *statements.list_notices(job.keys, writer, names_all=True),
     )
-    who, stated = _stated(of, page)
+    who, stated = _gather_stated(of, page)
     groups = [(key, replace(group, heading="") if key in _PLAIN_GROUPS else group) for key, group in stated]
     return Said(
         notices=notices,
@@ -252,31 +256,33 @@ def _said(of: Material, page: _Page) -> Said:
             for _, group in groups
             if not group.heading
             for pair in group.pairs
-            if columns.fact_lines(*pair) == 1
+            if columns.count_fact_lines(*pair) == 1
         ),
-        corrections=() if page.is_as_found else tuple(conditions.correction_blocks(of.measurements, writer)),
+        corrections=()
+        if page.is_as_found
+        else tuple(conditions.lay_out_corrections(of.measurements, writer)),
     )
 
 
-def _stated(of: Material, page: _Page) -> tuple[tuple[Pair, ...], tuple[tuple[str, Facts], ...]]:
+def _gather_stated(of: Material, page: _Page) -> tuple[tuple[Pair, ...], tuple[tuple[str, Facts], ...]]:
     """Return who and what was measured, and the circumstances, in groups by their job keys.
 
     What head, heading or another fact says is left out, and the circumstances of an axis as found: they stand
     with the comparison.
     """
     job, writer = of.job, of.writer
-    facts = cover.identity(of, page.evaluations)
+    facts = cover.list_identity(of, page.evaluations)
     if of.is_part:
         facts = (each for each in facts if set(each.keys) & cover.OF_MEASUREMENT)
-    said = {of.digest, conditions.axis_in_words(job, writer)}
+    said = {of.digest, conditions.describe_axis(job, writer)}
     if not of.is_part:  # a part has another heading
-        said.add(designations(page.evaluated))
-    who = tuple(pair for pair in stated_facts(facts, writer) if pair[1] not in said)
+        said.add(list_designations(page.evaluated))
+    who = tuple(pair for pair in select_stated_facts(facts, writer) if pair[1] not in said)
     if page.is_as_found:
         return who, ()
-    said |= {value for _, value in who} | conditions.identified(job, writer)
+    said |= {value for _, value in who} | conditions.find_identified(job, writer)
     found = []
-    for key, group in conditions.groups(job, of.measurements, of.described, writer):
+    for key, group in conditions.list_groups(job, of.measurements, of.described, writer):
         pairs = tuple(pair for pair in group.pairs if pair[1] not in said)
         said |= {value for _, value in pairs}
         if pairs and not (of.is_part and key == "machine"):

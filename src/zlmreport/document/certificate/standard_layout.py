@@ -11,18 +11,18 @@ from typing import TypeAlias, TypeGuard
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conditions, conformity, results, statements
-from zlmreport.document.certificate.first_page import first_page
+from zlmreport.document.certificate.first_page import lay_out_first_page
 from zlmreport.document.certificate.material import (
     LaidOut,
     Material,
-    opinions_and_model,
-    origin_section,
-    readings_sections,
-    uncertainty_sections,
+    lay_out_opinions_and_model,
+    lay_out_origin,
+    lay_out_readings,
+    lay_out_uncertainty,
 )
-from zlmreport.document.certificate.measured_lines import results_of_lines
-from zlmreport.document.certificate.results import Evaluated, section_key
-from zlmreport.document.certificate.values import Values, told_apart
+from zlmreport.document.certificate.measured_lines import lay_out_results
+from zlmreport.document.certificate.results import Evaluated, make_section_key
+from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.document.figures.figure import Figure, Panel
 from zlmreport.document.writer import Writer
 from zlmreport.evaluation.evaluation import Evaluation, Group
@@ -60,107 +60,111 @@ def lay_out(of: Material) -> LaidOut:
     Each standard begins a page where the first page holds all that stands before the results, and is not
     left empty by it; where it does not, parts follow each other without a break.
     """
-    pages = together(of.evaluated, of.writer)
+    pages = group_together(of.evaluated, of.writer)
     page = columns.PAGES[of.job.keys.certificate.paper]
-    below_title = page - head_height(of)
-    on_cover, behind = first_page(of, pages, below_title)
-    free = below_title - columns.height(on_cover)
+    below_title = page - measure_head_height(of)
+    on_cover, behind = lay_out_first_page(of, pages, below_title)
+    free = below_title - columns.estimate_height(on_cover)
     breaks = 0 <= free <= (1 - _FULL_ENOUGH) * page
     return LaidOut(
         on_cover,
         (
-            *_results(of, pages, page if breaks else None),
-            *results_by_line(of),
-            *map(in_smaller_type, _further_conditions(of, behind)),
-            *in_common(pages, of.writer),
-            *map(_without_graphs, uncertainty_sections(of)),
-            *readings_sections(of),
-            in_smaller_type(origin_section(of)),
-            *map(in_smaller_type, opinions_and_model(of)),
+            *_lay_out_results(of, pages, page if breaks else None),
+            *lay_out_results_by_line(of),
+            *map(set_in_smaller_type, _lay_out_further_conditions(of, behind)),
+            *lay_out_in_common(pages, of.writer),
+            *map(_drop_graphs, lay_out_uncertainty(of)),
+            *lay_out_readings(of),
+            set_in_smaller_type(lay_out_origin(of)),
+            *map(set_in_smaller_type, lay_out_opinions_and_model(of)),
         ),
         is_compact=True,
     )
 
 
-def head_height(of: Material) -> float:
+def measure_head_height(of: Material) -> float:
     """Return how high a document's letterhead and title stand, points."""
-    subject = of.writer.say(statements.subject_of(of.job))
-    return columns.head_height(of.letterhead, of.title, subject, of.job.keys.certificate.number)
+    subject = of.writer.say(statements.name_subject_of(of.job))
+    return columns.estimate_head_height(of.letterhead, of.title, subject, of.job.keys.certificate.number)
 
 
-def of_one(each: Evaluated, writer: Writer) -> Section:
+def lay_out_one(each: Evaluated, writer: Writer) -> Section:
     """Return the results by one standard."""
-    return page((each,), writer)
+    return lay_out_page((each,), writer)
 
 
-def results_by_line(
-    of: Material, section_of: Callable[[Evaluated, Writer], Section] = of_one
+def lay_out_results_by_line(
+    of: Material, section_of: Callable[[Evaluated, Writer], Section] = lay_out_one
 ) -> Iterator[Section]:
     """Yield what is said of each of several measured lines, on a page if it fits on one.
 
     Lines of which little is said share one, and below a line that ends at the top of a page the next goes on.
     """
-    known = conditions.groups(of.job, of.measurements, of.described, of.writer)
-    sections = results_of_lines(of.tests, known, of.writer, section_of)
+    known = conditions.list_groups(of.job, of.measurements, of.described, of.writer)
+    sections = lay_out_results(of.tests, known, of.writer, section_of)
     room = columns.PAGES[of.job.keys.certificate.paper]
     used = room
     for each in sections:
-        section = on_a_page(each, room)
-        taken = columns.heading_height(section.title) + columns.height(section.blocks)
+        section = fit_on_a_page(each, room)
+        taken = columns.estimate_heading_height(section.title) + columns.estimate_height(section.blocks)
         begins_page = used + taken > room and used > _LITTLE * room
         yield replace(section, new_page=begins_page)
         used = (taken if begins_page else used + taken) % room
 
 
-def _further_conditions(of: Material, behind: tuple[Facts, ...]) -> Iterator[Section]:
+def _lay_out_further_conditions(of: Material, behind: tuple[Facts, ...]) -> Iterator[Section]:
     """Yield what is to be said of the conditions besides what the first page states of them."""
-    blocks = (*behind, *conditions.besides(of.measurements, of.described, of.writer))
+    blocks = (*behind, *conditions.list_besides(of.measurements, of.described, of.writer))
     if blocks:
-        section = conditions.section(of.job, of.measurements, of.described, of.writer)
+        section = conditions.lay_out_conditions(of.job, of.measurements, of.described, of.writer)
         yield replace(section, blocks=blocks)
 
 
-def _results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator[Section]:
+def _lay_out_results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator[Section]:
     """Yield the results; of an axis that was adjusted, compared first, after and before.
 
     Each standard begins a page of that many points, or goes on where the one before ends.
     """
-    sections: Iterator[Section] = (page(each, of.writer) for each in pages)
+    sections: Iterator[Section] = (lay_out_page(each, of.writer) for each in pages)
     keys = of.job.keys.as_found
     if keys:
-        from zlmreport.document.certificate.as_found import beside_as_found  # noqa: PLC0415 - of the few that need it
+        from zlmreport.document.certificate.as_found import lay_out_beside_as_found  # noqa: PLC0415 - of the few that need it
 
-        sections = beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, of_one)
-        comparison = on_a_page(in_smaller_type(next(sections)), columns.PAGES[of.job.keys.certificate.paper])
+        sections = lay_out_beside_as_found(keys, sections, of.as_found, of.evaluated, of.writer, lay_out_one)
+        comparison = fit_on_a_page(
+            set_in_smaller_type(next(sections)), columns.PAGES[of.job.keys.certificate.paper]
+        )
         yield replace(comparison, new_page=room_of_page is not None)
     if room_of_page is None:
         yield from sections
     else:
-        yield from (replace(on_a_page(each, room_of_page), new_page=True) for each in sections)
+        yield from (replace(fit_on_a_page(each, room_of_page), new_page=True) for each in sections)
 
 
-def _without_graphs(section: Section) -> Section:
+def _drop_graphs(section: Section) -> Section:
     """Return a section whose table says what its bars repeat: that of the uncertainty."""
     return replace(section, blocks=tuple(each for each in section.blocks if not isinstance(each, Graph)))
 
 
-def in_smaller_type(section: Section) -> Section:
+def set_in_smaller_type(section: Section) -> Section:
     """Return a section with graphs no higher than they must be, and tables in smaller type."""
-    return replace(section, blocks=tuple(map(_smaller, section.blocks)))
+    return replace(section, blocks=tuple(map(_shrink_block, section.blocks)))
 
 
-def on_a_page(section: Section, page: float) -> Section:
+def fit_on_a_page(section: Section, page: float) -> Section:
     """Return a section with its graphs somewhat lower, if that makes it fit on a page.
 
     Panels beside each other are low already: they give way last.
     """
-    excess = columns.heading_height(section.title) + columns.height(section.blocks) - page
+    excess = columns.estimate_heading_height(section.title) + columns.estimate_height(section.blocks) - page
     blocks = section.blocks
     for is_wide in (False, True):
         heights = [each.figure.height or 0.0 for each in blocks if _is_drawn(each, is_wide=is_wide)]
         drawn = sum(heights) * columns.MILLIMETRE
         part = min(1.0, max(_LEAST_DRAWN, 1 - excess / drawn)) if drawn else 1.0
-        blocks = tuple(_lower(each, part) if _is_drawn(each, is_wide=is_wide) else each for each in blocks)
+        blocks = tuple(
+            _lower_graph(each, part) if _is_drawn(each, is_wide=is_wide) else each for each in blocks
+        )
         excess -= (1 - part) * drawn
     return section if excess > _ROUNDED else replace(section, blocks=blocks)
 
@@ -169,12 +173,12 @@ def _is_drawn(block: Block, *, is_wide: bool) -> TypeGuard[Graph]:
     return isinstance(block, Graph) and block.figure.is_wide is is_wide
 
 
-def _lower(graph: Graph, part: float) -> Graph:
+def _lower_graph(graph: Graph, part: float) -> Graph:
     height = graph.figure.height
     return Graph(replace(graph.figure, height=height and round(height * part, 1)))
 
 
-def _smaller(block: Block) -> Block:
+def _shrink_block(block: Block) -> Block:
     match block:
         case Graph(figure):
             return Graph(replace(figure, height=_ASIDE * len(figure.panels)))
@@ -184,14 +188,14 @@ def _smaller(block: Block) -> Block:
             return block
 
 
-def together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
+def group_together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
     """Return the evaluations, those together that share a page: the first of them gives names and limits."""
     pages: Pages = []
     numbers: list[list[object]] = []
     for each in evaluated:
-        printed = _numbers(each.evaluation, writer)
+        printed = _list_numbers(each.evaluation, writer)
         for number, page in enumerate(pages):
-            if printed == numbers[number] and _limits_fit(page[0].evaluation, each.evaluation):
+            if printed == numbers[number] and _has_no_other_limits(page[0].evaluation, each.evaluation):
                 pages[number] = (*page, each)
                 break
         else:
@@ -200,23 +204,23 @@ def together(evaluated: Iterable[Evaluated], writer: Writer) -> Pages:
     return pages
 
 
-def designations(page: Sequence[Evaluated]) -> str:
+def list_designations(page: Sequence[Evaluated]) -> str:
     """Return the standards of a page."""
     return ", ".join(each.evaluation.designation for each in page)
 
 
-def page(shared: Sequence[Evaluated], writer: Writer) -> Section:
+def lay_out_page(shared: Sequence[Evaluated], writer: Writer) -> Section:
     """Return the results by a standard, and by others that give the same numbers."""
     first, *others = (each.evaluation for each in shared)
-    blocks: list[Block] = [*said_of_all((first, *others), writer)]
+    blocks: list[Block] = [*say_of_all((first, *others), writer)]
     if first.parameters:
-        blocks += (parameters(first, writer), *results.raised(first, writer))
-    blocks += map(Graph, in_less_room(shared[0].figures))
-    blocks += results.by_position(first, writer)
-    return Section(section_key(first), results.title_of((first, *others), writer), tuple(blocks))
+        blocks += (lay_out_parameters(first, writer), *results.say_raised(first, writer))
+    blocks += map(Graph, draw_in_less_room(shared[0].figures))
+    blocks += results.lay_out_by_position(first, writer)
+    return Section(make_section_key(first), results.write_title_of((first, *others), writer), tuple(blocks))
 
 
-def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
+def say_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
     """Yield that standards share a page, whose names it has, and what deviates from them."""
     first, *others = evaluations
     if others:
@@ -224,21 +228,21 @@ def said_of_all(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[B
         named = _NAMES_AND_LIMITS if has_limits else _NAMES
         names = ", ".join(each.designation for each in others)
         yield Paragraph(writer.say(_SHARED.given(others=names, named=named, first=first.designation)))
-    yield from _shortfalls(evaluations, writer)
+    yield from _list_shortfalls(evaluations, writer)
 
 
-def in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
+def lay_out_in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[Section]:
     """Yield what is said once for all standards: limits, requirements, definitions, notes."""
     evaluations = [each.evaluation for page in pages for each in page]
-    tables = [*conformity.statements([page[0].evaluation for page in pages], writer)]
+    tables = [*conformity.lay_out_statements([page[0].evaluation for page in pages], writer)]
     if any(each.findings for each in evaluations):
-        tables.append(results.requirements(evaluations, writer))
-    blocks: list[Block] = [*map(_smaller, tables)]
+        tables.append(results.lay_out_requirements(evaluations, writer))
+    blocks: list[Block] = [*map(_shrink_block, tables)]
     for page in pages:
         lead = page[0].evaluation
         if lead.parameters:
-            defined = results.definitions(lead, writer)
-            caption = _DEFINED.given(caption=defined.caption, designations=designations(page))
+            defined = results.lay_out_definitions(lead, writer)
+            caption = _DEFINED.given(caption=defined.caption, designations=list_designations(page))
             blocks.append(replace(defined, caption=writer.say(caption)))
         # Below its own definitions: of "2 standard deviations" a reader must know which standard takes them.
         notes = (writer.say(note) for each in page for note in each.evaluation.notes)
@@ -247,15 +251,17 @@ def in_common(pages: Sequence[Sequence[Evaluated]], writer: Writer) -> Iterator[
         yield Section("definitions", writer.say(_DEFINITIONS), tuple(blocks))
 
 
-def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
+def draw_in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
     """Yield a standard's graphs: the one with the brackets first, and none that shows its curves again.
 
     Single readings of a graph that is left out stand in the one that is kept.
     """
     single = [each for each in figures if len(each.panels) == 1]
-    main = main_graph(figures)
+    main = find_main_graph(figures)
     if main is not None and len(main.panels) == 1:
-        again = [each for each in single if each is not main and _shows_again(each.panels[0], main.panels[0])]
+        again = [
+            each for each in single if each is not main and _is_shown_again(each.panels[0], main.panels[0])
+        ]
         readings = main.panels[0].readings or next((each.panels[0].readings for each in again), ())
         height = _PICTURE if main.panels[0].projection != "straight" else _MAIN
         yield replace(main, panels=(replace(main.panels[0], readings=readings),), height=height)
@@ -269,7 +275,7 @@ def in_less_room(figures: Sequence[Figure]) -> Iterator[Figure]:
             yield replace(each, height=_PICTURE if each.panels[0].is_wire else _OTHER)
 
 
-def main_graph(figures: Sequence[Figure]) -> Figure | None:
+def find_main_graph(figures: Sequence[Figure]) -> Figure | None:
     """Return the graph that shows where the parameters arise; any other of one panel if none does.
 
     Of a circle it is that about the circle; where none has one panel, that of several quantities on one axis,
@@ -281,7 +287,7 @@ def main_graph(figures: Sequence[Figure]) -> Figure | None:
     return next((each for each in single if each.panels[0].brackets), single[0] if single else None)
 
 
-def _shows_again(panel: Panel, main: Panel) -> bool:
+def _is_shown_again(panel: Panel, main: Panel) -> bool:
     def shown(of: Panel) -> set[tuple[object, ...]]:
         curves = {(each.role, each.y.tobytes()) for each in of.curves}
         return curves | {(each.role, each.lower.tobytes(), each.upper.tobytes()) for each in of.bands}
@@ -289,7 +295,7 @@ def _shows_again(panel: Panel, main: Panel) -> bool:
     return not panel.bars and not panel.levels and shown(panel) <= shown(main)
 
 
-def _limits_fit(first: Evaluation, other: Evaluation) -> bool:
+def _has_no_other_limits(first: Evaluation, other: Evaluation) -> bool:
     """Return whether the other evaluation has no limits of its own."""
     limits = [(each.limit, each.decision) for each in other.parameters]
     return all(limit is None for limit, _ in limits) or limits == [
@@ -297,27 +303,27 @@ def _limits_fit(first: Evaluation, other: Evaluation) -> bool:
     ]
 
 
-def _numbers(evaluation: Evaluation, writer: Writer) -> list[object]:
+def _list_numbers(evaluation: Evaluation, writer: Writer) -> list[object]:
     """Return what is printed of an evaluation, but for its limits."""
     without_limits = Values(writer, has_uncertainty=True, has_limits=False)
     parameters = [
         (each.quantity.notation, each.quantity.group, without_limits.cells(each))
         for each in evaluation.parameters
     ]
-    return [parameters, *results.by_position(evaluation, writer)]
+    return [parameters, *results.lay_out_by_position(evaluation, writer)]
 
 
-def _shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Notice]:
+def _list_shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Notice]:
     """Yield the notices of requirements that are not met; standards with the same ones share a notice."""
     found: dict[tuple[str, ...], list[str]] = {}
     for each in evaluations:
-        if items := results.unmet(each, writer):
+        if items := results.list_unmet(each, writer):
             found.setdefault(items, []).append(each.designation)
     for items, names in found.items():
-        yield results.shortfall(", ".join(names), items, writer)
+        yield results.make_shortfall(", ".join(names), items, writer)
 
 
-def parameters(evaluation: Evaluation, writer: Writer) -> Table:
+def lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
     values = Values.of([evaluation], writer, with_interval=True)
     headings = values.columns()
@@ -329,11 +335,11 @@ def parameters(evaluation: Evaluation, writer: Writer) -> Table:
         )
         for group in Group
     )
-    caption = results.parameters_in_words(evaluation)
+    caption = results.say_parameters(evaluation)
     if evaluation.measurements.axis.measurand.is_position:
         caption = _IN_THREE_GROUPS.given(parameters=caption)
     rows = tuple(RowGroup(each) for each in groups if each)
-    told, symbols = told_apart(
+    told, symbols = tell_columns_apart(
         caption,
         (each.quantity for each in evaluation.parameters),
         has_uncertainty=values.has_uncertainty,

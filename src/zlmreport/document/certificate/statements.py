@@ -9,7 +9,7 @@ from zlmreport.document.blocks import Block, Column, Notice, Paragraph, RowGroup
 from zlmreport.document.writer import BY_CUSTOMER, EXTERNAL, NOTHING, Writer
 from zlmreport.evaluation import traceability
 from zlmreport.language import Words, same
-from zlmreport.measurement.error_symbol import error_named
+from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
@@ -91,14 +91,14 @@ _OPINIONS = Words("Opinions and interpretations")
 _RESTS = Words("Each is stated by an authorised person and rests on what is named as its basis.")
 
 
-def notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> Iterator[Notice]:
+def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> Iterator[Notice]:
     """Yield what nobody may overlook: how the work departed from the method, and what others did.
 
     `names_all`: Whether every reading that was set aside is named, for no section on the readings names it.
     """
     deviations = keys.measurement.deviations_from_method
     most = None if names_all else _MOST_NAMED
-    items = (*([deviations] if deviations else []), *exclusions_stated(keys, writer, most))
+    items = (*([deviations] if deviations else []), *list_exclusions(keys, writer, most))
     if items:
         yield Notice(writer.say(_DEVIATIONS), items)
     if keys.external:
@@ -115,7 +115,7 @@ def notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> Iterat
         )
 
 
-def paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
+def lay_out_paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     """Yield the statements in running text."""
     keys = job.keys
     if keys.provided_by_customer:
@@ -130,7 +130,7 @@ def paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
         yield Paragraph(writer.say(_ONLY_IN_FULL))
 
 
-def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _KEY) -> Iterator[Notice]:
+def make_exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _KEY) -> Iterator[Notice]:
     """Yield the notice that names every reading that was set aside, with its value and the reason.
 
     `key`: The job key that names them: marked if that was the customer's decision.
@@ -139,10 +139,10 @@ def exclusion_notice(measurements: MeasurementSet, writer: Writer, key: str = _K
     if exclusions:
         heading = (_ONE if len(exclusions) == 1 else _SEVERAL).given(count=len(exclusions))
         marked = writer.say(heading) + writer.marks.after(key)
-        yield Notice(marked, tuple(_item(each, writer) for each in exclusions))
+        yield Notice(marked, tuple(_write_item(each, writer) for each in exclusions))
 
 
-def exclusions_stated(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
+def list_exclusions(keys: JobKeys, writer: Writer, most: int | None = _MOST_NAMED) -> tuple[str, ...]:
     """Return what the first page says of readings that were set aside: they depart from the method.
 
     `most`: Of so many; all of them if it is None.
@@ -167,7 +167,7 @@ def exclusions_stated(keys: JobKeys, writer: Writer, most: int | None = _MOST_NA
     return tuple(items)
 
 
-def _item(exclusion: Exclusion, writer: Writer) -> str:
+def _write_item(exclusion: Exclusion, writer: Writer) -> str:
     return writer.say(
         _READING.given(
             target=with_unit(writer.position(exclusion.target_position), writer.position_unit.symbol),
@@ -179,7 +179,7 @@ def _item(exclusion: Exclusion, writer: Writer) -> str:
     )
 
 
-def document_title(keys: CertificateKeys) -> Words:
+def write_document_title(keys: CertificateKeys) -> Words:
     """Return the document's title: an amendment's names what it amends."""
     usual = TITLES[keys.kind]
     amends = keys.amends
@@ -193,23 +193,23 @@ def document_title(keys: CertificateKeys) -> Words:
 _BY_VDI = Words("{symbol} (VDI/VDE 2617-3: {vdi})")
 
 
-def subject_of(job: Job) -> Words:
+def name_subject_of(job: Job) -> Words:
     """Return what the document is about: ``Straightness error EYX of axis X``, in both notations if asked."""
     axis = job.axis
     if not axis.error or job.keys.measurement.symbols == "iso230-1":
         return axis.subject
-    both = _BY_VDI.given(symbol=axis.error, vdi=error_named(axis.error).vdi)
+    both = _BY_VDI.given(symbol=axis.error, vdi=find_error_named(axis.error).vdi)
     return axis.measurand.named(axis.name, both)
 
 
-def running_title(keys: CertificateKeys) -> Words:
+def write_running_title(keys: CertificateKeys) -> Words:
     """Return what stands on every page: what the document is, with its number."""
     if keys.amends and keys.amends.kind == "amendment":
         return _RUNNING_AMENDMENT.given(number=keys.number)
     return Words("{title} {number}").given(title=TITLES[keys.kind], number=keys.number)
 
 
-def amendment_notice(keys: CertificateKeys, writer: Writer) -> Iterator[Notice]:
+def make_amendment_notice(keys: CertificateKeys, writer: Writer) -> Iterator[Notice]:
     """Yield what is said of the earlier document: which it is, what is changed, and why."""
     amends = keys.amends
     if amends is None:
@@ -224,14 +224,14 @@ def amendment_notice(keys: CertificateKeys, writer: Writer) -> Iterator[Notice]:
     )
 
 
-def opinion_sections(keys: JobKeys, writer: Writer) -> Iterator[Section]:
+def lay_out_opinions(keys: JobKeys, writer: Writer) -> Iterator[Section]:
     """Yield the opinion_sections of a job's opinions, if it states any."""
     if keys.opinions:
         apart = Notice(writer.say(OPINION), (writer.say(_RESTS),))
-        yield Section("opinions", writer.say(_OPINIONS), (apart, _opinion_table(keys, writer)))
+        yield Section("opinions", writer.say(_OPINIONS), (apart, _lay_out_opinions(keys, writer)))
 
 
-def _opinion_table(keys: JobKeys, writer: Writer) -> Table:
+def _lay_out_opinions(keys: JobKeys, writer: Writer) -> Table:
     columns = tuple(
         Column(writer.say(heading))
         for heading in (
@@ -244,13 +244,13 @@ def _opinion_table(keys: JobKeys, writer: Writer) -> Table:
         (
             opinion.statement,
             opinion.basis,
-            in_a_line(person) if (person := opinion.by or keys.certificate.authorised_by) else NOTHING,
+            write_person(person) if (person := opinion.by or keys.certificate.authorised_by) else NOTHING,
         )
         for opinion in keys.opinions
     )
     return Table(writer.say(_OPINIONS), columns, (RowGroup(rows),))
 
 
-def in_a_line(person: Person) -> str:
+def write_person(person: Person) -> str:
     """Return a person's name and function."""
     return ", ".join(filter(None, (person.name, person.function)))

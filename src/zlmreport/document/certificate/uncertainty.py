@@ -19,12 +19,12 @@ from zlmreport.document.blocks import (
     Symbol,
     Table,
 )
-from zlmreport.document.figures.bars import budget_bars
+from zlmreport.document.figures.bars import draw_budget
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, KnownError, NoBudget
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.language import Words
-from zlmreport.language.formatting import percentage, rounded_pair
+from zlmreport.language.formatting import round_pair, write_percentage
 from zlmreport.measurement.units import MICROMETRE
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ _SINGLE = Words("A single reading")
 _NO_BUDGET = Words("The uncertainty of the parameters is not evaluated: {reason}.")
 
 
-def statement(
+def say_uncertainty(
     budget: Budget | NoBudget, evaluations: Iterable[Evaluation], writer: Writer
 ) -> Iterator[Block]:
     """Yield what U means, what it leaves out, or why there is none: for the first page.
@@ -110,7 +110,7 @@ def statement(
         has_interval = any(each.axis_interval is not None for each in parameters)
         yield Paragraph(writer.say(_INTERVAL.given(coverage=_COVERAGE) if has_interval else _COVERAGE))
     else:
-        missing = "; ".join(writer.say(wording.contributor(name)) for name in budget.missing)
+        missing = "; ".join(writer.say(wording.name_contributor(name)) for name in budget.missing)
         yield Notice(writer.say(_INCOMPLETE.given(missing=missing)), (writer.say(_INCOMPLETE_MEANS),))
     if budget.uncorrected_expansion is None:
         yield Notice(writer.say(_NOT_AT_REFERENCE), ())
@@ -124,25 +124,27 @@ def statement(
         yield Paragraph(writer.say(_KNOWN_ERRORS.given(names=names)))
 
 
-def neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragraph]:
+def say_neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragraph]:
     """Yield in a line what was declared negligible, with the reasons; those that share one stand together."""
     by_reason: dict[str, list[str]] = {}
     for name, reason in budget.negligible:
-        by_reason.setdefault(reason, []).append(writer.say(wording.contributor(name)))
+        by_reason.setdefault(reason, []).append(writer.say(wording.name_contributor(name)))
     if by_reason:
         said = "; ".join(f"{', '.join(names)} ({reason})" for reason, names in by_reason.items())
         yield Paragraph(f"{writer.say(_NEGLIGIBLE)}: {said}.")
 
 
-def section(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:
+def lay_out_budgets(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:
     """Return the section on the uncertainty of everything that evaluations of one test state."""
-    return Section("uncertainty", writer.say(_TITLE), tuple(_blocks(budget, evaluations, writer)))
+    return Section("uncertainty", writer.say(_TITLE), tuple(_lay_out_blocks(budget, evaluations, writer)))
 
 
-def _blocks(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Iterator[Block]:
+def _lay_out_blocks(
+    budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer
+) -> Iterator[Block]:
     measurements = evaluations[0].measurements
     axis = measurements.axis
-    yield from statement(budget, evaluations, writer)
+    yield from say_uncertainty(budget, evaluations, writer)
     if isinstance(budget, NoBudget):
         return
     method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
@@ -151,27 +153,27 @@ def _blocks(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer
     of_axis = _SCATTER if scatters else _UNSEEN_SCATTER
     yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))
     if not budget.tests:  # each line of several has a budget of its own
-        yield from own_blocks(budget, axis, writer)
-    yield from _declared(budget, writer)
+        yield from lay_out_own_blocks(budget, axis, writer)
+    yield from _list_declared(budget, writer)
 
 
-def own_blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
+def lay_out_own_blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
     """Yield the contributions of a budget, as a table and as bars."""
     if isinstance(budget, Budget):
-        yield _table(budget, writer)
-        yield Graph(budget_bars(budget, axis))
+        yield _lay_out_table(budget, writer)
+        yield Graph(draw_budget(budget, axis))
 
 
-def _declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
+def _list_declared(budget: Budget, writer: Writer) -> Iterator[Notice]:
     if budget.negligible:
         reasons = (
-            _REASON.given(contributor=wording.contributor(name), reason=reason)
+            _REASON.given(contributor=wording.name_contributor(name), reason=reason)
             for name, reason in budget.negligible
         )
         yield Notice(writer.say(_NEGLIGIBLE), tuple(map(writer.say, reasons)))
 
 
-def _table(budget: Budget, writer: Writer) -> Table:
+def _lay_out_table(budget: Budget, writer: Writer) -> Table:
     columns = (
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Contribution and its source"))),
@@ -190,8 +192,8 @@ def _table(budget: Budget, writer: Writer) -> Table:
         writer.say(_COMBINED_OF if budget.acting(Acts.ALONG_THE_LENGTH) else _SINGLE),
         "",
         "",
-        _size(budget.standard_uncertainty, writer),
-        percentage(1.0, writer.language.decimal_sign, 1),
+        _write_size(budget.standard_uncertainty, writer),
+        write_percentage(1.0, writer.language.decimal_sign, 1),
     )
     groups.append(RowGroup((total,), writer.say(_COMBINED)))
     if budget.known_errors:
@@ -215,21 +217,21 @@ def _known(number: int, error: KnownError, writer: Writer) -> tuple[Cell, ...]:
 def _rows(budget: Budget, acts: Acts, writer: Writer) -> Iterator[tuple[Cell, ...]]:
     for number, each in enumerate(budget.contributions, 1):
         if each.acts is acts:
-            yield _row(number, each, budget.share(each), writer)
+            yield _lay_out_row(number, each, budget.share(each), writer)
 
 
-def _row(number: int, contribution: Contribution, share: float, writer: Writer) -> tuple[Cell, ...]:
+def _lay_out_row(number: int, contribution: Contribution, share: float, writer: Writer) -> tuple[Cell, ...]:
     return (
         Symbol(f"u_{{{number}}}"),
         Explained(writer.say(contribution.name), writer.say(contribution.source)),
         writer.say(contribution.stated),
         writer.say(wording.DISTRIBUTIONS[contribution.distribution]),
-        _size(contribution.standard_uncertainty, writer),
-        percentage(share, writer.language.decimal_sign, 1),
+        _write_size(contribution.standard_uncertainty, writer),
+        write_percentage(share, writer.language.decimal_sign, 1),
     )
 
 
-def _size(value: float, writer: Writer) -> str:
+def _write_size(value: float, writer: Writer) -> str:
     """Write a standard uncertainty to two significant digits."""
     printed = writer.deviation_unit.from_si(value)
-    return rounded_pair(printed, printed, writer.language.decimal_sign)[1] if value else "0"
+    return round_pair(printed, printed, writer.language.decimal_sign)[1] if value else "0"

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Align, Cell, Column, Symbol
 from zlmreport.document.certificate import conformity
-from zlmreport.document.writer import NOTHING, Writer, with_uncertainty, written
+from zlmreport.document.writer import NOTHING, Writer, write_rounded_together, write_with_uncertainty
 from zlmreport.language import Words
-from zlmreport.language.formatting import fixed_number, plain
+from zlmreport.language.formatting import write_fixed_number, write_plain
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
@@ -73,16 +73,16 @@ class Values:
             yield Column(say(_CONFORMITY))
 
     def _cells(self, parameter: Parameter) -> Iterator[Cell]:
-        value, uncertainty = written(parameter, self.writer)
+        value, uncertainty = write_with_uncertainty(parameter, self.writer)
         yield self._with_unit(value, parameter)
         if self.has_uncertainty:
             yield self._with_unit(uncertainty, parameter)
-            yield coverage_factor(parameter, self.writer)
+            yield write_coverage_factor(parameter, self.writer)
         if self.has_interval:
-            yield self._with_unit(interval(parameter, self.writer), parameter)
+            yield self._with_unit(write_interval(parameter, self.writer), parameter)
         if self.has_limits:
             yield self._with_unit(limit(parameter, self.writer), parameter)
-            yield conformity.verdict(parameter, self.writer)
+            yield conformity.make_verdict_cell(parameter, self.writer)
 
     def _with_unit(self, number: str, parameter: Parameter) -> str:
         """Write the unit beside a number, where the column has none."""
@@ -96,7 +96,7 @@ def is_mixed(parameters: Iterable[Parameter], writer: Writer) -> bool:
     return any(each.quantity.unit_or(writer.deviation_unit) != writer.deviation_unit for each in parameters)
 
 
-def told_apart(
+def tell_columns_apart(
     caption: Words,
     quantities: Iterable[Quantity | PositionQuantity],
     *,
@@ -110,24 +110,24 @@ def told_apart(
     others = {each.notation: writer.say(each.name) for each in quantities if each.notation[:1] == "U"}
     if not (has_uncertainty and others):
         return writer.say(caption), ()
-    named = ", ".join(f"{plain(notation)}: {name}" for notation, name in others.items())
+    named = ", ".join(f"{write_plain(notation)}: {name}" for notation, name in others.items())
     return writer.say(_TOLD_APART.given(caption=caption, others=named)), ("U", *others)
 
 
-def coverage_factor(parameter: Parameter, writer: Writer) -> str:
+def write_coverage_factor(parameter: Parameter, writer: Writer) -> str:
     """Write k; nothing where there is no uncertainty to cover."""
     if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
         return NOTHING
-    return fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
+    return write_fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
 
 
-def interval(parameter: Parameter, writer: Writer) -> str:
+def write_interval(parameter: Parameter, writer: Writer) -> str:
     """Write where another test of the same plan would find a parameter, with the sign that is printed."""
     if parameter.axis_interval is None:
         return NOTHING
     writer = writer.of_quantity(parameter.quantity)
     ends = sorted(parameter.quantity.printed_sign * end for end in parameter.axis_interval)
-    return " … ".join(with_uncertainty(end, (ends[1] - ends[0]) / 2, writer)[0] for end in ends)
+    return " … ".join(write_rounded_together(end, (ends[1] - ends[0]) / 2, writer)[0] for end in ends)
 
 
 def limit(parameter: Parameter, writer: Writer) -> str:

@@ -7,10 +7,10 @@ from zlmreport.document.figures.prescribed import alternative_text
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.uncertainty.budget import Budget
 from zlmreport.language import Words, same
-from zlmreport.language.formatting import plain
-from zlmreport.language.numbers import number_words, pair_words
+from zlmreport.language.formatting import write_plain
+from zlmreport.language.numbers import number_words, write_pair
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import behind
+from zlmreport.measurement.units import write_behind
 
 _UNCERTAIN_TITLE = Words("{bearer}: amounts in percent of their limits TL with their uncertainty ± U")
 _GUARDED_TITLE = Words(
@@ -29,14 +29,14 @@ _ACCEPTED = Words("{bar}, accepted up to {accepted} %")
 _SENTENCE = Words("{bar}.")
 
 
-def conformity_graph(evaluation: Evaluation) -> Figure | None:
+def draw_conformity(evaluation: Evaluation) -> Figure | None:
     """Return the graph; None of a single bar, which the table says better."""
     limited = [each for each in evaluation.parameters if each.limit]
     if len(limited) < _FEWEST_BARS:
         return None
-    bars = tuple(map(_bar, limited))
+    bars = tuple(map(_make_bar, limited))
     graph = _GRAPH.given(bearer=evaluation.measurements.axis.heading)
-    sentences = [graph, *(_sentence(each, bar) for each, bar in zip(limited, bars, strict=True))]
+    sentences = [graph, *(_write_sentence(each, bar) for each, bar in zip(limited, bars, strict=True))]
     title = _UNCERTAIN_TITLE if any(bar.uncertainty for bar in bars) else _BARE_TITLE
     if any(bar.accepted is not None for bar in bars):
         title = _GUARDED_TITLE
@@ -52,7 +52,7 @@ def conformity_graph(evaluation: Evaluation) -> Figure | None:
     )
 
 
-def _bar(parameter: Parameter) -> Bar:
+def _make_bar(parameter: Parameter) -> Bar:
     limit = parameter.limit or 1.0
     decision = parameter.decision
     accepted = None if decision is None else decision.acceptance_limit
@@ -67,8 +67,8 @@ def _bar(parameter: Parameter) -> Bar:
     )
 
 
-def _sentence(parameter: Parameter, bar: Bar) -> Words:
-    words = _BAR.given(symbol=plain(parameter.quantity.notation), percent=bar.value)
+def _write_sentence(parameter: Parameter, bar: Bar) -> Words:
+    words = _BAR.given(symbol=write_plain(parameter.quantity.notation), percent=bar.value)
     if bar.uncertainty:
         words = _UNCERTAIN.given(bar=words, uncertainty=number_words(bar.uncertainty, 1))
     if bar.accepted is not None:
@@ -82,18 +82,18 @@ _STANDARD_UNCERTAINTY = Words("Standard uncertainty")
 _CONTRIBUTION = Words("{symbol}, {name}: {value}{unit}.")
 
 
-def budget_bars(budget: Budget, axis: Axis) -> Figure:
+def draw_budget(budget: Budget, axis: Axis) -> Figure:
     """Return the graph of the standard uncertainties of a budget, in the order of its table."""
     unit = axis.deviation_unit
     bars = []
     sentences = []
     for number, each in enumerate(budget.contributions, 1):
         size = unit.from_si(each.standard_uncertainty)
-        bar = Bar(same(f"u_{{{number}}}"), size, _written(size), is_symbol=True)
+        bar = Bar(same(f"u_{{{number}}}"), size, _write_uncertainty(size), is_symbol=True)
         bars.append(bar)
         sentences.append(
             _CONTRIBUTION.given(
-                symbol=f"u{number}", name=each.name, value=bar.value, unit=behind(unit.symbol)
+                symbol=f"u{number}", name=each.name, value=bar.value, unit=write_behind(unit.symbol)
             )
         )
     return Figure(
@@ -108,6 +108,6 @@ def budget_bars(budget: Budget, axis: Axis) -> Figure:
     )
 
 
-def _written(value: float) -> Words:
+def _write_uncertainty(value: float) -> Words:
     """Write an uncertainty to two significant digits."""
-    return pair_words(value, value)[1] if value else same("0")
+    return write_pair(value, value)[1] if value else same("0")

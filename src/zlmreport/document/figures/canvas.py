@@ -152,12 +152,12 @@ class SvgCanvas:
         data = "".join(operator + " ".join(map(_number, points)) for operator, points in segments)
         inside = ' fill="none"'
         if fill is not None:
-            inside = f' fill="{hexadecimal(fill.colour)}"'
+            inside = f' fill="{write_hexadecimal(fill.colour)}"'
             if fill.opacity < 1:
                 inside += f' fill-opacity="{_number(fill.opacity)}"'
         line = ""
         if stroke is not None:
-            line = f' stroke="{hexadecimal(stroke.colour)}" stroke-width="{_number(stroke.width)}"'
+            line = f' stroke="{write_hexadecimal(stroke.colour)}" stroke-width="{_number(stroke.width)}"'
             if stroke.dashes:
                 line += f' stroke-dasharray="{" ".join(map(_number, stroke.dashes))}"'
         self._parts.append(f'<path class="{escape(kind)}" d="{data}"{inside}{line}/>')
@@ -172,7 +172,9 @@ class SvgCanvas:
             place = f'x="{_number(x)}" y="{_number(y)}" font-size="{_number(run.size)}"{_FACES[run.face]}'
             spans += f"<tspan {place}>{escape(run.text, quote=False)}</tspan>"
         turn = f' transform="rotate({_number(-angle)})"' if angle else ""
-        self._parts.append(f'<text class="{escape(kind)}" fill="{hexadecimal(colour)}"{turn}>{spans}</text>')
+        self._parts.append(
+            f'<text class="{escape(kind)}" fill="{write_hexadecimal(colour)}"{turn}>{spans}</text>'
+        )
 
     def image(self) -> str:
         """Return the image."""
@@ -184,6 +186,6 @@ def _number(value: float) -> str:
     return "0" if text == "-0" else text
 
 
-def hexadecimal(colour: Colour) -> str:
+def write_hexadecimal(colour: Colour) -> str:
     """Return a colour as style sheets write it: ``#0063a6``."""
     return "#" + "".join(f"{round(255 * part):02x}" for part in colour)

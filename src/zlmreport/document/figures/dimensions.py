@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from zlmreport.document.figures.canvas import Label
-from zlmreport.document.figures.shapes import Box, PlacedLabel, counts
+from zlmreport.document.figures.shapes import Box, PlacedLabel, count_points
 from zlmreport.measurement.arrays import FloatArray
 
 #: Length of an arrow head, and half its width.
@@ -97,19 +97,19 @@ class DrawnDimension:
         return self.line_box, self.label.box
 
 
-def _dimension(span: DimensionSpan, x: float, side: float, height: float) -> DrawnDimension:
+def _place_dimension(span: DimensionSpan, x: float, side: float, height: float) -> DrawnDimension:
     """Return the dimension with its label on a side of it (−1: left), its middle at a height."""
     label_x = x + _LABEL_GAP if side > 0 else x - _LABEL_GAP - span.label.width
     return DrawnDimension(span, x, PlacedLabel(span.label, label_x, height - span.label.rise))
 
 
-def margin_width(labels: Iterable[Label]) -> float:
-    """Return the width of the columns of `margin_columns`."""
+def measure_margin(labels: Iterable[Label]) -> float:
+    """Return the width of the columns of `place_margin_columns`."""
     widths = [label.width for label in labels]
     return sum(widths) + len(widths) * _LABEL_GAP + max(0, len(widths) - 1) * _COLUMN_GAP
 
 
-def margin_columns(
+def place_margin_columns(
     spans: Sequence[DimensionSpan], start: float, floor: float, ceiling: float
 ) -> tuple[DrawnDimension, ...]:
     """Return the dimensions in successive columns to the right of `start`, the shortest first.
@@ -122,12 +122,12 @@ def margin_columns(
     x = start
     for number, span in enumerate(ordered):
         passing = [end for other in ordered[number + 1 :] for end in (other.low, other.high)]
-        placed.append(_dimension(span, x, 1.0, _free_height(span, passing, floor, ceiling)))
+        placed.append(_place_dimension(span, x, 1.0, _find_free_height(span, passing, floor, ceiling)))
         x += _LABEL_GAP + span.label.width + _COLUMN_GAP
     return tuple(placed)
 
 
-def _free_height(span: DimensionSpan, passing: Sequence[float], floor: float, ceiling: float) -> float:
+def _find_free_height(span: DimensionSpan, passing: Sequence[float], floor: float, ceiling: float) -> float:
     """Return the height nearest to the middle of the span at which nothing passes its label."""
     half = span.label.height / 2 + _PASSING_GAP
     beside = [end + side * half for end in passing for side in (-1.0, 1.0)]
@@ -141,7 +141,7 @@ def _free_height(span: DimensionSpan, passing: Sequence[float], floor: float, ce
     return min(free, key=lambda height: abs(height - span.middle), default=span.middle)
 
 
-def beside_targets(
+def place_beside_targets(
     spans: Sequence[DimensionSpan], region: Box, marks: FloatArray, lines: FloatArray
 ) -> tuple[DrawnDimension, ...]:
     """Return the dimensions beside their targets, where they cover least and never one another.
@@ -152,13 +152,13 @@ def beside_targets(
     placed: list[DrawnDimension] = []
     for span in sorted(spans, key=lambda span: -span.length):
         taken = [box for other in placed for box in other.boxes]
-        best = _cheapest(_candidates(span), region, taken, marks, lines)
-        covered = counts([best.label.box], marks) + counts([best.label.box], lines)
+        best = _choose_cheapest(_list_candidates(span), region, taken, marks, lines)
+        covered = count_points([best.label.box], marks) + count_points([best.label.box], lines)
         placed.append(replace(best, is_among_lines=any(covered)))
     return tuple(placed)
 
 
-def _candidates(span: DimensionSpan) -> list[DrawnDimension]:
+def _list_candidates(span: DimensionSpan) -> list[DrawnDimension]:
     half = span.label.height / 2
     heights = (
         span.middle,
@@ -168,12 +168,12 @@ def _candidates(span: DimensionSpan) -> list[DrawnDimension]:
         span.low - half - span.tail,
     )
     return [
-        _dimension(span, span.low_from + side * offset, side, height)
+        _place_dimension(span, span.low_from + side * offset, side, height)
         for offset, side, height in itertools.product(_OFFSETS, (1.0, -1.0), heights)
     ]
 
 
-def _cheapest(
+def _choose_cheapest(
     candidates: Sequence[DrawnDimension],
     region: Box,
     taken: Sequence[Box],
@@ -183,16 +183,19 @@ def _cheapest(
     boxes = [one.boxes for one in candidates]
     line_boxes, label_boxes = zip(*boxes, strict=True)
     covered = zip(
-        counts(label_boxes, lines), counts(label_boxes, marks), counts(line_boxes, marks), strict=True
+        count_points(label_boxes, lines),
+        count_points(label_boxes, marks),
+        count_points(line_boxes, marks),
+        strict=True,
     )
     costs = [
-        _cost(one, region, taken, on_lines, label_on_marks + line_on_marks)
+        _weigh_cost(one, region, taken, on_lines, label_on_marks + line_on_marks)
         for one, (on_lines, label_on_marks, line_on_marks) in zip(candidates, covered, strict=True)
     ]
     return candidates[costs.index(min(costs))]
 
 
-def _cost(
+def _weigh_cost(
     dimension: DrawnDimension, region: Box, taken: Sequence[Box], on_lines: int, on_marks: int
 ) -> float:
     line, label = dimension.boxes

@@ -15,10 +15,10 @@ from zlmreport.document.figures.layout import (
     TICK_LENGTH,
     TICK_LINE,
     FigureLayout,
-    figure_size,
     lay_out,
+    measure_figure,
 )
-from zlmreport.document.figures.metrics import plain_label, symbol_label
+from zlmreport.document.figures.metrics import make_plain_label, make_symbol_label
 from zlmreport.document.figures.panel_layout import (
     LEGEND_GAP,
     LINE_SAMPLE,
@@ -28,11 +28,11 @@ from zlmreport.document.figures.panel_layout import (
 )
 from zlmreport.document.figures.polar import (
     PolarGrid,
-    direction_marks,
-    grid_labels,
-    grid_shapes,
-    on_circle,
-    sense_shapes,
+    draw_direction_marks,
+    draw_polar_grid,
+    draw_senses,
+    place_grid_labels,
+    place_on_circle,
 )
 from zlmreport.document.figures.shapes import (
     BAR,
@@ -60,11 +60,11 @@ from zlmreport.document.figures.shapes import (
     PointShape,
     RoleStyle,
     Shape,
-    area,
-    lines,
+    join_lines,
+    outline_area,
 )
 from zlmreport.language import Language
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 
 #: Least distance between two marks of a curve that has very many targets.
@@ -85,81 +85,81 @@ _HALF_SWATCH = 3.25
 _QUARTER = 4 / 3 * (math.sqrt(2) - 1)
 
 
-def sketch(layout: FigureLayout) -> Iterator[Shape]:
+def draw_figure_shapes(layout: FigureLayout) -> Iterator[Shape]:
     """Yield everything that a figure is made of."""
     for panel in layout.panels:
-        yield from legend_shapes(panel)
+        yield from draw_legend(panel)
         is_lowest = panel.frame.box.bottom == layout.panels[-1].frame.box.bottom
-        yield from panel_shapes(panel, is_lowest=is_lowest)
+        yield from draw_panel(panel, is_lowest=is_lowest)
     for title in layout.titles:
         yield Lettering("title", title, INK)
 
 
-def panel_shapes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
+def draw_panel(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
     """Return the shapes of a panel; only below the lowest panel the positions are written."""
     if layout.grid is not None:
-        return _about_a_circle(layout, layout.grid)
-    return _of_a_body(layout) if layout.panel.is_wire else _over_positions(layout, is_lowest=is_lowest)
+        return _draw_about_a_circle(layout, layout.grid)
+    return _draw_body(layout) if layout.panel.is_wire else _draw_over_positions(layout, is_lowest=is_lowest)
 
 
-def _over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
+def _draw_over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
     """Return the shapes of a panel with axes."""
     frame, panel = layout.frame, layout.panel
 
-    yield from _grid(frame)
-    yield from _bars(layout)
+    yield from _draw_grid(frame)
+    yield from _draw_bars(layout)
     for band in panel.bands:
-        yield from _band(band, frame)
+        yield from _draw_band(band, frame)
     for readings in panel.readings:
         points = np.column_stack([readings.x, readings.y])
-        yield reading_marks("reading", readings, points, frame)
+        yield place_reading_marks("reading", readings, points, frame)
     for level, height, _ in layout.levels:
         line = [(frame.box.left, height), (frame.box.right, height)]
-        yield lines("level", [line], ROLES[level.role].stroke)
-    yield from _extensions(layout)
+        yield join_lines("level", [line], ROLES[level.role].stroke)
+    yield from _draw_extensions(layout)
     for curve in panel.curves:
-        yield from _curve(curve, frame)
-    yield from _axes(layout, is_lowest=is_lowest)
+        yield from _draw_curve(curve, frame)
+    yield from _draw_axes(layout, is_lowest=is_lowest)
     for value in layout.bar_values:
-        yield _ground(value)
+        yield _draw_ground(value)
         yield Lettering("bar", value, INK)
     for kind, dimensions in (("arrow", layout.arrows), ("bracket", layout.brackets)):
         for dimension in dimensions:
-            yield from _dimension(kind, dimension)
+            yield from _draw_dimension(kind, dimension)
     for label in (each for level, _, each in layout.levels if level.notation):
-        yield _ground(label)
+        yield _draw_ground(label)
         yield Lettering("level", label, INK)
 
 
-def _about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape]:
+def _draw_about_a_circle(layout: PanelLayout, grid: PolarGrid) -> Iterator[Shape]:
     """Return the shapes of a polar panel."""
-    frame, panel = layout.frame, on_circle(layout.panel, grid)
-    yield from grid_shapes(layout.panel, grid, frame)
+    frame, panel = layout.frame, place_on_circle(layout.panel, grid)
+    yield from draw_polar_grid(layout.panel, grid, frame)
     for readings in panel.readings:
         points = np.column_stack([readings.x, readings.y])
-        yield reading_marks("reading", readings, points, frame)
+        yield place_reading_marks("reading", readings, points, frame)
     for curve in panel.curves:
         points = np.column_stack([curve.x, curve.y])
         yield Outline(f"curve {curve.role.name.lower()}", (points,), ROLES[curve.role].stroke, frame=frame)
-    yield from direction_marks(panel, grid, frame)
-    yield from sense_shapes(panel, frame)
-    for letters in grid_labels(panel, grid, frame):
-        yield _ground(letters.placed)
+    yield from draw_direction_marks(panel, grid, frame)
+    yield from draw_senses(panel, frame)
+    for letters in place_grid_labels(panel, grid, frame):
+        yield _draw_ground(letters.placed)
         yield letters
 
 
-def _of_a_body(layout: PanelLayout) -> Iterator[Shape]:
+def _draw_body(layout: PanelLayout) -> Iterator[Shape]:
     """Return the shapes of a wire picture."""
     for curve in layout.panel.curves:
         points = np.column_stack([curve.x, curve.y])
         stroke = ROLES[curve.role].stroke
         yield Outline(f"curve {curve.role.name.lower()}", (points,), stroke, frame=layout.frame)
     for note in layout.notes:
-        yield _ground(note)
+        yield _draw_ground(note)
         yield Lettering("note", note, INK)
 
 
-def curve_marks(
+def place_curve_marks(
     kind: str, style: RoleStyle, points: FloatArray, frame: Frame | None = None
 ) -> Iterator[PointMarks]:
     """Return the marks of a curve, where its role has marks."""
@@ -168,7 +168,7 @@ def curve_marks(
         yield PointMarks(kind, points, style.mark, size, RIM, fill, frame)
 
 
-def reading_marks(
+def place_reading_marks(
     kind: str, readings: Readings, points: FloatArray, frame: Frame | None = None
 ) -> PointMarks:
     """Return the marks of single readings."""
@@ -176,82 +176,82 @@ def reading_marks(
     return PointMarks(kind, points, mark, READING_SIZE, stroke, frame=frame)
 
 
-def _grid(frame: Frame) -> Iterator[Shape]:
+def _draw_grid(frame: Frame) -> Iterator[Shape]:
     box = frame.box
     across = [[(box.left, y), (box.right, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
     along = [[(x, box.bottom), (x, box.top)] for x in map(frame.x_point, frame.x_scale.ticks)]
-    yield lines("grid", across + along, GRID)
+    yield join_lines("grid", across + along, GRID)
     if frame.y_scale.lower <= 0 <= frame.y_scale.upper:
         zero = frame.y_point(0.0)
-        yield lines("zero", [[(box.left, zero), (box.right, zero)]], ZERO)
+        yield join_lines("zero", [[(box.left, zero), (box.right, zero)]], ZERO)
 
 
-def _axes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
+def _draw_axes(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Shape]:
     frame, box = layout.frame, layout.frame.box
     notations = [bar.label.in_language(Language.ENGLISH) for bar in layout.panel.bars if bar.is_symbol]
-    symbols = {plain(each): each for each in notations}
-    yield lines("frame", [[(box.left, box.top), (box.left, box.bottom), (box.right, box.bottom)]], FRAME)
+    symbols = {write_plain(each): each for each in notations}
+    yield join_lines("frame", [[(box.left, box.top), (box.left, box.bottom), (box.right, box.bottom)]], FRAME)
     ticks = [[(box.left - TICK_LENGTH, y), (box.left, y)] for y in map(frame.y_point, frame.y_scale.ticks)]
     for positions, length in ((frame.x_scale.ticks, TICK_LENGTH), (frame.x_scale.marks, TICK_LENGTH / 2)):
         ticks += [[(x, box.bottom - length), (x, box.bottom)] for x in map(frame.x_point, positions)]
-    yield lines("tick", ticks, TICK)
+    yield join_lines("tick", ticks, TICK)
     right = box.left - TICK_LENGTH - TICK_GAP
     for value, text in zip(frame.y_scale.ticks, frame.y_scale.labels, strict=True):
-        label = plain_label(text, TICK_TEXT_SIZE)
+        label = make_plain_label(text, TICK_TEXT_SIZE)
         place = PlacedLabel(label, right - label.width, frame.y_point(value) - label.rise)
         yield Lettering("tick y", place, INK)
     if is_lowest:
         top = box.bottom - TICK_LENGTH - TICK_GAP
         for value, text in zip(frame.x_scale.ticks, frame.x_scale.labels, strict=True):
             for line, part in enumerate(text.split("\n")):
-                setting = symbol_label if part in symbols else plain_label
+                setting = make_symbol_label if part in symbols else make_plain_label
                 label = setting(symbols.get(part, part), TICK_TEXT_SIZE)
                 middle = frame.x_point(value)
                 place = PlacedLabel(label, middle - label.width / 2, top - 2 * label.rise - line * TICK_LINE)
                 yield Lettering("tick x", place, INK)
 
 
-def _bars(layout: PanelLayout) -> Iterator[Shape]:
+def _draw_bars(layout: PanelLayout) -> Iterator[Shape]:
     """Return the bars, which grow from zero."""
     frame = layout.frame
     for number, bar in enumerate(layout.panel.bars):
-        left, right = _ends(frame, number, _HALF_BAR)
+        left, right = _find_ends(frame, number, _HALF_BAR)
         bottom, top = sorted((frame.y_point(0.0), frame.y_point(bar.y)))
-        yield area("bar", Box(left, bottom, right, top).corners, *BAR)
+        yield outline_area("bar", Box(left, bottom, right, top).corners, *BAR)
         if bar.accepted is not None:
             height = frame.y_point(bar.accepted)
-            ends = [(end, height) for end in _ends(frame, number, _HALF_ACCEPTED)]
-            yield lines("accepted", [ends], ROLES[Role.BAND_LIMIT].stroke)
+            ends = [(end, height) for end in _find_ends(frame, number, _HALF_ACCEPTED)]
+            yield join_lines("accepted", [ends], ROLES[Role.BAND_LIMIT].stroke)
         if bar.uncertainty:
-            yield _whisker(frame, number, bar)
+            yield _draw_whisker(frame, number, bar)
 
 
-def _ends(frame: Frame, number: int, half: float) -> tuple[float, float]:
+def _find_ends(frame: Frame, number: int, half: float) -> tuple[float, float]:
     """Return where something begins and ends that is centred on a bar, `half` in distances of bars."""
     middle, reach = frame.x_point(number), half * min(frame.x_factor, _WIDEST_DISTANCE)
     return middle - reach, middle + reach
 
 
-def _whisker(frame: Frame, number: int, bar: Bar) -> Outline:
+def _draw_whisker(frame: Frame, number: int, bar: Bar) -> Outline:
     low, high = (frame.y_point(bar.y + side * bar.uncertainty) for side in (-1, 1))
     middle = frame.x_point(number)
-    left, right = _ends(frame, number, _HALF_WHISKER)
+    left, right = _find_ends(frame, number, _HALF_WHISKER)
     across = [[(left, height), (right, height)] for height in (low, high)]
-    return lines("whisker", [[(middle, low), (middle, high)], *across], DIMENSION)
+    return join_lines("whisker", [[(middle, low), (middle, high)], *across], DIMENSION)
 
 
-def _curve(curve: Curve, frame: Frame) -> Iterator[Shape]:
+def _draw_curve(curve: Curve, frame: Frame) -> Iterator[Shape]:
     style = ROLES[curve.role]
     role = curve.role.name.lower()
     points = np.column_stack([curve.x, curve.y])
     yield Outline(f"curve {role}", (points,), style.stroke, frame=frame)
-    shown = _spaced(points, _MARK_DISTANCE / frame.x_factor)
-    yield from curve_marks(f"mark {role}", style, points[shown], frame)
+    shown = _select_spaced(points, _MARK_DISTANCE / frame.x_factor)
+    yield from place_curve_marks(f"mark {role}", style, points[shown], frame)
     if style.mark is None:
-        yield from _lone_values(f"curve {role}", curve.x, curve.y, frame, style.stroke)
+        yield from _draw_lone_values(f"curve {role}", curve.x, curve.y, frame, style.stroke)
 
 
-def _spaced(points: FloatArray, distance: float) -> BoolArray:
+def _select_spaced(points: FloatArray, distance: float) -> BoolArray:
     """Return which points of a curve get a mark: all that are far enough from the marked one before."""
     shown = np.zeros(len(points), dtype=np.bool_)
     last = -np.inf
@@ -262,17 +262,19 @@ def _spaced(points: FloatArray, distance: float) -> BoolArray:
     return shown
 
 
-def _lone_values(kind: str, x: FloatArray, y: FloatArray, frame: Frame, stroke: Stroke) -> Iterator[Shape]:
+def _draw_lone_values(
+    kind: str, x: FloatArray, y: FloatArray, frame: Frame, stroke: Stroke
+) -> Iterator[Shape]:
     """Return short dashes for values between gaps, to which no line leads."""
     finite = np.concatenate([[False], np.isfinite(x) & np.isfinite(y), [False]])
     lone = finite[1:-1] & ~finite[:-2] & ~finite[2:]
     if lone.any():
         places = frame.points(x[lone], y[lone]).tolist()
         dashes = [[(left - _LONE_DASH, height), (left + _LONE_DASH, height)] for left, height in places]
-        yield lines(kind, dashes, Stroke(stroke.colour, stroke.width))
+        yield join_lines(kind, dashes, Stroke(stroke.colour, stroke.width))
 
 
-def _band(band: Band, frame: Frame) -> Iterator[Shape]:
+def _draw_band(band: Band, frame: Frame) -> Iterator[Shape]:
     style = ROLES[band.role]
     role = band.role.name.lower()
     exists = np.isfinite(band.x) & np.isfinite(band.lower) & np.isfinite(band.upper)
@@ -283,10 +285,10 @@ def _band(band: Band, frame: Frame) -> Iterator[Shape]:
             yield Outline(f"band {role}", (np.column_stack([x, y]),), None, style.tint, frame=frame)
     for limit in (band.lower, band.upper):
         yield Outline(f"limit {role}", (np.column_stack([band.x, limit]),), style.stroke, frame=frame)
-        yield from _lone_values(f"limit {role}", band.x, limit, frame, style.stroke)
+        yield from _draw_lone_values(f"limit {role}", band.x, limit, frame, style.stroke)
 
 
-def _extensions(layout: PanelLayout) -> Iterator[Shape]:
+def _draw_extensions(layout: PanelLayout) -> Iterator[Shape]:
     parts = []
     for dimension in (*layout.arrows, *layout.brackets):
         span = dimension.span
@@ -294,35 +296,35 @@ def _extensions(layout: PanelLayout) -> Iterator[Shape]:
             side = 1.0 if dimension.x > start else -1.0
             parts.append([(start + side * GAP, height), (dimension.x + side * OVERSHOOT, height)])
     if parts:
-        yield lines("extension", parts, EXTENSION)
+        yield join_lines("extension", parts, EXTENSION)
 
 
-def _dimension(kind: str, dimension: DrawnDimension) -> Iterator[Shape]:
+def _draw_dimension(kind: str, dimension: DrawnDimension) -> Iterator[Shape]:
     span, x = dimension.span, dimension.x
     if span.length > 0:
-        yield lines(kind, [[(x, span.low - span.tail), (x, span.high + span.tail)]], DIMENSION)
+        yield join_lines(kind, [[(x, span.low - span.tail), (x, span.high + span.tail)]], DIMENSION)
         outwards = -1.0 if span.tail else 1.0
-        heads = (_head(x, span.low, -outwards), _head(x, span.high, outwards))
+        heads = (_draw_head(x, span.low, -outwards), _draw_head(x, span.high, outwards))
         yield Outline(f"{kind} head", heads, None, Fill(INK), is_closed=True)
     else:
         half = 2 * HEAD_HALF_WIDTH
-        yield lines(kind, [[(x - half, span.low), (x + half, span.low)]], DIMENSION)
+        yield join_lines(kind, [[(x - half, span.low), (x + half, span.low)]], DIMENSION)
     if dimension.is_among_lines:
-        yield _ground(dimension.label)
+        yield _draw_ground(dimension.label)
     yield Lettering(kind, dimension.label, INK)
 
 
-def _head(x: float, tip: float, direction: float) -> FloatArray:
+def _draw_head(x: float, tip: float, direction: float) -> FloatArray:
     base = tip - direction * HEAD
     return np.array([(x, tip), (x - HEAD_HALF_WIDTH, base), (x + HEAD_HALF_WIDTH, base), (x, tip)])
 
 
-def _ground(label: PlacedLabel) -> Outline:
+def _draw_ground(label: PlacedLabel) -> Outline:
     """Return what lets lines fade behind a label."""
-    return area("ground", label.box.corners, None, GROUND)
+    return outline_area("ground", label.box.corners, None, GROUND)
 
 
-def legend_shapes(layout: PanelLayout) -> Iterator[Shape]:
+def draw_legend(layout: PanelLayout) -> Iterator[Shape]:
     """Return the shapes of the heading and the legend above a panel."""
     left, base = layout.frame.box.left, layout.frame.box.top + LEGEND_GAP
     heading = layout.legend.heading
@@ -340,25 +342,25 @@ def _sample(entry: LegendEntry, x: float, y: float, *, with_mark: bool) -> Itera
     if isinstance(explained, tuple):
         for number, readings in enumerate(explained):
             place = np.array([(x + (number + 0.5) * MARK_SAMPLE, y)])
-            yield reading_marks("legend", readings, place)
+            yield place_reading_marks("legend", readings, place)
         return
     style = ROLES[explained.role]
     if isinstance(explained, Band):
         box = Box(x, y - _HALF_SWATCH, x + LINE_SAMPLE, y + _HALF_SWATCH)
         lower_left, lower_right, upper_right, upper_left, _ = box.corners
-        yield area("legend", box.corners, None, style.tint)
-        yield lines("legend", [[lower_left, lower_right], [upper_left, upper_right]], style.stroke)
+        yield outline_area("legend", box.corners, None, style.tint)
+        yield join_lines("legend", [[lower_left, lower_right], [upper_left, upper_right]], style.stroke)
     else:
-        yield lines("legend", [[(x, y), (x + LINE_SAMPLE, y)]], style.stroke)
+        yield join_lines("legend", [[(x, y), (x + LINE_SAMPLE, y)]], style.stroke)
         if with_mark:
-            yield from curve_marks("legend", style, np.array([(x + LINE_SAMPLE / 2, y)]))
+            yield from place_curve_marks("legend", style, np.array([(x + LINE_SAMPLE / 2, y)]))
 
 
 def draw(figure: Figure, language: Language, canvas: Canvas) -> None:
     """Draw a figure on a canvas of its size."""
     layout = lay_out(figure, language)
     pen = _Pen(canvas, layout.height)
-    for shape in sketch(layout):
+    for shape in draw_figure_shapes(layout):
         match shape:
             case Outline():
                 pen.outline(shape)
@@ -373,7 +375,7 @@ def to_svg(figure: Figure, language: Language) -> str:
 
     The image names the typeface and does not carry it: set it into a page that has it.
     """
-    canvas = SvgCanvas(*figure_size(figure), figure.alternative.in_language(language))
+    canvas = SvgCanvas(*measure_figure(figure), figure.alternative.in_language(language))
     draw(figure, language, canvas)
     return canvas.image()
 
@@ -393,10 +395,10 @@ class _Pen:
         for part in outline.parts:
             end = begin + len(part)
             if outline.is_closed:
-                segments += _line(places[begin : end - 1])
+                segments += _draw_line(places[begin : end - 1])
                 segments.append(("Z", ()))
             else:
-                segments += _line(places[begin:end])
+                segments += _draw_line(places[begin:end])
             begin = end
         if segments:
             self._canvas.outline(outline.kind, segments, outline.stroke, outline.fill)
@@ -440,7 +442,7 @@ class _Pen:
         return points * (1.0, -1.0) + (0.0, self._height)
 
 
-def _line(places: Sequence[Sequence[float]]) -> Iterator[Segment]:
+def _draw_line(places: Sequence[Sequence[float]]) -> Iterator[Segment]:
     """Yield a line from place to place; it is broken where a place does not exist."""
     operator = "M"
     for x, y in places:
@@ -451,13 +453,13 @@ def _line(places: Sequence[Sequence[float]]) -> Iterator[Segment]:
             operator = "M"
 
 
-def _triangle(direction: float) -> list[Segment]:
+def _draw_triangle(direction: float) -> list[Segment]:
     half = TRIANGLE_HALF_WIDTH
     base, tip = -0.5 * direction, 0.5 * direction
     return [("M", (-half, base)), ("L", (half, base)), ("L", (0.0, tip)), ("Z", ())]
 
 
-def _circle() -> list[Segment]:
+def _draw_circle() -> list[Segment]:
     """Return a circle of diameter 1 as four curves, anticlockwise from its right."""
     turn, quarter = np.array([(0.0, 1.0), (-1.0, 0.0)]), [(1.0, _QUARTER), (_QUARTER, 1.0), (0.0, 1.0)]
     curves: list[Segment] = []
@@ -468,4 +470,8 @@ def _circle() -> list[Segment]:
     return [("M", (0.5, 0.0)), *curves, ("Z", ())]
 
 
-_SHAPES = {PointShape.UP: _triangle(1.0), PointShape.DOWN: _triangle(-1.0), PointShape.DISC: _circle()}
+_SHAPES = {
+    PointShape.UP: _draw_triangle(1.0),
+    PointShape.DOWN: _draw_triangle(-1.0),
+    PointShape.DISC: _draw_circle(),
+}

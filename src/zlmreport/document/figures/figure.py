@@ -12,7 +12,7 @@ from enum import Enum
 from typing import Literal
 
 from zlmreport.language import Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 
@@ -254,7 +254,7 @@ class Figure:
             drawn += [arrow.notation for arrow in panel.arrows]
             drawn += [bracket.notation for bracket in panel.brackets]
             drawn += [level.notation for level in panel.levels]
-        return tuple(dict.fromkeys(each for each in drawn if len(plain(each)) > 1))
+        return tuple(dict.fromkeys(each for each in drawn if len(write_plain(each)) > 1))
 
     @property
     def has_several_quantities(self) -> bool:

@@ -11,21 +11,26 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.document.figures.figure import Figure, Panel
-from zlmreport.document.figures.metrics import plain_label
+from zlmreport.document.figures.metrics import make_plain_label
 from zlmreport.document.figures.panel_layout import (
     LEGEND_GAP,
     LegendLayout,
     PanelLayout,
-    bracket_width,
     lay_out_legend,
     lay_out_panel,
-    level_width,
+    measure_brackets,
+    measure_levels,
 )
 from zlmreport.document.figures.polar import BESIDE_CIRCLE
-from zlmreport.document.figures.scale import AxisScale, category_scale, position_scale, value_scales
+from zlmreport.document.figures.scale import (
+    AxisScale,
+    make_category_scale,
+    make_position_scale,
+    make_value_scales,
+)
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Box, Frame, PlacedLabel
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import ARCSECOND, DEGREE
 
@@ -71,16 +76,16 @@ class FigureLayout:
 _NAMED_SIGNS = {each.symbol: f"{each.symbol} ({each.ascii})" for each in (DEGREE, ARCSECOND)}
 
 
-def figure_size(figure: Figure) -> tuple[float, float]:
+def measure_figure(figure: Figure) -> tuple[float, float]:
     """Return width and height of a figure in points; they depend on nothing but its panels and bars."""
     if figure.height is not None:
         return WIDTH, figure.height * _MILLIMETRE
     if figure.is_wide and any(panel.is_polar for panel in figure.panels):
         return WIDTH, WIDTH / len(figure.panels) + _HEIGHT_BESIDES / 2
-    return WIDTH, _HEIGHT_BESIDES + sum(map(_height_of, figure.panels))
+    return WIDTH, _HEIGHT_BESIDES + sum(map(_measure_height, figure.panels))
 
 
-def _height_of(panel: Panel) -> float:
+def _measure_height(panel: Panel) -> float:
     if panel.is_polar:
         return _HEIGHT_OF_CIRCLE
     if panel.is_wire:
@@ -90,7 +95,7 @@ def _height_of(panel: Panel) -> float:
 
 def lay_out(figure: Figure, language: Language) -> FigureLayout:
     """Return the places of everything in a figure."""
-    _, height = figure_size(figure)
+    _, height = measure_figure(figure)
     is_round = bool(figure.panels) and all(panel.is_polar for panel in figure.panels)
     bottom = _EDGE + 1.35 * TEXT_SIZE
     if not is_round:  # its angles stand inside of the frame, and it has no ticks
@@ -99,49 +104,49 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     rows = max(1, len(figure.panels) // max(1, columns))
     # The width of the values' labels is the left margin, and the legend's rows follow from it; so the
     # values come first, for the height that a legend of one row leaves.
-    y_scales = _y_scales(figure, language, (height - bottom) / rows - _ABOUT_LEGEND)
-    widest = max((_tick_width(text) for scale in y_scales for text in scale.labels), default=0.0)
+    y_scales = _make_y_scales(figure, language, (height - bottom) / rows - _ABOUT_LEGEND)
+    widest = max((_measure_ticks(text) for scale in y_scales for text in scale.labels), default=0.0)
     left = _EDGE + BESIDE_CIRCLE
     if not is_round:
         left = _EDGE + TEXT_SIZE + _TITLE_GAP + widest + TICK_GAP + TICK_LENGTH
-    levels = max(map(level_width, figure.panels), default=0.0)
-    brackets = max(map(bracket_width, figure.panels), default=0.0)
+    levels = max(map(measure_levels, figure.panels), default=0.0)
+    brackets = max(map(measure_brackets, figure.panels), default=0.0)
     room = (WIDTH + _PANEL_GAP) / max(1, columns) - _PANEL_GAP
     right = room - (left if is_round else _EDGE + max(levels + brackets, _LEAST_MARGIN))
-    x_scale = _x_scale(figure, language, right - left)
+    x_scale = _make_x_scale(figure, language, right - left)
     bottom += TICK_LINE if any("\n" in label for label in x_scale.labels) else 0.0
     legends = [lay_out_legend(panel, language, room - _EDGE - left) for panel in figure.panels]
     if figure.is_wide:
-        boxes = _boxes_in_a_row(Box(left, bottom, right, height), room + _PANEL_GAP, legends)
+        boxes = _place_boxes_in_a_row(Box(left, bottom, right, height), room + _PANEL_GAP, legends)
     else:
-        boxes = _boxes(left, bottom, right, height, legends)
+        boxes = _place_boxes(left, bottom, right, height, legends)
     panels = tuple(
         lay_out_panel(panel, Frame(box, x_scale, y_scale), legend, levels, language)
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
     right = boxes[-1].right if boxes else right
     if is_round:
-        told = plain_label(_magnified(figure, panels, language), TEXT_SIZE)
+        told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
         alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
         return FigureLayout(WIDTH, height, panels, (alone,))
     is_bare = bool(figure.panels) and all(panel.is_wire for panel in figure.panels)
     along = (
         figure.x_title.in_language(language)
         if is_bare
-        else axis_title(figure.x_title, figure.x_unit, language)
+        else write_axis_title(figure.x_title, figure.x_unit, language)
     )
-    x_title = plain_label(along, TEXT_SIZE)
+    x_title = make_plain_label(along, TEXT_SIZE)
     below = PlacedLabel(x_title, (left + right - x_title.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
     if is_bare:
         return FigureLayout(WIDTH, height, panels, (below,))
     titles = (
         below,
-        *_value_titles(figure, boxes, language, Box(left, bottom, right, height)),
+        *_place_value_titles(figure, boxes, language, Box(left, bottom, right, height)),
     )
     return FigureLayout(WIDTH, height, panels, titles)
 
 
-def _value_titles(
+def _place_value_titles(
     figure: Figure, boxes: Sequence[Box], language: Language, room: Box
 ) -> Iterator[PlacedLabel]:
     """Yield what stands at the upright axes: once for all panels, or at each where their quantities differ.
@@ -154,7 +159,7 @@ def _value_titles(
         top = boxes[0].top if boxes else room.top
         axes = [((figure.y_title, figure.y_unit), Box(room.left, room.bottom, room.right, top))]
     for (quantity, unit), box in axes:
-        label = plain_label(axis_title(quantity, unit, language), TEXT_SIZE)
+        label = make_plain_label(write_axis_title(quantity, unit, language), TEXT_SIZE)
         middle = (box.bottom + box.top - label.width) / 2
         foot = max(_EDGE, min(middle, room.top - _EDGE - label.width))
         yield PlacedLabel(label, box.left - room.left + _EDGE + 0.8 * TEXT_SIZE, foot, 90.0)
@@ -163,12 +168,12 @@ def _value_titles(
 _DIVISION = Words("{title}: from circle to circle {division} {unit}")
 
 
-def _magnified(figure: Figure, panels: Sequence[PanelLayout], language: Language) -> str:
+def _say_magnification(figure: Figure, panels: Sequence[PanelLayout], language: Language) -> str:
     """Return what stands below circles: what their distances are, and of how much."""
     divisions = {each.grid.division for each in panels if each.grid}
     title, unit = figure.y_title, figure.y_unit
     if len(divisions) != 1:
-        return axis_title(title, unit, language)
+        return write_axis_title(title, unit, language)
     words = _DIVISION.given(title=title, division=float(divisions.pop()), unit=unit)
     return words.in_language(language)
 
@@ -182,23 +187,27 @@ def lay_out_alone(
     """
     panel = figure.panels[number]
     legend = lay_out_legend(panel, language, width)
-    levels = level_width(panel)
-    right = max(width - levels - bracket_width(panel), _LEAST_FRAME)
+    levels = measure_levels(panel)
+    right = max(width - levels - measure_brackets(panel), _LEAST_FRAME)
     top = max(height - legend.height - LEGEND_GAP, _LEAST_FRAME)
     frame = Frame(
-        Box(0.0, 0.0, right, top), _x_scale(figure, language, right), _y_scales(figure, language, top)[number]
+        Box(0.0, 0.0, right, top),
+        _make_x_scale(figure, language, right),
+        _make_y_scales(figure, language, top)[number],
     )
     return lay_out_panel(panel, frame, legend, levels, language)
 
 
-def axis_title(quantity: Words, unit: str, language: Language) -> str:
+def write_axis_title(quantity: Words, unit: str, language: Language) -> str:
     """Return what stands at an axis; a unit that is but a small sign has its name, too."""
     text = quantity.in_language(language)
     unit = _NAMED_SIGNS.get(unit, unit)
     return f"{text} in {unit}" if unit else text
 
 
-def _boxes(left: float, bottom: float, right: float, top: float, legends: list[LegendLayout]) -> list[Box]:
+def _place_boxes(
+    left: float, bottom: float, right: float, top: float, legends: list[LegendLayout]
+) -> list[Box]:
     """Return the frames' places: alike in height, each below its legend."""
     taken = sum(legend.height + LEGEND_GAP + _PANEL_GAP for legend in legends) - _PANEL_GAP
     height = (top - bottom - taken) / max(1, len(legends))
@@ -210,40 +219,40 @@ def _boxes(left: float, bottom: float, right: float, top: float, legends: list[L
     return boxes
 
 
-def _tick_width(text: str) -> float:
-    return plain_label(text, TICK_TEXT_SIZE).width
+def _measure_ticks(text: str) -> float:
+    return make_plain_label(text, TICK_TEXT_SIZE).width
 
 
-def _boxes_in_a_row(first: Box, distance: float, legends: list[LegendLayout]) -> list[Box]:
+def _place_boxes_in_a_row(first: Box, distance: float, legends: list[LegendLayout]) -> list[Box]:
     """Return the frames' places beside each other, alike in size, below the highest of the legends."""
     top = first.top - max((legend.height for legend in legends), default=0.0) - LEGEND_GAP
     shifts = (number * distance for number in range(len(legends)))
     return [Box(first.left + shift, first.bottom, first.right + shift, top) for shift in shifts]
 
 
-def _x_scale(figure: Figure, language: Language, width: float) -> AxisScale:
+def _make_x_scale(figure: Figure, language: Language, width: float) -> AxisScale:
     """Return the scale along the lower edge: of categories where there are bars, else of positions."""
     bars = [bar for panel in figure.panels for bar in panel.bars]
     labels = [bar.label.in_language(language) for bar in bars]
-    names = [plain(text) if bar.is_symbol else text for bar, text in zip(bars, labels, strict=True)]
+    names = [write_plain(text) if bar.is_symbol else text for bar, text in zip(bars, labels, strict=True)]
     if names:
-        return category_scale(names, width, _tick_width)
-    positions = _positions(figure.panels)
+        return make_category_scale(names, width, _measure_ticks)
+    positions = _collect_positions(figure.panels)
     shown = positions[np.isfinite(positions)]
     of_a_turn = figure.x_unit == DEGREE.symbol and shown.size > 0 and np.ptp(shown) >= _HALF_A_TURN
-    return position_scale(
-        positions, width, _POSITION_ROOM, language.decimal_sign, _tick_width, of_a_turn=bool(of_a_turn)
+    return make_position_scale(
+        positions, width, _POSITION_ROOM, language.decimal_sign, _measure_ticks, of_a_turn=bool(of_a_turn)
     )
 
 
-def _y_scales(figure: Figure, language: Language, height: float) -> tuple[AxisScale, ...]:
+def _make_y_scales(figure: Figure, language: Language, height: float) -> tuple[AxisScale, ...]:
     room = _VALUE_ROOM / (height - 2 * _VALUE_ROOM)
     most = int(height / _LEAST_TICK_DISTANCE)
-    values = [_values(panel) for panel in figure.panels]
-    return value_scales(values, room, most, language.decimal_sign, alike=figure.spans_are_alike)
+    values = [_collect_values(panel) for panel in figure.panels]
+    return make_value_scales(values, room, most, language.decimal_sign, alike=figure.spans_are_alike)
 
 
-def _positions(panels: Iterable[Panel]) -> FloatArray:
+def _collect_positions(panels: Iterable[Panel]) -> FloatArray:
     found: list[FloatArray] = []
     for panel in panels:
         found += [curve.x for curve in panel.curves]
@@ -251,10 +260,10 @@ def _positions(panels: Iterable[Panel]) -> FloatArray:
         found += [readings.x for readings in panel.readings]
         found.append(np.array([arrow.x for arrow in panel.arrows]))
         found.append(np.array([(bracket.low_at, bracket.high_at) for bracket in panel.brackets]))
-    return _joined(found)
+    return _join_arrays(found)
 
 
-def _values(panel: Panel) -> FloatArray:
+def _collect_values(panel: Panel) -> FloatArray:
     found = [curve.y for curve in panel.curves]
     found += [limit for band in panel.bands for limit in (band.lower, band.upper)]
     found += [readings.y for readings in panel.readings]
@@ -262,8 +271,8 @@ def _values(panel: Panel) -> FloatArray:
     found.append(np.array([(bracket.low, bracket.high) for bracket in panel.brackets]))
     found.append(np.array([level.y for level in panel.levels]))
     found.append(np.array([(0.0, bar.y + bar.uncertainty, bar.accepted or 0.0) for bar in panel.bars]))
-    return _joined(found)
+    return _join_arrays(found)
 
 
-def _joined(arrays: list[FloatArray]) -> FloatArray:
+def _join_arrays(arrays: list[FloatArray]) -> FloatArray:
     return np.concatenate([np.empty(0), *map(np.ravel, arrays)])

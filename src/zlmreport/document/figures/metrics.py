@@ -14,28 +14,28 @@ from unicodedata import normalize
 import uharfbuzz
 
 from zlmreport.document.figures.canvas import Label, Run, TypeFace
-from zlmreport.language.formatting import Span, spans
+from zlmreport.language.formatting import Span, split_spans
 
 
 @cache
-def font_file(face: TypeFace) -> Path:
+def find_font_file(face: TypeFace) -> Path:
     """Return the path of a face's file: fonts of the system are never used."""
     return Path(str(files("zlmreport_templates").joinpath("fonts", f"{face.value}.ttf")))
 
 
 @lru_cache(maxsize=4096)
-def advance(text: str, face: TypeFace) -> float:
+def measure_advance(text: str, face: TypeFace) -> float:
     """Return how far a text of size 1 moves the pen."""
-    glyphs = _shaped(normalize("NFC", text), face).glyph_positions or ()  # none of an empty text
+    glyphs = _shape_text(normalize("NFC", text), face).glyph_positions or ()  # none of an empty text
     units = sum(each.x_advance for each in glyphs)
-    return float(units / _font(face).face.upem)
+    return float(units / _load_font(face).face.upem)
 
 
 def mark_offset(letter: str, mark: str, face: TypeFace) -> tuple[float, float]:
     """Return how far right of a letter's pen, and above it, that of a mark on it stands, at size 1."""
-    of_letter, on_letter = _shaped(letter + mark, face).glyph_positions
-    _, unplaced = _shaped(letter + mark, face, mark=False).glyph_positions
-    em = _font(face).face.upem
+    of_letter, on_letter = _shape_text(letter + mark, face).glyph_positions
+    _, unplaced = _shape_text(letter + mark, face, mark=False).glyph_positions
+    em = _load_font(face).face.upem
     if (on_letter.x_offset, on_letter.y_offset) == (unplaced.x_offset, unplaced.y_offset):
         raise LookupError(f"no place for U+{ord(mark):04X} on {letter!r}")
     return (of_letter.x_advance + on_letter.x_offset) / em, on_letter.y_offset / em
@@ -43,21 +43,21 @@ def mark_offset(letter: str, mark: str, face: TypeFace) -> tuple[float, float]:
 
 def has_letter(letter: str, face: TypeFace) -> bool:
     """Return whether a face has a shape for a letter."""
-    return _font(face).get_nominal_glyph(ord(letter)) is not None
+    return _load_font(face).get_nominal_glyph(ord(letter)) is not None
 
 
 @cache
-def _font(face: TypeFace) -> Any:
-    return uharfbuzz.Font(uharfbuzz.Face(uharfbuzz.Blob.from_file_path(str(font_file(face)))))
+def _load_font(face: TypeFace) -> Any:
+    return uharfbuzz.Font(uharfbuzz.Face(uharfbuzz.Blob.from_file_path(str(find_font_file(face)))))
 
 
-def _shaped(text: str, face: TypeFace, **features: bool) -> Any:
+def _shape_text(text: str, face: TypeFace, **features: bool) -> Any:
     """Return the glyphs of a text in the order of the line: mixed directions have no place on a graph."""
     buffer = uharfbuzz.Buffer()
     buffer.add_str(text)
     buffer.direction, buffer.script, buffer.language = "ltr", "Latn", "en"
     # A mark stays a glyph of its own, as it is drawn.
-    uharfbuzz.shape(_font(face), buffer, {"ccmp": False, "locl": False, **features})
+    uharfbuzz.shape(_load_font(face), buffer, {"ccmp": False, "locl": False, **features})
     return buffer
 
 
@@ -66,20 +66,20 @@ _SUBSCRIPT_SIZE = 0.72
 _SUBSCRIPT_DROP = 0.2
 
 
-def plain_label(text: str, size: float, face: TypeFace = TypeFace.REGULAR) -> Label:
+def make_plain_label(text: str, size: float, face: TypeFace = TypeFace.REGULAR) -> Label:
     """Return a line of words or a number."""
-    return Label((Run(text, face, size, 0.0, 0.0),), size * advance(text, face), size)
+    return Label((Run(text, face, size, 0.0, 0.0),), size * measure_advance(text, face), size)
 
 
 @lru_cache(maxsize=1024)
-def symbol_label(notation: str, size: float) -> Label:
+def make_symbol_label(notation: str, size: float) -> Label:
     """Return a symbol or a formula as `zlmreport.language.formatting` writes it."""
     runs = []
     end = 0.0
-    for span in spans(notation):
+    for span in split_spans(notation):
         run = _run(span, size, end)
         runs.append(run)
-        end += run.size * advance(run.text, run.face)
+        end += run.size * measure_advance(run.text, run.face)
     return Label(tuple(runs), end, size)
 
 

@@ -14,9 +14,9 @@ from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, read_o
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
 from zlmreport.model.effects import wording
-from zlmreport.model.effects.design import Design, at_positions
+from zlmreport.model.effects.design import Design, place_at_positions
 from zlmreport.model.effects.effect import Shape
-from zlmreport.model.fitting.curve import curve_positions, shows_reach_only
+from zlmreport.model.fitting.curve import lay_curve_positions, shows_reach_only
 from zlmreport.model.fitting.fit import Fit
 
 MODEL = {Approach.POSITIVE: Role.MODEL_POSITIVE, Approach.NEGATIVE: Role.MODEL_NEGATIVE}
@@ -164,9 +164,9 @@ def estimate(diagram: ModelDiagram) -> Figure:
     curves, bands, sentences = [], [], []
     largest = 0.0
     for approach in diagram.approaches:
-        positions = curve_positions(fit, approach, diagram.span)
+        positions = lay_curve_positions(fit, approach, diagram.span)
         x = read_only_floats(axis.position_unit.from_si(positions))
-        found = fit.predict(at_positions(diagram.design, positions, approach))
+        found = fit.predict(place_at_positions(diagram.design, positions, approach))
         value, half = found.deviation, found.expanded_uncertainty
         arrow = approach.arrow
         curves.append(Curve(f"x̂{arrow}", MODEL[approach], x, diagram.printed(value)))

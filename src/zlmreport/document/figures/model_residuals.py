@@ -12,13 +12,13 @@ from zlmreport.document.figures.figure import Bar, Curve, Figure, Level, Panel, 
 from zlmreport.document.figures.model_diagram import MODEL, RESIDUAL_TITLE, ModelDiagram
 from zlmreport.document.figures.prescribed import MEANS, POSITION_TITLE, alternative_text
 from zlmreport.language import Language, Words, same
-from zlmreport.language.numbers import number_words, significant_words
+from zlmreport.language.numbers import number_words, write_significant
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
-from zlmreport.measurement.units import behind
+from zlmreport.measurement.units import write_behind
 from zlmreport.model.diagnosis.diagnosis import Candidate
 from zlmreport.model.diagnosis.study import Fitted
-from zlmreport.model.effects.effect import Dimension, unit_of
+from zlmreport.model.effects.effect import Dimension, find_unit_of
 
 #: Groups of readings that follow one another, through whose means a curve leads.
 _GROUPS = 12
@@ -42,7 +42,7 @@ _COUNTED = (
 )
 
 
-def over_position(diagram: ModelDiagram) -> Figure:
+def draw_over_position(diagram: ModelDiagram) -> Figure:
     """Return readings and model, and the residuals below, over the target position for each direction."""
     fit, x = diagram.fit, diagram.positions
     model, residual = [], []
@@ -75,7 +75,7 @@ def over_position(diagram: ModelDiagram) -> Figure:
     )
 
 
-def over_run(diagram: ModelDiagram) -> Figure:
+def draw_over_run(diagram: ModelDiagram) -> Figure:
     """Return the residuals over the number of the run, with the mean of each run and direction."""
     runs = diagram.design.run
     curves = [
@@ -86,19 +86,19 @@ def over_run(diagram: ModelDiagram) -> Figure:
         for chosen in (diagram.of(approach),)
         for residual in (diagram.fit.residual[chosen],)
     ]
-    panel = _panel(diagram, runs.astype(np.float64))
-    return _residuals(
+    panel = _make_panel(diagram, runs.astype(np.float64))
+    return _draw_residuals(
         diagram, "run", _RUN, "", Panel(curves=tuple(curves), readings=panel.readings, bands=panel.bands)
     )
 
 
-def over_time(diagram: ModelDiagram) -> Figure:
+def draw_over_time(diagram: ModelDiagram) -> Figure:
     """Return the residuals over time, or in their order where the source tells no times."""
-    time, quantity, unit = _time_of(diagram)
-    return _residuals(diagram, "time", quantity, unit, _panel(diagram, time))
+    time, quantity, unit = _choose_time(diagram)
+    return _draw_residuals(diagram, "time", quantity, unit, _make_panel(diagram, time))
 
 
-def _time_of(diagram: ModelDiagram) -> tuple[FloatArray, tuple[Words, Words], str]:
+def _choose_time(diagram: ModelDiagram) -> tuple[FloatArray, tuple[Words, Words], str]:
     design = diagram.design
     if design.time_is_counted:
         return 1.0 + design.time, _COUNTED, ""
@@ -106,14 +106,14 @@ def _time_of(diagram: ModelDiagram) -> tuple[FloatArray, tuple[Words, Words], st
     return design.time / _MINUTE if in_minutes else design.time, _TIME, "min" if in_minutes else "s"
 
 
-def slopes_over_time(diagram: ModelDiagram) -> Figure:
+def draw_slopes_over_time(diagram: ModelDiagram) -> Figure:
     """Return the slope over the position of what the model leaves of each pass, at the mean time of the pass.
 
     Whatever warms turns the straight line from pass to pass.
     """
     design, residual = diagram.design, diagram.fit.residual
-    time, (title, in_sentence), unit_of_time = _time_of(diagram)
-    slope = unit_of(Dimension.SLOPE, diagram.axis.kind)
+    time, (title, in_sentence), unit_of_time = _choose_time(diagram)
+    slope = find_unit_of(Dimension.SLOPE, diagram.axis.kind)
     curves = []
     for approach in diagram.approaches:
         passes = [(diagram.of(approach)) & (design.run == run) for run in np.unique(design.run)]
@@ -124,12 +124,14 @@ def slopes_over_time(diagram: ModelDiagram) -> Figure:
             Curve(f"b{approach.arrow}", MEANS[approach], read_only_floats(times), read_only_floats(slopes))
         )
     values = np.concatenate([each.y for each in curves])
-    ends = {"low": significant_words(values.min()), "high": significant_words(values.max())}
+    ends = {"low": write_significant(values.min()), "high": write_significant(values.max())}
     caption = _SLOPES.given(quantity=in_sentence)
     return Figure(
         key="slopes-time",
         title=caption,
-        alternative=alternative_text(_SLOPES_RANGE.given(caption=caption, unit=behind(slope.symbol), **ends)),
+        alternative=alternative_text(
+            _SLOPES_RANGE.given(caption=caption, unit=write_behind(slope.symbol), **ends)
+        ),
         x_title=title,
         y_title=_SLOPE,
         x_unit=unit_of_time,
@@ -138,7 +140,7 @@ def slopes_over_time(diagram: ModelDiagram) -> Figure:
     )
 
 
-def over_condition(diagram: ModelDiagram, condition: str) -> Figure:
+def draw_over_condition(diagram: ModelDiagram, condition: str) -> Figure:
     """Return the residuals over a condition that was logged beside the readings."""
     log = diagram.design.conditions[condition]
     name, unit = CONDITION_NAMES.get(condition, same(condition)), ""
@@ -146,7 +148,9 @@ def over_condition(diagram: ModelDiagram, condition: str) -> Figure:
         scale = CONDITIONS[condition].unit
         log, unit = scale.from_si(log), scale.symbol
     in_sentence = same(_InSentence(name))
-    return _residuals(diagram, condition.replace("_", "-"), (name, in_sentence), unit, _panel(diagram, log))
+    return _draw_residuals(
+        diagram, condition.replace("_", "-"), (name, in_sentence), unit, _make_panel(diagram, log)
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +164,7 @@ class _InSentence:
         return text if language is Language.GERMAN else text[:1].lower() + text[1:]
 
 
-def _residuals(
+def _draw_residuals(
     diagram: ModelDiagram, key: str, quantity: tuple[Words, Words], unit: str, panel: Panel
 ) -> Figure:
     title, in_sentence = quantity
@@ -176,10 +180,10 @@ def _residuals(
     )
 
 
-def _panel(diagram: ModelDiagram, x: FloatArray) -> Panel:
+def _make_panel(diagram: ModelDiagram, x: FloatArray) -> Panel:
     """Return the residuals over anything that changes from reading to reading."""
     residual = diagram.fit.residual
-    curve = diagram.means("ē", Role.MEAN_BIDIRECTIONAL, x, residual, _followers(x))
+    curve = diagram.means("ē", Role.MEAN_BIDIRECTIONAL, x, residual, _group_followers(x))
     return Panel(
         curves=(curve,),
         readings=diagram.readings(x, residual),
@@ -187,7 +191,7 @@ def _panel(diagram: ModelDiagram, x: FloatArray) -> Panel:
     )
 
 
-def _followers(x: FloatArray) -> IntArray:
+def _group_followers(x: FloatArray) -> IntArray:
     """Return groups of readings that follow one another: alike in number, like values together."""
     rank = np.unique(x, return_inverse=True)[1]
     share = np.searchsorted(np.sort(x), x, side="left") / len(x)
@@ -208,7 +212,7 @@ _X_TITLE = Words("Effects, one after another")
 _Y_TITLE = Words("Root mean square error", context="axis of a graph")
 
 
-def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:
+def draw_fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> Figure:
     """Return the fall chart of a model, from the readings without a model to the whole of it.
 
     `missing`: What the model lacks: a last bar shows the error with it.
@@ -219,18 +223,18 @@ def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> F
     errors = [*(each.error for each in history), *(each.error for each in further)]
     values = [unit.from_si(each.rms) for each in errors]
     noise = history[-1].error.noise_rms
-    decimals = _decimals(min(values))
+    decimals = _count_decimals(min(values))
     labels = [_WITHOUT, *(_ADDED.given(effect=name) for name in history[-1].fit.model.identifiers)]
     labels += [_WITH.given(effect=each.identifier) for each in further]
     bars = tuple(
         Bar(label, value, number_words(value, decimals)) for label, value in zip(labels, values, strict=True)
     )
-    sentences = [_BAR.given(label=bar.label, value=bar.value, unit=behind(unit.symbol)) for bar in bars]
+    sentences = [_BAR.given(label=bar.label, value=bar.value, unit=write_behind(unit.symbol)) for bar in bars]
     levels: tuple[Level, ...] = ()
     if noise is not None:
         levels = (Level("σ₀", Role.TOLERANCE, unit.from_si(noise)),)
         written = number_words(unit.from_si(noise), decimals)
-        sentences.append(_FLOOR.given(value=written, unit=behind(unit.symbol)))
+        sentences.append(_FLOOR.given(value=written, unit=write_behind(unit.symbol)))
     return Figure(
         key="fall",
         title=_TITLE,
@@ -243,6 +247,6 @@ def fall_chart(history: Sequence[Fitted], missing: Candidate | None = None) -> F
     )
 
 
-def _decimals(value: float) -> int:
+def _count_decimals(value: float) -> int:
     """Return the decimals that show two significant digits of a value."""
     return max(0, 1 - floor(log10(value))) if value > 0 else 2

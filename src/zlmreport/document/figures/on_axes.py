@@ -21,10 +21,10 @@ from matplotlib.path import Path
 from matplotlib.text import Annotation
 
 from zlmreport.document.figures.canvas import TypeFace
-from zlmreport.document.figures.draw import legend_shapes, panel_shapes
+from zlmreport.document.figures.draw import draw_legend, draw_panel
 from zlmreport.document.figures.figure import Figure
-from zlmreport.document.figures.layout import axis_title, figure_size, lay_out_alone
-from zlmreport.document.figures.metrics import font_file
+from zlmreport.document.figures.layout import lay_out_alone, measure_figure, write_axis_title
+from zlmreport.document.figures.metrics import find_font_file
 from zlmreport.document.figures.shapes import (
     TEXT_SIZE,
     TICK_TEXT_SIZE,
@@ -46,11 +46,11 @@ _MARKERS = {PointShape.UP: "^", PointShape.DOWN: "v", PointShape.DISC: "o"}
 _POINTS_PER_INCH = 72
 
 
-def new_axes(figure: Figure) -> list[Axes]:
+def make_axes(figure: Figure) -> list[Axes]:
     """Return axes for a figure, one for each of its panels, in its size on a page."""
     from matplotlib import pyplot as plt  # noqa: PLC0415 - it keeps what it makes
 
-    width, height = figure_size(figure)
+    width, height = measure_figure(figure)
     _, axes = plt.subplots(
         len(figure.panels),
         1,
@@ -81,13 +81,15 @@ def _put_panel(figure: Figure, number: int, axes: Axes, language: Language) -> N
     layout = lay_out_alone(figure, number, language, *size)
     is_lowest = number == len(figure.panels) - 1
     _set_scales(layout.frame, axes, size, is_lowest=is_lowest, is_bare=layout.panel.projection != "straight")
-    font = _font(TypeFace.REGULAR, TEXT_SIZE)
-    axes.set_ylabel(axis_title(*figure.value_axis(figure.panels[number]), language), fontproperties=font)
+    font = _make_font(TypeFace.REGULAR, TEXT_SIZE)
+    axes.set_ylabel(
+        write_axis_title(*figure.value_axis(figure.panels[number]), language), fontproperties=font
+    )
     if is_lowest:
-        axes.set_xlabel(axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
-    shapes = chain(panel_shapes(layout, is_lowest=is_lowest), legend_shapes(layout))
+        axes.set_xlabel(write_axis_title(figure.x_title, figure.x_unit, language), fontproperties=font)
+    shapes = chain(draw_panel(layout, is_lowest=is_lowest), draw_legend(layout))
     own = (shape for shape in shapes if shape.kind not in _OF_AXES)
-    for place, artist in enumerate(artist for shape in own for artist in _artists(shape, layout.frame)):
+    for place, artist in enumerate(artist for shape in own for artist in _make_artists(shape, layout.frame)):
         artist.set_zorder(1 + place / 1000)  # from back to front, as they come
         axes.add_artist(artist)
 
@@ -106,14 +108,14 @@ def _set_scales(
         axes.spines[side].set_visible(False)
     axes.spines["bottom"].set_bounds(frame.x_scale.lower, frame.x_scale.upper)
     axes.spines["left"].set_bounds(frame.y_scale.lower, frame.y_scale.upper)
-    font = _font(TypeFace.REGULAR, TICK_TEXT_SIZE)
+    font = _make_font(TypeFace.REGULAR, TICK_TEXT_SIZE)
     axes.set_xticks(frame.x_scale.ticks, frame.x_scale.labels, fontproperties=font)
     axes.set_xticks(frame.x_scale.marks, minor=True)
     axes.set_yticks(frame.y_scale.ticks, frame.y_scale.labels, fontproperties=font)
     axes.tick_params(labelbottom=is_lowest)
 
 
-def _artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
+def _make_artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
     """Return what draws a shape, at values of the frame."""
     match shape:
         case Outline():
@@ -138,7 +140,7 @@ def _artists(shape: Shape, frame: Frame) -> Sequence[Artist]:
                     (x, y),
                     (run.x, -run.y),
                     textcoords="offset points",
-                    fontproperties=_font(run.face, run.size),
+                    fontproperties=_make_font(run.face, run.size),
                     color=shape.colour,
                     parse_math=False,
                 )
@@ -155,5 +157,5 @@ def _look(outline: Outline) -> dict[str, object]:
     return {"facecolor": inside, "edgecolor": stroke.colour, "linewidth": stroke.width, "linestyle": dashes}
 
 
-def _font(face: TypeFace, size: float) -> FontProperties:
-    return FontProperties(fname=str(font_file(face)), size=size)
+def _make_font(face: TypeFace, size: float) -> FontProperties:
+    return FontProperties(fname=str(find_font_file(face)), size=size)

@@ -16,16 +16,16 @@ from zlmreport.document.figures.dimensions import (
     GAP,
     DimensionSpan,
     DrawnDimension,
-    beside_targets,
-    margin_columns,
-    margin_width,
+    measure_margin,
+    place_beside_targets,
+    place_margin_columns,
     spread,
 )
 from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, Readings
-from zlmreport.document.figures.metrics import plain_label, symbol_label
-from zlmreport.document.figures.polar import PolarGrid, polar_grid, square
+from zlmreport.document.figures.metrics import make_plain_label, make_symbol_label
+from zlmreport.document.figures.polar import PolarGrid, find_largest_square, make_polar_grid
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, PlacedLabel
-from zlmreport.document.figures.wire import placed_notes, wire_frame
+from zlmreport.document.figures.wire import make_wire_frame, place_notes
 from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray
 
@@ -60,26 +60,31 @@ def lay_out_panel(
 ) -> PanelLayout:
     """Return the places of everything in a panel; labels of levels take a width beside the frame."""
     if panel.is_polar:
-        grid = polar_grid(panel, language.decimal_sign)
-        box = square(frame.box)
+        grid = make_polar_grid(panel, language.decimal_sign)
+        box = find_largest_square(frame.box)
         scale = grid.scale(box.width)
         round_frame = Frame(box, scale, scale)
         return PanelLayout(panel, round_frame, legend, (), (), (), (), grid)
     if panel.is_wire:
-        fitted = wire_frame(panel, frame.box)
-        notes = tuple(placed_notes(panel, fitted, language))
+        fitted = make_wire_frame(panel, frame.box)
+        notes = tuple(place_notes(panel, fitted, language))
         return PanelLayout(panel, fitted, legend, (), (), (), (), notes=notes)
     box = frame.box
-    spans = [_span(bracket, frame, bracket.low_at, bracket.high_at) for bracket in drawable_brackets(panel)]
-    brackets = margin_columns(spans, box.right + level_width + _MARGIN_GAP, box.bottom, box.top)
+    spans = [
+        _make_span(bracket, frame, bracket.low_at, bracket.high_at)
+        for bracket in select_drawable_brackets(panel)
+    ]
+    brackets = place_margin_columns(spans, box.right + level_width + _MARGIN_GAP, box.bottom, box.top)
     drawable = [arrow for arrow in panel.arrows if np.isfinite((arrow.low, arrow.high, arrow.x)).all()]
-    spans = [_span(arrow, frame, arrow.x, arrow.x) for arrow in drawable]
-    arrows = beside_targets(spans, box, _marks(panel, frame), _lines(panel, frame, brackets))
-    levels, values = _levels(panel, frame), _bar_values(panel, frame, language)
+    spans = [_make_span(arrow, frame, arrow.x, arrow.x) for arrow in drawable]
+    arrows = place_beside_targets(
+        spans, box, _collect_marks(panel, frame), _collect_lines(panel, frame, brackets)
+    )
+    levels, values = _place_levels(panel, frame), _place_bar_values(panel, frame, language)
     return PanelLayout(panel, frame, legend, brackets, arrows, levels, values)
 
 
-def drawable_brackets(panel: Panel) -> list[Bracket]:
+def select_drawable_brackets(panel: Panel) -> list[Bracket]:
     """Return the brackets whose ends exist."""
     return [
         bracket
@@ -88,37 +93,37 @@ def drawable_brackets(panel: Panel) -> list[Bracket]:
     ]
 
 
-def drawable_levels(panel: Panel) -> list[Level]:
+def select_drawable_levels(panel: Panel) -> list[Level]:
     """Return the levels whose value exists."""
     return [level for level in panel.levels if np.isfinite(level.y)]
 
 
-def bracket_width(panel: Panel) -> float:
+def measure_brackets(panel: Panel) -> float:
     """Return the width that a panel's brackets take beside the frame."""
-    labels = [symbol_label(bracket.notation, TEXT_SIZE) for bracket in drawable_brackets(panel)]
-    return _MARGIN_GAP + margin_width(labels) if labels else 0.0
+    labels = [make_symbol_label(bracket.notation, TEXT_SIZE) for bracket in select_drawable_brackets(panel)]
+    return _MARGIN_GAP + measure_margin(labels) if labels else 0.0
 
 
-def level_width(panel: Panel) -> float:
+def measure_levels(panel: Panel) -> float:
     """Return the width that the labels of a panel's levels take beside the frame."""
-    named = (level.notation for level in drawable_levels(panel) if level.notation)
-    widths = [symbol_label(notation, TEXT_SIZE).width for notation in named]
+    named = (level.notation for level in select_drawable_levels(panel) if level.notation)
+    widths = [make_symbol_label(notation, TEXT_SIZE).width for notation in named]
     return _LEVEL_GAP + max(widths) if widths else 0.0
 
 
-def _span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float) -> DimensionSpan:
+def _make_span(one: Arrow | Bracket, frame: Frame, low_at: float, high_at: float) -> DimensionSpan:
     ends = [
         (frame.y_point(one.low), frame.x_point(low_at)),
         (frame.y_point(one.high), frame.x_point(high_at)),
     ]
     (low, low_from), (high, high_from) = sorted(ends)
-    return DimensionSpan(symbol_label(one.notation, TEXT_SIZE), low, high, low_from, high_from)
+    return DimensionSpan(make_symbol_label(one.notation, TEXT_SIZE), low, high, low_from, high_from)
 
 
-def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel], ...]:
-    levels = drawable_levels(panel)
+def _place_levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel], ...]:
+    levels = select_drawable_levels(panel)
     heights = [frame.y_point(level.y) for level in levels]
-    labels = [symbol_label(level.notation, TEXT_SIZE) for level in levels]
+    labels = [make_symbol_label(level.notation, TEXT_SIZE) for level in levels]
     distance = max((label.height for label in labels), default=0.0)
     return tuple(
         (level, height, PlacedLabel(label, frame.box.right + _LEVEL_GAP, moved - label.rise))
@@ -128,10 +133,10 @@ def _levels(panel: Panel, frame: Frame) -> tuple[tuple[Level, float, PlacedLabel
     )
 
 
-def _bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
+def _place_bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedLabel, ...]:
     """Return the values above their bars, none of them on a line."""
-    labels = [plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
-    lines = sorted(frame.y_point(level.y) for level in drawable_levels(panel))
+    labels = [make_plain_label(bar.value.in_language(language), TICK_TEXT_SIZE) for bar in panel.bars]
+    lines = sorted(frame.y_point(level.y) for level in select_drawable_levels(panel))
 
     def foot(top_of_bar: float, height: float) -> float:
         at = top_of_bar + _VALUE_GAP
@@ -150,28 +155,28 @@ def _bar_values(panel: Panel, frame: Frame, language: Language) -> tuple[PlacedL
     )
 
 
-def _marks(panel: Panel, frame: Frame) -> FloatArray:
+def _collect_marks(panel: Panel, frame: Frame) -> FloatArray:
     """Return where curves and readings have their marks."""
     points = [frame.points(curve.x, curve.y) for curve in panel.curves]
     points += [frame.points(readings.x, readings.y) for readings in panel.readings]
     return np.concatenate([np.empty((0, 2)), *points])
 
 
-def _lines(panel: Panel, frame: Frame, brackets: Sequence[DrawnDimension]) -> FloatArray:
+def _collect_lines(panel: Panel, frame: Frame, brackets: Sequence[DrawnDimension]) -> FloatArray:
     """Return points along all lines inside the frame, those that lead to the brackets among them."""
     lines = [frame.points(curve.x, curve.y) for curve in panel.curves]
     for band in panel.bands:
         lines += [frame.points(band.x, band.lower), frame.points(band.x, band.upper)]
-    for height in map(frame.y_point, (0.0, *(level.y for level in drawable_levels(panel)))):
+    for height in map(frame.y_point, (0.0, *(level.y for level in select_drawable_levels(panel)))):
         lines.append(np.array([(frame.box.left, height), (frame.box.right, height)]))
     for bracket in brackets:
         span = bracket.span
         for start, height in ((span.low_from, span.low), (span.high_from, span.high)):
             lines.append(np.array([(start + GAP, height), (frame.box.right, height)]))
-    return np.concatenate([np.empty((0, 2)), *map(_sampled, lines)])
+    return np.concatenate([np.empty((0, 2)), *map(_sample_line, lines)])
 
 
-def _sampled(line: FloatArray) -> FloatArray:
+def _sample_line(line: FloatArray) -> FloatArray:
     if len(line) < 2:
         return line
     along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
@@ -229,11 +234,11 @@ class LegendLayout:
 
 def lay_out_legend(panel: Panel, language: Language, width: float) -> LegendLayout:
     """Return the legend of a panel in rows of a width; a heading begins the first row."""
-    entries = _entries(panel, language)
+    entries = _list_entries(panel, language)
     heading = None
     x, row = 0.0, 0
     if panel.heading is not None:
-        heading = plain_label(panel.heading.in_language(language), TEXT_SIZE, TypeFace.SEMIBOLD)
+        heading = make_plain_label(panel.heading.in_language(language), TEXT_SIZE, TypeFace.SEMIBOLD)
         x = heading.width + _HEADING_GAP
     places = []
     for entry in entries:
@@ -250,17 +255,17 @@ def lay_out_legend(panel: Panel, language: Language, width: float) -> LegendLayo
     )
 
 
-def _entries(panel: Panel, language: Language) -> tuple[LegendEntry, ...]:
+def _list_entries(panel: Panel, language: Language) -> tuple[LegendEntry, ...]:
     """Return one entry for each symbol of a panel: curves, bands, readings; about a circle levels as well."""
-    levels = drawable_levels(panel) if panel.is_polar else ()
+    levels = select_drawable_levels(panel) if panel.is_polar else ()
     explained: tuple[Curve | Band | Level, ...] = (*panel.curves, *panel.bands, *levels)
     found: dict[object, LegendEntry] = {}
     for one in explained:
         if one.notation:
-            entry = LegendEntry(one, symbol_label(one.notation, TEXT_SIZE))
+            entry = LegendEntry(one, make_symbol_label(one.notation, TEXT_SIZE))
             found.setdefault((type(one), one.role, one.notation), entry)
     if panel.readings:
         arrows = (readings.approach.arrow for readings in panel.readings)
         text = " ".join((_READINGS.in_language(language), *arrows))
-        found["readings"] = LegendEntry(panel.readings, plain_label(text, TEXT_SIZE))
+        found["readings"] = LegendEntry(panel.readings, make_plain_label(text, TEXT_SIZE))
     return tuple(found.values())

@@ -14,8 +14,8 @@ import numpy as np
 
 from zlmreport.document.figures.canvas import Fill
 from zlmreport.document.figures.figure import Curve, Panel
-from zlmreport.document.figures.metrics import plain_label
-from zlmreport.document.figures.scale import AxisScale, extremes, round_ticks, widened, with_zero
+from zlmreport.document.figures.metrics import make_plain_label
+from zlmreport.document.figures.scale import AxisScale, find_extremes, include_zero, round_ticks, widen
 from zlmreport.document.figures.shapes import (
     EXTENSION,
     GRID,
@@ -33,9 +33,9 @@ from zlmreport.document.figures.shapes import (
     PointMarks,
     PointShape,
     Shape,
-    lines,
+    join_lines,
 )
-from zlmreport.language.formatting import DecimalSign, fixed_number
+from zlmreport.language.formatting import DecimalSign, write_fixed_number
 from zlmreport.measurement.arrays import FloatArray
 
 #: The innermost circle of the grid, in parts of the outermost.
@@ -86,12 +86,12 @@ class PolarGrid:
         return AxisScale(-reach, reach, (), ())
 
 
-def polar_grid(panel: Panel, sign: DecimalSign) -> PolarGrid:
+def make_polar_grid(panel: Panel, sign: DecimalSign) -> PolarGrid:
     """Return the grid of a panel: round values about all that it shows, the nominal circle among them."""
     values = [curve.y for curve in panel.curves] + [readings.y for readings in panel.readings]
     values += [limit for band in panel.bands for limit in (band.lower, band.upper)]
     values.append(np.array([level.y for level in panel.levels] + [0.0]))
-    lower, upper = with_zero(*widened(*extremes(np.concatenate(values)), 0.05))
+    lower, upper = include_zero(*widen(*find_extremes(np.concatenate(values)), 0.05))
     inner, decimals = round_ticks(lower, upper, _MOST_CIRCLES)
     step = inner[1] - inner[0] if len(inner) > 1 else upper - lower
     ticks = list(inner)
@@ -100,11 +100,11 @@ def polar_grid(panel: Panel, sign: DecimalSign) -> PolarGrid:
     if ticks[-1] < upper:
         ticks.append(ticks[-1] + step)
     base = ticks[0] - _INNERMOST / (1 - _INNERMOST) * (ticks[-1] - ticks[0])
-    labels = tuple(fixed_number(value, decimals, sign) for value in ticks)
+    labels = tuple(write_fixed_number(value, decimals, sign) for value in ticks)
     return PolarGrid(tuple(ticks), labels, base)
 
 
-def on_circle(panel: Panel, grid: PolarGrid) -> Panel:
+def place_on_circle(panel: Panel, grid: PolarGrid) -> Panel:
     """Return the panel with everything where it is drawn; what has no place on a circle is left out."""
 
     def placed(curve: Curve) -> Curve:
@@ -125,31 +125,31 @@ def on_circle(panel: Panel, grid: PolarGrid) -> Panel:
     )
 
 
-def square(box: Box) -> Box:
+def find_largest_square(box: Box) -> Box:
     """Return the largest square in a box, in its middle."""
     side = min(box.width, box.height)
     left, bottom = (box.left + box.right - side) / 2, (box.bottom + box.top - side) / 2
     return Box(left, bottom, left + side, bottom + side)
 
 
-def grid_shapes(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Shape]:
+def draw_polar_grid(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Shape]:
     """Yield the circles and rays behind the curves; the nominal circle is drawn as zero is elsewhere."""
     outermost = float(grid.radius(grid.ticks[-1]))
     for value in grid.ticks:
-        yield _circle("zero" if value == 0 else "grid", grid, value, frame)
+        yield _draw_circle("zero" if value == 0 else "grid", grid, value, frame)
     rays = []
     for direction in map(math.radians, _DIRECTIONS):
         inner = float(grid.radius(grid.ticks[0]))
         ends = np.outer([inner, outermost], [math.cos(direction), math.sin(direction)])
         rays.append([tuple(point) for point in frame.points(ends[:, 0], ends[:, 1]).tolist()])
-    yield lines("grid", rays, GRID)
+    yield join_lines("grid", rays, GRID)
     for level in panel.levels:
         if math.isfinite(level.y):
-            outline = _circle("level", grid, level.y, frame)
+            outline = _draw_circle("level", grid, level.y, frame)
             yield replace(outline, stroke=ROLES[level.role].stroke)
 
 
-def direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Shape]:
+def draw_direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Shape]:
     """Yield a point on the nominal circle at each direction that has a name."""
     if panel.directions:
         angles = np.array([angle for angle, _ in panel.directions])
@@ -159,25 +159,25 @@ def direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Sha
         )
 
 
-def _circle(kind: str, grid: PolarGrid, value: float, frame: Frame) -> Outline:
+def _draw_circle(kind: str, grid: PolarGrid, value: float, frame: Frame) -> Outline:
     radius = float(grid.radius(value))
     points = frame.points(radius * np.cos(_AROUND), radius * np.sin(_AROUND))
     return Outline(kind, (points,), ZERO if kind == "zero" else GRID)
 
 
-def grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Lettering]:
+def place_grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Lettering]:
     """Yield what is written at the circles and at the ends of the rays."""
     names = dict(panel.directions)
     told_at = math.radians(_TOLD_AT)
     for value, text in zip(grid.ticks, grid.labels, strict=True):
         radius = float(grid.radius(value))
         x, y = frame.x_point(radius * math.cos(told_at)), frame.y_point(radius * math.sin(told_at))
-        label = plain_label(text, TICK_TEXT_SIZE)
+        label = make_plain_label(text, TICK_TEXT_SIZE)
         yield Lettering("circle", PlacedLabel(label, x - label.width / 2, y - label.rise), INK)
     outermost = float(grid.radius(grid.ticks[-1]))
     for degrees in _DIRECTIONS:
         across, up = (round(part(math.radians(degrees)), 9) for part in (math.cos, math.sin))
-        label = plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
+        label = make_plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
         x = frame.x_point(outermost * across) + _ANGLE_GAP * across
         y = frame.y_point(outermost * up) + _ROOM / 2 * up
         # Right of the circle it begins there, left of it it ends; above and below it has its middle there.
@@ -185,10 +185,10 @@ def grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Letteri
         yield Lettering("ray", PlacedLabel(label, x - shift, y - label.rise), INK)
 
 
-def sense_shapes(panel: Panel, frame: Frame) -> Iterator[Shape]:
+def draw_senses(panel: Panel, frame: Frame) -> Iterator[Shape]:
     """Yield where each curve begins, and an arrow behind that in which it goes on.
 
-    `panel`: As it is drawn (`on_circle`).
+    `panel`: As it is drawn (`place_on_circle`).
     """
     for curve in panel.curves:
         style = ROLES[curve.role]
@@ -209,4 +209,4 @@ def sense_shapes(panel: Panel, frame: Frame) -> Iterator[Shape]:
         radial = start - np.array([frame.x_point(0.0), frame.y_point(0.0)])
         radial = radial / (float(np.hypot(*radial)) or 1.0)
         ends = [tuple(start - 2 * _START * radial), tuple(start + 2 * _START * radial)]
-        yield lines("start", [ends], EXTENSION)
+        yield join_lines("start", [ends], EXTENSION)

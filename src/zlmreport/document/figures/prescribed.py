@@ -27,7 +27,7 @@ from zlmreport.document.figures.figure import (
 from zlmreport.evaluation.checks import deviation_in_words, position_in_words, positions_in_words
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.language import Words
-from zlmreport.language.formatting import plain
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
@@ -198,16 +198,16 @@ def panel(  # noqa: PLR0913 - one for each kind of mark
     """Return a panel of what there is: None stands for what this test does not define."""
     return Panel(
         heading=heading,
-        curves=_defined(curves),
-        bands=_defined(bands),
+        curves=_select_defined(curves),
+        bands=_select_defined(bands),
         readings=tuple(readings),
-        arrows=_defined(arrows),
-        brackets=_defined(brackets),
-        levels=_defined(levels),
+        arrows=_select_defined(arrows),
+        brackets=_select_defined(brackets),
+        levels=_select_defined(levels),
     )
 
 
-def _defined(marks: Iterable[Mark | None]) -> tuple[Mark, ...]:
+def _select_defined(marks: Iterable[Mark | None]) -> tuple[Mark, ...]:
     return tuple(mark for mark in marks if mark is not None)
 
 
@@ -215,21 +215,21 @@ _TITLE = Words("Mean deviations: {before} (above) and {after} (below), on one sc
 _NAME = Words("{measurement}, {direction}:")
 
 
-def comparison_graph(before: Evaluation, after: Evaluation, names: tuple[Words, Words]) -> Figure:
+def draw_comparison(before: Evaluation, after: Evaluation, names: tuple[Words, Words]) -> Figure:
     """Return the graph."""
     both = tuple(zip((before, after), names, strict=True))
     sentences = [graph_in_words(after)]
     for evaluation, name in both:
-        sentences.extend(_ranges(evaluation, name))
+        sentences.extend(_name_ranges(evaluation, name))
     return Diagram(after).figure(
         "as-found-as-left",
         _TITLE.given(before=names[0], after=names[1]),
         alternative_text(*sentences),
-        [_panel(evaluation, name) for evaluation, name in both],
+        [_make_panel(evaluation, name) for evaluation, name in both],
     )
 
 
-def _panel(evaluation: Evaluation, name: Words) -> Panel:
+def _make_panel(evaluation: Evaluation, name: Words) -> Panel:
     diagram = Diagram(evaluation)
     index = f"_{{{evaluation.position_index}}}"
     return panel(
@@ -243,7 +243,7 @@ def _panel(evaluation: Evaluation, name: Words) -> Panel:
     )
 
 
-def _ranges(evaluation: Evaluation, name: Words) -> list[Words]:
+def _name_ranges(evaluation: Evaluation, name: Words) -> list[Words]:
     diagram = Diagram(evaluation)
     found = [
         range_in_words(
@@ -258,7 +258,7 @@ def _ranges(evaluation: Evaluation, name: Words) -> list[Words]:
 
 def alternative_text(*sentences: Words | None) -> Words:
     """Return the sentences as one text; None is left out."""
-    return _joined([sentence for sentence in sentences if sentence is not None], " ")
+    return _join_phrases([sentence for sentence in sentences if sentence is not None], " ")
 
 
 def graph_in_words(evaluation: Evaluation) -> Words:
@@ -288,37 +288,40 @@ def range_in_words(axis: Axis, name: Words, values: FloatArray) -> Words | None:
 
 def marks_in_words(axis: Axis, found: Iterable[Arrow | Bracket]) -> Words | None:
     """Return the sentence on arrows and brackets: symbol, length, place; None where there are none."""
-    written = [_arrow(axis, mark) if isinstance(mark, Arrow) else _bracket(axis, mark) for mark in found]
-    return Words("{marks}.").given(marks=_joined(written, "; ")) if written else None
+    written = [
+        _describe_arrow(axis, mark) if isinstance(mark, Arrow) else _describe_bracket(axis, mark)
+        for mark in found
+    ]
+    return Words("{marks}.").given(marks=_join_phrases(written, "; ")) if written else None
 
 
-def _arrow(axis: Axis, arrow: Arrow) -> Words:
+def _describe_arrow(axis: Axis, arrow: Arrow) -> Words:
     return Words("{symbol} = {length} at {x}").given(
-        symbol=plain(arrow.notation),
-        length=_printed_length(axis, arrow.high - arrow.low),
-        x=_printed_position(axis, arrow.x),
+        symbol=write_plain(arrow.notation),
+        length=_write_length(axis, arrow.high - arrow.low),
+        x=_write_position(axis, arrow.x),
     )
 
 
-def _bracket(axis: Axis, bracket: Bracket) -> Words:
+def _describe_bracket(axis: Axis, bracket: Bracket) -> Words:
     if bracket.low_at == bracket.high_at:
-        return _arrow(axis, Arrow(bracket.notation, bracket.low_at, bracket.low, bracket.high))
+        return _describe_arrow(axis, Arrow(bracket.notation, bracket.low_at, bracket.low, bracket.high))
     return Words("{symbol} = {length}, from its lowest point at {low_at} to its highest at {high_at}").given(
-        symbol=plain(bracket.notation),
-        length=_printed_length(axis, bracket.high - bracket.low),
-        low_at=_printed_position(axis, bracket.low_at),
-        high_at=_printed_position(axis, bracket.high_at),
+        symbol=write_plain(bracket.notation),
+        length=_write_length(axis, bracket.high - bracket.low),
+        low_at=_write_position(axis, bracket.low_at),
+        high_at=_write_position(axis, bracket.high_at),
     )
 
 
-def _printed_length(axis: Axis, value: float) -> Words:
+def _write_length(axis: Axis, value: float) -> Words:
     return deviation_in_words(axis, axis.deviation_unit.to_si(value))
 
 
-def _printed_position(axis: Axis, value: float) -> Words:
+def _write_position(axis: Axis, value: float) -> Words:
     return position_in_words(axis, axis.position_unit.to_si(value))
 
 
-def _joined(phrases: list[Words], between: str) -> Words:
+def _join_phrases(phrases: list[Words], between: str) -> Words:
     pattern = between.join(f"{{part{number}}}" for number in range(len(phrases)))
     return Words(pattern, values={f"part{number}": phrase for number, phrase in enumerate(phrases)})

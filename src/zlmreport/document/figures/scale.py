@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.language.formatting import DecimalSign, fixed_number
+from zlmreport.language.formatting import DecimalSign, write_fixed_number
 from zlmreport.measurement.arrays import FloatArray
 
 #: Spans below this part of the largest value are rounding errors of the double and no span.
@@ -37,13 +37,13 @@ class AxisScale:
     marks: tuple[float, ...] = ()  #: Values with a small tick and no label.
 
 
-def extremes(values: FloatArray) -> tuple[float, float]:
+def find_extremes(values: FloatArray) -> tuple[float, float]:
     """Return the least and the greatest finite value; (0, 0) where there is none."""
     finite = values[np.isfinite(values)]
     return (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
 
 
-def widened(lower: float, upper: float, part: float) -> tuple[float, float]:
+def widen(lower: float, upper: float, part: float) -> tuple[float, float]:
     """Return the limits moved outwards by a part of their span; equal limits get a span of their own."""
     span = upper - lower
     greatest = max(abs(lower), abs(upper))
@@ -53,7 +53,7 @@ def widened(lower: float, upper: float, part: float) -> tuple[float, float]:
     return lower - part * span, upper + part * span
 
 
-def with_zero(lower: float, upper: float) -> tuple[float, float]:
+def include_zero(lower: float, upper: float) -> tuple[float, float]:
     """Return the limits with zero inside, if that costs no more than half of their span."""
     span = upper - lower
     if 0 < lower <= span / 2:
@@ -77,7 +77,7 @@ def round_ticks(lower: float, upper: float, most: int) -> tuple[tuple[float, ...
     return tuple(number * digit / factor for number in range(first, last + 1)), max(0, -power)
 
 
-def value_scales(
+def make_value_scales(
     panels: Sequence[FloatArray], part: float, most: int, sign: DecimalSign, *, alike: bool = True
 ) -> tuple[AxisScale, ...]:
     """Return the axes of deviations, one for each panel, each about its own values.
@@ -87,21 +87,21 @@ def value_scales(
     `part`: Of the span, left free at both ends.
     `most`: Largest number of ticks; of a flat graph more, so that there are three.
     """
-    limits = [with_zero(*extremes(values)) for values in panels]
+    limits = [include_zero(*find_extremes(values)) for values in panels]
     longest = max((upper - lower for lower, upper in limits), default=0.0)
     scales = []
     for own_lower, own_upper in limits:
         span = longest if alike else own_upper - own_lower
         middle = (own_lower + own_upper) / 2
-        lower, upper = widened(middle - span / 2, middle + span / 2, part)
+        lower, upper = widen(middle - span / 2, middle + span / 2, part)
         steps = next(
             n for n in itertools.count(most) if len(round_ticks(lower, upper, n)[0]) >= _FEWEST_TICKS
         )
-        scales.append(AxisScale(lower, upper, *_labelled_ticks(lower, upper, steps, sign)))
+        scales.append(AxisScale(lower, upper, *_label_ticks(lower, upper, steps, sign)))
     return tuple(scales)
 
 
-def decimals_of(values: Sequence[float]) -> int:
+def count_decimals(values: Sequence[float]) -> int:
     """Return how many decimals write every value without loss, at most 4."""
     for decimals in range(4):
         if all(math.isclose(value, round(value, decimals), rel_tol=1e-9, abs_tol=1e-9) for value in values):
@@ -109,7 +109,7 @@ def decimals_of(values: Sequence[float]) -> int:
     return 4
 
 
-def position_scale(  # noqa: PLR0913 - what an axis follows from
+def make_position_scale(  # noqa: PLR0913 - what an axis follows from
     targets: FloatArray,
     width: float,
     room: float,
@@ -131,15 +131,15 @@ def position_scale(  # noqa: PLR0913 - what an axis follows from
     `width_of`: Returns the width of a label in points.
     """
     positions = tuple(np.unique(targets[np.isfinite(targets)]).tolist())
-    lower, upper = widened(*extremes(targets), room / (width - 2 * room))
+    lower, upper = widen(*find_extremes(targets), room / (width - 2 * room))
 
     def fit(ticks: Sequence[float], labels: Sequence[str]) -> bool:
         places = [(tick - lower) / (upper - lower) * width for tick in ticks]
         return _keep_apart(places, [width_of(label) for label in labels])
 
     if len(positions) <= _MOST_LABELLED_TARGETS:
-        decimals = decimals_of(positions)
-        labels = tuple(fixed_number(position, decimals, sign) for position in positions)
+        decimals = count_decimals(positions)
+        labels = tuple(write_fixed_number(position, decimals, sign) for position in positions)
         whole = np.allclose(positions, np.round(positions, decimals), rtol=1e-9, atol=1e-9)
         if positions and whole and fit(positions, labels):
             return AxisScale(lower, upper, positions, labels)
@@ -147,17 +147,17 @@ def position_scale(  # noqa: PLR0913 - what an axis follows from
     marks = positions if len(positions) <= _MOST_MARKED_TARGETS else ()
     for step in _PARTS_OF_A_TURN if of_a_turn else ():
         ticks = tuple(step * n for n in range(math.ceil(lower / step), math.floor(upper / step) + 1))
-        labels = tuple(fixed_number(tick, 0, sign) for tick in ticks)
+        labels = tuple(write_fixed_number(tick, 0, sign) for tick in ticks)
         if 1 < len(ticks) <= most and fit(ticks, labels):
             return AxisScale(lower, upper, ticks, labels, marks)
-    ticks, labels = _labelled_ticks(lower, upper, most, sign)
+    ticks, labels = _label_ticks(lower, upper, most, sign)
     while most > 1 and not fit(ticks, labels):
         most -= 1
-        ticks, labels = _labelled_ticks(lower, upper, most, sign)
+        ticks, labels = _label_ticks(lower, upper, most, sign)
     return AxisScale(lower, upper, ticks, labels, marks)
 
 
-def category_scale(names: Sequence[str], width: float, width_of: Callable[[str], float]) -> AxisScale:
+def make_category_scale(names: Sequence[str], width: float, width_of: Callable[[str], float]) -> AxisScale:
     """Return the axis of things that stand side by side, the first at 0, the next at 1.
 
     Names that do not fit are parted into two lines at a hyphen; where even that is too long for one of them,
@@ -168,13 +168,13 @@ def category_scale(names: Sequence[str], width: float, width_of: Callable[[str],
     """
     number = len(names)
     room = width / max(1, number) - _LABEL_DISTANCE
-    labels = [name if width_of(name) <= room else _in_two_lines(name) for name in names]
+    labels = [name if width_of(name) <= room else _break_in_two(name) for name in names]
     if any(width_of(line) > room for label in labels for line in label.split("\n")):
         labels = [str(index) for index in range(number)]
     return AxisScale(-0.5, max(number, 1) - 0.5, tuple(map(float, range(number))), tuple(labels))
 
 
-def _in_two_lines(name: str) -> str:
+def _break_in_two(name: str) -> str:
     """Return a name parted after the hyphen or blank that is nearest to its middle."""
     places = [index + 1 for index, character in enumerate(name) if character in "- "]
     if not places:
@@ -183,11 +183,11 @@ def _in_two_lines(name: str) -> str:
     return f"{name[:place].rstrip()}\n{name[place:]}"
 
 
-def _labelled_ticks(
+def _label_ticks(
     lower: float, upper: float, most: int, sign: DecimalSign
 ) -> tuple[tuple[float, ...], tuple[str, ...]]:
     ticks, decimals = round_ticks(lower, upper, most)
-    return ticks, tuple(fixed_number(tick, decimals, sign) for tick in ticks)
+    return ticks, tuple(write_fixed_number(tick, decimals, sign) for tick in ticks)
 
 
 def _keep_apart(places: Sequence[float], widths: Sequence[float]) -> bool:

@@ -25,9 +25,9 @@ _X_TITLE = Words("Number of the reading")
 _Y_TITLE = Words("Position")
 
 
-def sequence(motion: Motion) -> Figure:
+def draw_sequence(motion: Motion) -> Figure:
     """Return the graph of a planned test's sequence: position over the number of the reading."""
-    places = list(_places(motion.stops))
+    places = list(_place_stops(motion.stops))
     path = Curve(
         "",
         Role.PATH,
@@ -37,16 +37,16 @@ def sequence(motion: Motion) -> Figure:
     return Figure(
         key="sequence",
         title=_TITLE,
-        alternative=_alternative(motion),
+        alternative=_describe_in_words(motion),
         x_title=_X_TITLE,
         y_title=_Y_TITLE,
         x_unit="",
         y_unit=motion.axis.position_unit.symbol,
-        panels=(Panel(curves=(path,), readings=tuple(_readings(motion))),),
+        panels=(Panel(curves=(path,), readings=tuple(_mark_readings(motion))),),
     )
 
 
-def _places(stops: Sequence[ProgramStop]) -> Iterator[float]:
+def _place_stops(stops: Sequence[ProgramStop]) -> Iterator[float]:
     """Yield where each stop stands: a reading at its number, turning points evenly between."""
     number = 0
     for is_read, group in groupby(stops, key=lambda stop: stop.reading is not None):
@@ -58,7 +58,7 @@ def _places(stops: Sequence[ProgramStop]) -> Iterator[float]:
             yield from (number + part for part in np.linspace(0, 1, len(some) + 2)[1:-1].tolist())
 
 
-def _readings(motion: Motion) -> Iterator[Readings]:
+def _mark_readings(motion: Motion) -> Iterator[Readings]:
     for approach in Approach:
         found = [
             (stop.reading.number, stop.position)
@@ -70,7 +70,7 @@ def _readings(motion: Motion) -> Iterator[Readings]:
             yield Readings(approach, read_only_floats(numbers), read_only_floats(positions))
 
 
-def _alternative(motion: Motion) -> Words:
+def _describe_in_words(motion: Motion) -> Words:
     to_si = motion.axis.position_unit.to_si
     readings = sum(stop.reading is not None for stop in motion.stops)
     return alternative_text(

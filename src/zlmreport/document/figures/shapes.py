@@ -152,7 +152,7 @@ class Box:
         )
 
 
-def counts(boxes: Sequence[Box], points: FloatArray) -> list[int]:
+def count_points(boxes: Sequence[Box], points: FloatArray) -> list[int]:
     """Return how many points, shape (N, 2), lie inside each of some boxes."""
     edges = np.array([(box.left, box.bottom, box.right, box.top) for box in boxes])
     left, bottom, right, top = edges.T[:, :, np.newaxis]
@@ -266,12 +266,12 @@ class Lettering:
 Shape: TypeAlias = Outline | PointMarks | Lettering
 
 
-def lines(kind: str, parts: Sequence[Sequence[tuple[float, float]]], stroke: Stroke) -> Outline:
+def join_lines(kind: str, parts: Sequence[Sequence[tuple[float, float]]], stroke: Stroke) -> Outline:
     """Return several lines on the drawing as one outline."""
     return Outline(kind, tuple(np.array(part, dtype=np.float64) for part in parts), stroke)
 
 
-def area(
+def outline_area(
     kind: str, corners: Sequence[tuple[float, float]], stroke: Stroke | None, fill: Fill | None
 ) -> Outline:
     """Return an area on the drawing; its last corner is its first again."""

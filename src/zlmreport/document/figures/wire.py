@@ -7,11 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from zlmreport.document.figures.figure import Panel
-from zlmreport.document.figures.metrics import plain_label
-from zlmreport.document.figures.scale import AxisScale, extremes
+from zlmreport.document.figures.metrics import make_plain_label
+from zlmreport.document.figures.scale import AxisScale, find_extremes
 from zlmreport.document.figures.shapes import TICK_TEXT_SIZE, Box, Frame, PlacedLabel
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number
+from zlmreport.language.formatting import write_fixed_number
 
 #: Round the body, in points: half a note has room there.
 _ROOM_BESIDE, _ROOM_ABOVE = 16.0, 12.0
@@ -19,10 +19,10 @@ _ROOM_BESIDE, _ROOM_ABOVE = 16.0, 12.0
 _GAP = 2.0
 
 
-def wire_frame(panel: Panel, box: Box) -> Frame:
+def make_wire_frame(panel: Panel, box: Box) -> Frame:
     """Return the area in which a body is drawn, as large as a box lets it be and in its middle."""
-    x_low, x_high = extremes(np.concatenate([np.empty(0), *(each.x for each in panel.curves)]))
-    y_low, y_high = extremes(np.concatenate([np.empty(0), *(each.y for each in panel.curves)]))
+    x_low, x_high = find_extremes(np.concatenate([np.empty(0), *(each.x for each in panel.curves)]))
+    y_low, y_high = find_extremes(np.concatenate([np.empty(0), *(each.y for each in panel.curves)]))
     width, height = (x_high - x_low) or 1.0, (y_high - y_low) or 1.0
     factor = min((box.width - 2 * _ROOM_BESIDE) / width, (box.height - 2 * _ROOM_ABOVE) / height)
     return Frame(
@@ -36,15 +36,15 @@ def _scale(middle: float, span: float) -> AxisScale:
     return AxisScale(middle - span / 2, middle + span / 2, (), ())
 
 
-def placed_notes(panel: Panel, frame: Frame, language: Language) -> Iterator[PlacedLabel]:
+def place_notes(panel: Panel, frame: Frame, language: Language) -> Iterator[PlacedLabel]:
     """Yield the notes where they stand: above or below their places, in the middle."""
     for note in panel.notes:
         value = note.value
         if isinstance(value, Words):
             text = value.in_language(language)
         else:
-            text = fixed_number(value, 1, language.decimal_sign)
-        label = plain_label(text, TICK_TEXT_SIZE)
+            text = write_fixed_number(value, 1, language.decimal_sign)
+        label = make_plain_label(text, TICK_TEXT_SIZE)
         x, y = frame.x_point(note.x), frame.y_point(note.y)
         foot = y - _GAP - label.height if note.is_below else y + _GAP
         yield PlacedLabel(label, x - label.width / 2, foot)

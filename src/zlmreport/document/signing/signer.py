@@ -18,9 +18,9 @@ from pathlib import Path
 from typing import Any, TypeAlias
 from urllib.parse import unquote
 
-from zlmreport.document.signing.state import in_silence
+from zlmreport.document.signing.state import silence_log
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean
-from zlmreport.files import demanded
+from zlmreport.files import demand
 
 #: Of a key with its certificates, bytes.
 _LARGEST = 1024 * 1024
@@ -57,9 +57,9 @@ def open_signer(
         ) from error
     if named.startswith(SCHEME):
         uri = parse_token_uri(named, place)
-        opened: AbstractContextManager[Any] = _in_token(uri, ask_password(f"token {uri.token}"), place)
+        opened: AbstractContextManager[Any] = _open_token(uri, ask_password(f"token {uri.token}"), place)
     else:
-        opened = nullcontext(_in_file(Path(named), ask_password, place))
+        opened = nullcontext(_read_key_file(Path(named), ask_password, place))
     with opened as key:
         yield partial(_signed, key, tuple(authorities), place)
 
@@ -81,12 +81,12 @@ def _signed(  # noqa: PLR0913, PLR0917 - the first three are the signer's
     from pyhanko_certvalidator import errors  # noqa: PLC0415
 
     stamper = HTTPTimeStamper(stamp_url, timeout=_PATIENCE) if stamp_url else None
-    writer = _increment(pdf if pdf.endswith(b"\n") else pdf + b"\n")
+    writer = _make_increment(pdf if pdf.endswith(b"\n") else pdf + b"\n")
     for field in (
         (_FIELD, _STAMP_FIELD) if stamper else (_FIELD,)
     ):  # a field that came later would be a change
         append_signature_field(writer, SigFieldSpec(field, readable_field_name=name))
-        _tag(writer, writer.root["/AcroForm"]["/Fields"].raw_get(-1))
+        _tag_widget(writer, writer.root["/AcroForm"]["/Fields"].raw_get(-1))
     settings = PdfSignatureMetadata(
         field_name=_FIELD,
         md_algorithm=_DIGEST,
@@ -95,9 +95,9 @@ def _signed(  # noqa: PLR0913, PLR0917 - the first three are the signer's
         docmdp_permissions=MDPPerm.NO_CHANGES,
     )
     try:
-        with in_silence():
+        with silence_log():
             signed: bytes = PdfSigner(settings, key, timestamper=stamper).sign_pdf(writer).getvalue()
-            return _kept(signed, key, authorities, stamper) if stamper else signed
+            return _stamp_as_a_whole(signed, key, authorities, stamper) if stamper else signed
     except (PKCS11Error, SigningError) as error:
         raise AccessError.at(place, f"the key did not sign: {str(error) or type(error).__name__}") from error
     except (OSError, errors.ValidationError, errors.PathError, errors.CRLValidationError) as error:
@@ -108,7 +108,7 @@ def _signed(  # noqa: PLR0913, PLR0917 - the first three are the signer's
         ) from error
 
 
-def _kept(pdf: bytes, key: Any, authorities: Sequence[Any], stamper: Any) -> bytes:
+def _stamp_as_a_whole(pdf: bytes, key: Any, authorities: Sequence[Any], stamper: Any) -> bytes:
     """Return a signed PDF with all that tells later whether its certificates were valid, stamped as a whole.
 
     The certificates that bring themselves count as roots here: this collects, and trusts nobody.
@@ -119,9 +119,9 @@ def _kept(pdf: bytes, key: Any, authorities: Sequence[Any], stamper: Any) -> byt
     from pyhanko_certvalidator import ValidationContext  # noqa: PLC0415
     from pyhanko_certvalidator.fetchers.requests_fetchers import RequestsFetcherBackend  # noqa: PLC0415
 
-    writer = _increment(pdf)
+    writer = _make_increment(pdf)
     signature = PdfFileReader(BytesIO(pdf)).embedded_regular_signatures[-1]
-    others = [*key.cert_registry, *signature.other_embedded_certs, *_of_stamps(signature)]
+    others = [*key.cert_registry, *signature.other_embedded_certs, *_list_stamps_certificates(signature)]
     own = [each for each in (key.signing_cert, *others) if each.self_signed in {"maybe", "yes"}]
     context = ValidationContext(
         trust_roots=[*authorities, *own],
@@ -140,7 +140,7 @@ def _kept(pdf: bytes, key: Any, authorities: Sequence[Any], stamper: Any) -> byt
     return stamped
 
 
-def _increment(pdf: bytes) -> Any:
+def _make_increment(pdf: bytes) -> Any:
     """Return what is to be appended to a PDF: nothing but what is added to it.
 
     pyHanko would write the metadata anew with the time of signing, in a form that PDF/A does not allow.
@@ -152,7 +152,7 @@ def _increment(pdf: bytes) -> Any:
     return writer
 
 
-def _of_stamps(signature: Any) -> Iterator[Any]:
+def _list_stamps_certificates(signature: Any) -> Iterator[Any]:
     """Yield the certificates that the time stamps of a signature bring."""
     from pyhanko.sign.validation.generic_cms import extract_tst_data_iter  # noqa: PLC0415
 
@@ -160,7 +160,7 @@ def _of_stamps(signature: Any) -> Iterator[Any]:
         yield from (each.chosen for each in stamp["certificates"] if each.name == "certificate")
 
 
-def _tag(writer: Any, widget: Any) -> None:
+def _tag_widget(writer: Any, widget: Any) -> None:
     """Give the signature's widget a place at the end of a tagged document's structure, as PDF/UA asks."""
     from pyhanko.pdf_utils.generic import (  # noqa: PLC0415
         ArrayObject,
@@ -197,7 +197,7 @@ def _tag(writer: Any, widget: Any) -> None:
     writer.update_container(places)
 
 
-def _valid(key: Any, named: str, place: Place) -> Any:
+def _require_valid(key: Any, named: str, place: Place) -> Any:
     """Return a key whose certificate is valid now: viewers refuse what any other has signed."""
     begin, end = key.signing_cert.not_valid_before, key.signing_cert.not_valid_after
     if not begin <= datetime.now(UTC) <= end:
@@ -207,11 +207,11 @@ def _valid(key: Any, named: str, place: Place) -> Any:
     return key
 
 
-def _in_file(path: Path, ask_password: Callable[[str], str], place: Place) -> Any:
+def _read_key_file(path: Path, ask_password: Callable[[str], str], place: Place) -> Any:
     from cryptography.hazmat.primitives.serialization import pkcs12  # noqa: PLC0415 (an optional extra)
     from pyhanko.sign.signers import SimpleSigner  # noqa: PLC0415 (an optional extra)
 
-    content = demanded(path, _LARGEST, place)
+    content = demand(path, _LARGEST, place)
     password = ask_password(str(path)).encode() or None
     try:
         key, certificate, _ = pkcs12.load_key_and_certificates(content, password)
@@ -221,11 +221,11 @@ def _in_file(path: Path, ask_password: Callable[[str], str], place: Place) -> An
         ) from error
     if key is None or certificate is None:
         raise InputError.at(place, f"{path} holds no key with its certificate; export both into it")
-    return _valid(SimpleSigner.load_pkcs12_data(content, [], password), str(path), place)
+    return _require_valid(SimpleSigner.load_pkcs12_data(content, [], password), str(path), place)
 
 
 @contextmanager
-def _in_token(uri: TokenUri, pin: str, place: Place) -> Iterator[Any]:
+def _open_token(uri: TokenUri, pin: str, place: Place) -> Iterator[Any]:
     from pkcs11.exceptions import PKCS11Error  # noqa: PLC0415 (an optional extra)
     from pyhanko.config.pkcs11 import TokenCriteria  # noqa: PLC0415 (an optional extra)
     from pyhanko.sign.general import SigningError  # noqa: PLC0415 (an optional extra)
@@ -239,7 +239,7 @@ def _in_token(uri: TokenUri, pin: str, place: Place) -> Iterator[Any]:
                 )
             )
             key = PKCS11Signer(session, cert_label=uri.label, key_label=uri.label)
-            valid = _valid(key, f"token {uri.token}", place)
+            valid = _require_valid(key, f"token {uri.token}", place)
         except (PKCS11Error, SigningError, OSError) as error:
             raise AccessError.at(
                 place,
@@ -271,7 +271,7 @@ def parse_token_uri(text: str, place: Place) -> TokenUri:
     everybody on the machine can read a command line.
     """
     found: dict[str, str] = {}
-    for name, value in _attributes(text):
+    for name, value in _split_attributes(text):
         if name in {"pin-value", "pin-source"}:
             raise InputError.at(
                 place, f"a PIN does not belong on the command line; leave {name} out: it is asked for"
@@ -285,7 +285,7 @@ def parse_token_uri(text: str, place: Place) -> TokenUri:
     return TokenUri(Path(found["module-path"]), found["token"], found["object"])
 
 
-def _attributes(text: str) -> Iterator[tuple[str, str]]:
+def _split_attributes(text: str) -> Iterator[tuple[str, str]]:
     path, _, query = text.removeprefix(SCHEME).partition("?")
     for attribute in (*path.split(";"), *query.split("&")):
         if attribute:

@@ -21,7 +21,7 @@ from typing import Any
 import yaml
 
 from zlmreport.errors import AccessError, InputError, Place, did_you_mean
-from zlmreport.files import read, reason
+from zlmreport.files import read, say_reason
 
 # A signature states which bytes it covers; this name cannot be packed away.
 _MARK = b"/ByteRange"
@@ -85,7 +85,7 @@ class SignatureState:
         )
 
 
-def signature_state(pdf: bytes, trusted: Sequence[Any] = ()) -> SignatureState:
+def read_signature_state(pdf: bytes, trusted: Sequence[Any] = ()) -> SignatureState:
     """Return what can be said of the signatures of a PDF, be it foreign, damaged or forged.
 
     `trusted` are certificates in the terms of asn1crypto. Nothing is fetched from anywhere.
@@ -93,18 +93,18 @@ def signature_state(pdf: bytes, trusted: Sequence[Any] = ()) -> SignatureState:
     if _MARK not in pdf:
         return SignatureState(Integrity.UNSIGNED)
     try:
-        with in_silence():
+        with silence_log():
             signatures = _read(pdf, trusted)
     except ImportError:
         return SignatureState(Integrity.UNCHECKED, reason="pyHanko is not installed: zlmreport[sign]")
     except Exception as error:  # noqa: BLE001 (pyHanko meets a forger's bytes with many kinds of them)
         return SignatureState(Integrity.ALTERED, reason=f"its signature cannot be read: {error}")
-    reason = _fault(signatures)
+    reason = _say_fault(signatures)
     return SignatureState(Integrity.ALTERED if reason else Integrity.INTACT, signatures, reason)
 
 
 @contextmanager
-def in_silence() -> Iterator[None]:
+def silence_log() -> Iterator[None]:
     """Keep what pyHanko logs from the terminal: what matters of it is said by findings and errors."""
     loggers = [logging.getLogger(name) for name in ("pyhanko", "pyhanko_certvalidator")]
     levels = [each.level for each in loggers]
@@ -117,7 +117,7 @@ def in_silence() -> Iterator[None]:
             each.setLevel(level)
 
 
-def _fault(signatures: tuple[Signature, ...]) -> str:
+def _say_fault(signatures: tuple[Signature, ...]) -> str:
     if all(each.is_stamp for each in signatures):
         return "what is left of its signature cannot be found"
     if not all(signature.holds for signature in signatures):
@@ -142,11 +142,12 @@ def _read(pdf: bytes, trusted: Sequence[Any]) -> tuple[Signature, ...]:
     except NoDSSFoundError:
         kept = None
     return tuple(
-        _checked(each, _Trust(tuple(trusted), kept, tuple(each.other_embedded_certs))) for each in embedded
+        _check_signature(each, _Trust(tuple(trusted), kept, tuple(each.other_embedded_certs)))
+        for each in embedded
     )
 
 
-def _checked(embedded: Any, trust: _Trust) -> Signature:
+def _check_signature(embedded: Any, trust: _Trust) -> Signature:
     from pyhanko.sign.validation.generic_cms import (  # noqa: PLC0415 (an optional extra)
         extract_tst_data_iter,
         message_imprint_checker,
@@ -169,7 +170,7 @@ def _checked(embedded: Any, trust: _Trust) -> Signature:
             is_intact, is_time_trusted, time = trust.of_stamp(
                 stamp, message_imprint_checker(embedded.signer_info)
             )
-            stamped_by, holds = _stamper(stamp), holds and is_intact
+            stamped_by, holds = _name_stamper(stamp), holds and is_intact
     distrust = "" if is_stamp else trust.against(certificate, time)
     return Signature(
         signer=certificate.subject.human_friendly,
@@ -182,18 +183,18 @@ def _checked(embedded: Any, trust: _Trust) -> Signature:
         is_time_trusted=is_time_trusted,
         distrust=distrust,
         is_stamp=is_stamp,
-        changes=_changes(embedded.reader, embedded.signed_revision),
+        changes=_describe_changes(embedded.reader, embedded.signed_revision),
     )
 
 
-def _stamper(stamp: Any) -> str:
+def _name_stamper(stamp: Any) -> str:
     from pyhanko.sign.general import extract_certificate_info  # noqa: PLC0415
 
     name: str = extract_certificate_info(stamp).signer_cert.subject.human_friendly
     return name
 
 
-def _changes(reader: Any, signed: int) -> str:
+def _describe_changes(reader: Any, signed: int) -> str:
     """Return in words what later revisions changed of what a signature covers, but for proofs of validity.
 
     What is new is seen only where something that is old leads to it. So nothing old may be changed, but for
@@ -212,14 +213,14 @@ def _changes(reader: Any, signed: int) -> str:
             changed = reader.get_object(reference, revision=revision)
             is_new = reader.xrefs.get_introducing_revision(reference) > signed
             old = None if is_new else before.get_object(reference)
-            is_harmless = is_harmless and (is_new or _keeps(old, changed))
-            told.append(_named(old, changed))
+            is_harmless = is_harmless and (is_new or _is_kept(old, changed))
+            told.append(_describe_object(old, changed))
     told = [] if is_harmless else [*dict.fromkeys(filter(None, told))]
     more = len(told) - _MOST_TOLD
     return ", ".join(told[:_MOST_TOLD]) + (f" and {more} more" if more > 0 else "")
 
 
-def _differing(old: Any, changed: Any) -> set[str]:
+def _find_differing_keys(old: Any, changed: Any) -> set[str]:
     """Return the keys under which two dictionaries differ."""
     return {
         key
@@ -228,11 +229,11 @@ def _differing(old: Any, changed: Any) -> set[str]:
     }
 
 
-def _keeps(old: Any, changed: Any) -> bool:
+def _is_kept(old: Any, changed: Any) -> bool:
     """Whether an object was changed in nothing but proofs of validity."""
     if type(old) is not type(changed) or not isinstance(old, dict):
         return bool(type(old) is type(changed) and old == changed)
-    keys = _differing(old, changed)
+    keys = _find_differing_keys(old, changed)
     if hasattr(old, "data"):
         return not keys and bool(old.data == changed.data)
     if old.get("/Type") == "/Catalog":
@@ -241,7 +242,7 @@ def _keeps(old: Any, changed: Any) -> bool:
     return not keys or is_stamp
 
 
-def _named(old: Any, changed: Any) -> str:
+def _describe_object(old: Any, changed: Any) -> str:
     """Return what an object is that a later revision brings or changes; nothing for what leads to others."""
     entries = changed if isinstance(changed, dict) else {}
     kind, subtype = str(entries.get("/Type", "")), str(entries.get("/Subtype", ""))
@@ -253,11 +254,11 @@ def _named(old: Any, changed: Any) -> str:
     elif kind == "/Sig":
         said = "a further signature"
     elif old is not None and kind in {"/Page", "/Catalog"}:
-        said = f"the {kind[1:].lower()}'s {', '.join(sorted(_differing(old, changed)))}"
+        said = f"the {kind[1:].lower()}'s {', '.join(sorted(_find_differing_keys(old, changed)))}"
     elif old is not None:
         what = "the content of a stream" if hasattr(changed, "data") else "an object"
         said = f"{what} ({kind or 'no type'})"
-    return "" if old is not None and _keeps(old, changed) else said
+    return "" if old is not None and _is_kept(old, changed) else said
 
 
 @dataclass(frozen=True, slots=True)
@@ -318,7 +319,7 @@ _CONFIGURATION = Path("zlmreport", "config.yaml")
 _KEY = "trusted"
 
 
-def trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
+def read_trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
     """Return the certificates of a file, or of all files in a folder, in the terms of asn1crypto.
 
     `path`: A certificate, PEM or DER, or several in one file (PEM); or a folder of such files, those that end
@@ -333,16 +334,16 @@ def trusted_certificates(path: Path, place: Place) -> tuple[Any, ...]:
         )
         contents = [(each, read(each, _LARGEST)) for each in files]
     except OSError as error:
-        raise AccessError.at(place, f"{path} cannot be read: {reason(error)}") from error
+        raise AccessError.at(place, f"{path} cannot be read: {say_reason(error)}") from error
     if not contents:
         endings = ", ".join(sorted(_ENDINGS))
         raise InputError.at(
             place, f"{path} holds no certificate: no file whose name ends in one of {endings}"
         )
-    return tuple(each for file, content in contents for each in _certificates(file, content, place))
+    return tuple(each for file, content in contents for each in _read_certificates(file, content, place))
 
 
-def _certificates(file: Path, content: bytes, place: Place) -> list[Any]:
+def _read_certificates(file: Path, content: bytes, place: Place) -> list[Any]:
     try:
         from asn1crypto import pem, x509  # noqa: PLC0415 (comes with pyHanko, an optional extra)
     except ImportError as error:
@@ -360,7 +361,7 @@ def _certificates(file: Path, content: bytes, place: Place) -> list[Any]:
     return found
 
 
-def trusted_by_user(environment: Mapping[str, str] = os.environ) -> Path | None:
+def find_trusted_by_user(environment: Mapping[str, str] = os.environ) -> Path | None:
     """Return what the user's configuration names as trusted; None if it names nothing.
 
     The configuration is ``zlmreport/config.yaml`` in ``$XDG_CONFIG_HOME`` or else in ``~/.config``, with the

@@ -13,17 +13,17 @@ from zlmreport.document.blocks import Block, Graph, Notice, Paragraph, Section, 
 from zlmreport.document.certificate.statements import OPINION
 from zlmreport.document.figures.model_diagram import ModelDiagram, estimate
 from zlmreport.document.figures.model_residuals import (
-    fall_chart,
-    over_condition,
-    over_position,
-    over_run,
-    over_time,
-    slopes_over_time,
+    draw_fall_chart,
+    draw_over_condition,
+    draw_over_position,
+    draw_over_run,
+    draw_over_time,
+    draw_slopes_over_time,
 )
-from zlmreport.document.subjects.diagnosis import diagnosis_sections
-from zlmreport.document.subjects.fit import equations
-from zlmreport.document.subjects.forecast import fall, left_after_compensation
-from zlmreport.document.subjects.linked import linked
+from zlmreport.document.subjects.diagnosis import lay_out_diagnosis
+from zlmreport.document.subjects.fit import lay_out_equations
+from zlmreport.document.subjects.forecast import lay_out_fall, lay_out_left_after_compensation
+from zlmreport.document.subjects.linked import link_graphs
 from zlmreport.language import Words
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
 
@@ -71,47 +71,47 @@ class Modelled:
 
     def section(self, writer: Writer) -> Section:
         """Return the annex."""
-        blocks = _blocks(self, writer)
+        blocks = _lay_out_blocks(self, writer)
         narrow = (each.without(*_TOO_WIDE) if isinstance(each, Table) else each for each in blocks)
         return Section(_KEY, writer.say(_TITLE), tuple(narrow))
 
     def linked(self, writer: Writer) -> Linked:
         """Return the annex's graphs as values, for documents in which readings can be pointed at."""
-        return linked(_KEY, self.study, self.history[-1], self.diagnosis, writer.language)
+        return link_graphs(_KEY, self.study, self.history[-1], self.diagnosis, writer.language)
 
 
-def _blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
+def _lay_out_blocks(modelled: Modelled, writer: Writer) -> Iterator[Block]:
     """Yield what is said of the diagnosis, with the graphs that show it."""
     diagnosis, whole = modelled.diagnosis, modelled.history[-1]
-    sections = diagnosis_sections(diagnosis, writer.language, modelled.titles, modelled.experiment)
+    sections = lay_out_diagnosis(diagnosis, writer.language, modelled.titles, modelled.experiment)
     said = {each.key: each.blocks for each in sections}
     diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
-    table, *moving = fall(modelled.history, modelled.forecasts[0], writer).blocks
+    table, *moving = lay_out_fall(modelled.history, modelled.forecasts[0], writer).blocks
     yield Notice(writer.say(OPINION), (writer.say(_BASIS),))
     yield from said.pop("verdict")
-    yield equations(whole.fit, writer.language)
+    yield lay_out_equations(whole.fit, writer.language)
     yield Paragraph(writer.say(_SYMBOLS))
     yield from said.pop("assumed", ())
     yield from said.pop("model", ())
-    yield Graph(over_position(diagram))
+    yield Graph(draw_over_position(diagram))
     yield Graph(estimate(diagram))
-    yield Graph(fall_chart(modelled.history, next(iter(diagnosis.candidates), None)))
+    yield Graph(draw_fall_chart(modelled.history, next(iter(diagnosis.candidates), None)))
     yield table
-    yield left_after_compensation(modelled.forecasts, writer)
+    yield lay_out_left_after_compensation(modelled.forecasts, writer)
     yield from moving
     yield from said.pop("failures")
-    yield from map(Graph, _graphs(diagnosis.failures, diagram))
+    yield from map(Graph, _draw_graphs(diagnosis.failures, diagram))
     for key, blocks in said.items():
         if key not in _ELSEWHERE:
             yield from blocks
 
 
-def _graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figure]:
+def _draw_graphs(failures: Sequence[Failure], diagram: ModelDiagram) -> Iterator[Figure]:
     """Yield the residuals over whatever a failed test is about; those over the position stand above."""
     failed = {failure.test for failure in failures}
     if ResidualTest.RUNS in failed:
-        yield over_run(diagram)
+        yield draw_over_run(diagram)
     if failed & {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}:
-        yield over_time(diagram)
-        yield slopes_over_time(diagram)
-    yield from (over_condition(diagram, each.condition) for each in failures if each.condition)
+        yield draw_over_time(diagram)
+        yield draw_slopes_over_time(diagram)
+    yield from (draw_over_condition(diagram, each.condition) for each in failures if each.condition)

@@ -11,7 +11,7 @@ from zlmreport.document.blocks import Align, Block, Column, Paragraph, RowGroup,
 from zlmreport.document.subjects.plan_values import SCHEMA
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import general_number
+from zlmreport.language.formatting import write_general_number
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.planning.circle_path import SENSES, CirclePath
 
@@ -38,13 +38,13 @@ _TO_READ = Words("To read the circle")
 _SOURCE = Words("source: {{plugin: circle-csv, feed_in: {arc}, feed_out: {arc}}}")
 
 
-def size_of_circle(path: CirclePath) -> Words:
+def say_size_of_circle(path: CirclePath) -> Words:
     """Return how many turns a test has, and of which radius."""
     turns = len(path.turns)
     return (_SIZE if turns != 1 else _SIZE_OF_ONE).given(count=turns, radius=path.radius)
 
 
-def circle_plan_sections(job: Job, paths: Sequence[CirclePath], language: Language) -> tuple[Section, ...]:
+def lay_out_circle_plan(job: Job, paths: Sequence[CirclePath], language: Language) -> tuple[Section, ...]:
     """Return what is said of the path of a circular test: ``path``, ``feeds``, ``reading``.
 
     `paths`: One for each feed.
@@ -53,15 +53,15 @@ def circle_plan_sections(job: Job, paths: Sequence[CirclePath], language: Langua
     def say(words: Words) -> str:
         return words.in_language(language)
 
-    arc = general_number(paths[0].turns[0].arc)
+    arc = write_general_number(paths[0].turns[0].arc)
     return (
-        Section("path", say(_PATH), tuple(Paragraph(say(words)) for words in _path(job, paths[0]))),
-        Section("feeds", say(_FEEDS), tuple(_feeds(paths, language))),
+        Section("path", say(_PATH), tuple(Paragraph(say(words)) for words in _describe_path(job, paths[0]))),
+        Section("feeds", say(_FEEDS), tuple(_lay_out_feeds(paths, language))),
         Section("reading", say(_TO_READ), (Paragraph(say(_SOURCE.given(arc=arc))),)),
     )
 
 
-def _path(job: Job, path: CirclePath) -> Iterator[Words]:
+def _describe_path(job: Job, path: CirclePath) -> Iterator[Words]:
     turn = path.turns[0]
     first, last = sorted((turn.first, turn.last))
     from_axis, to_axis = path.circle.axes
@@ -71,7 +71,7 @@ def _path(job: Job, path: CirclePath) -> Iterator[Words]:
     yield _BESIDE.given(arc=turn.arc, run_up=path.run_up, rest=path.rest)
 
 
-def _feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
+def _lay_out_feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
     columns = (
         Column("", "mm/min", Align.RIGHT),
         Column(Words("turn").in_language(language), "s", Align.RIGHT),
@@ -81,8 +81,8 @@ def _feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
     sign = language.decimal_sign
     rows = tuple(
         tuple(
-            general_number(float(f"{value:.{_DIGITS}g}"), sign)
-            for value in (path.feed, _seconds(path), path.duration / _MINUTE, path.acceleration)
+            write_general_number(float(f"{value:.{_DIGITS}g}"), sign)
+            for value in (path.feed, _compute_time_of_turn(path), path.duration / _MINUTE, path.acceleration)
         )
         for path in paths
     )
@@ -90,13 +90,15 @@ def _feeds(paths: Sequence[CirclePath], language: Language) -> Iterator[Block]:
     yield Paragraph(_SLOWER.in_language(language))
 
 
-def _seconds(path: CirclePath) -> float:
+def _compute_time_of_turn(path: CirclePath) -> float:
     """Return the time of what is evaluated of a turn, s."""
     turn = path.turns[0]
     return math.radians(abs(turn.last - turn.first)) * path.radius / path.feed * _MINUTE
 
 
-def circle_plan_values(job: Job, paths: Sequence[CirclePath], written: Sequence[Path] = ()) -> dict[str, Any]:
+def collect_circle_plan(
+    job: Job, paths: Sequence[CirclePath], written: Sequence[Path] = ()
+) -> dict[str, Any]:
     """Return the path of a circular test as plain values for JSON; positions in mm, angles in degrees."""
     path = paths[0]
     return {

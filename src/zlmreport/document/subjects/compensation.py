@@ -29,7 +29,7 @@ from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
 from zlmreport.document.figures.prescribed import DEVIATION_TITLE, POSITION_TITLE
 from zlmreport.document.writer import NOTHING, Writer
 from zlmreport.language import Words
-from zlmreport.language.formatting import fixed_number
+from zlmreport.language.formatting import write_fixed_number
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.units import with_unit
@@ -96,7 +96,7 @@ _FIGURES = {
 }
 
 
-def compensation_sheet(
+def make_compensation_sheet(
     job: Job, measurements: MeasurementSet, made: Made, uncertainties: Uncertainties
 ) -> Certificate:
     """Return the document: what the table is for, what it leaves, how to load it, how to check it."""
@@ -113,17 +113,17 @@ def compensation_sheet(
         paper=keys.paper,
         letterhead=None,
         cover=(
-            Facts(tuple(_facts(job, made, writer))),
+            Facts(tuple(_list_facts(job, made, writer))),
             *forecast(made, writer, uncertainties).blocks,
-            Graph(_figure(made, writer)),
+            Graph(_draw_figure(made, writer)),
         ),
         sections=(
             Section(
                 "loading",
                 say(Words("Loading and checking")),
-                _loading(made, writer),
+                _lay_out_loading(made, writer),
             ),
-            conditions.section(job, measurements, (), writer),
+            conditions.lay_out_conditions(job, measurements, (), writer),
         ),
         page_words=PageWords.said(keys.language, f"{title} {keys.number}"),
         description=f"{title}, {control}",
@@ -134,7 +134,7 @@ def compensation_sheet(
     )
 
 
-def _facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str]]:
+def _list_facts(job: Job, made: Made, writer: Writer) -> Iterator[tuple[str, str]]:
     say, active = writer.say, job.keys.axis.compensation_table
     none = Words("no table")
     names = ", ".join(f"{job.keys.certificate.number}{end}" for end in made.files)
@@ -156,9 +156,9 @@ def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Sectio
         (
             Symbol(symbol),
             say(_FIGURES[symbol]),
-            _with_u(before[symbol], uncertainties[0].get(symbol), writer),
-            _with_u(after[symbol], uncertainties[1].get(symbol), writer),
-            _expected(made, symbol, writer),
+            _write_with_u(before[symbol], uncertainties[0].get(symbol), writer),
+            _write_with_u(after[symbol], uncertainties[1].get(symbol), writer),
+            _write_expected(made, symbol, writer),
         )
         for symbol in before
     )
@@ -169,7 +169,7 @@ def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Sectio
         Column(say(Words("With the table")), unit.symbol, Align.RIGHT),
         Column(say(Words("A second test, 95 %")), unit.symbol, Align.RIGHT),
     )
-    sentences = (*remarks(made, writer), _NO_MEASUREMENT)
+    sentences = (*list_table_remarks(made, writer), _NO_MEASUREMENT)
     return Section(
         "forecast",
         say(_FORECAST),
@@ -177,7 +177,7 @@ def forecast(made: Made, writer: Writer, uncertainties: Uncertainties) -> Sectio
     )
 
 
-def confirmation(found: Confirmation, made: Made, shown: Figures, writer: Writer) -> Section:
+def lay_out_confirmation(found: Confirmation, made: Made, shown: Figures, writer: Writer) -> Section:
     """Return whether a second test holds the forecast: in words, and beside what was and was forecast.
 
     `shown`: What the second test shows.
@@ -204,7 +204,7 @@ def confirmation(found: Confirmation, made: Made, shown: Figures, writer: Writer
             Symbol(symbol),
             say(_FIGURES[symbol]),
             _number(before[symbol], writer) if symbol in before else NOTHING,
-            _expected(made, symbol, writer),
+            _write_expected(made, symbol, writer),
             _number(value, writer),
             where(symbol),
         )
@@ -229,7 +229,7 @@ def confirmation(found: Confirmation, made: Made, shown: Figures, writer: Writer
     )
 
 
-def _expected(made: Made, symbol: str, writer: Writer) -> str:
+def _write_expected(made: Made, symbol: str, writer: Writer) -> str:
     """Return from where to where a parameter of a second test is expected."""
     expected, factor = made.forecast.second_test.get(symbol), writer.deviation_unit.from_si(1.0)
     if expected is None:
@@ -237,19 +237,19 @@ def _expected(made: Made, symbol: str, writer: Writer) -> str:
     return " … ".join(_number(each * factor, writer) for each in (expected.low, expected.high))
 
 
-def _with_u(value: float, expanded: float | None, writer: Writer) -> str:
+def _write_with_u(value: float, expanded: float | None, writer: Writer) -> str:
     text = _number(value, writer)
     return text if expanded is None else f"{text} ± {_number(expanded, writer)}"
 
 
-def remarks(made: Made, writer: Writer) -> Iterator[Words]:
+def list_table_remarks(made: Made, writer: Writer) -> Iterator[Words]:
     """Yield what is to be known of a table: between its rows, left out, constants, play that is left."""
     found, unit = made.forecast, writer.deviation_unit
 
     def amount(value: float) -> str:
         return with_unit(_number(unit.from_si(value), writer), unit.symbol)
 
-    yield _grid(made, writer, amount)
+    yield _describe_grid(made, writer, amount)
     yield Words(
         "Anywhere between the {rows} rows up to {between} are left, most at {at}; rounding takes {rounding}."
     ).given(
@@ -299,7 +299,7 @@ _GRIDS = {
 }
 
 
-def _grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
+def _describe_grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
     """Return where the table has its rows, and why."""
     grid = made.grid
     return _GRIDS[grid.reason].given(
@@ -310,13 +310,13 @@ def _grid(made: Made, writer: Writer, amount: Callable[[float], str]) -> Words:
     )
 
 
-def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
+def _lay_out_loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     say, unit = writer.say, writer.deviation_unit
     worst = int(np.argmax(np.abs(made.meant.forward + made.meant.reverse)))  # what a check can see best
     at = made.meant.positions[worst : worst + 1]
 
     def both(values: FloatArray) -> str:
-        up, down = (_signed(unit.from_si(float(each[0])), writer) for each in values)
+        up, down = (_write_signed(unit.from_si(float(each[0])), writer) for each in values)
         return f"{up} ↑, {down} ↓ {unit.symbol}"
 
     worked = Words(
@@ -332,7 +332,7 @@ def _loading(made: Made, writer: Writer) -> tuple[Block, ...]:
     )
 
 
-def _figure(made: Made, writer: Writer) -> Figure:
+def _draw_figure(made: Made, writer: Writer) -> Figure:
     """Return the picture: means and table above, what is left below."""
     curve, printed = made.basis.curve, writer.deviation_unit.from_si
     targets = read_only_floats(writer.position_unit.from_si(curve.positions))
@@ -391,9 +391,9 @@ def _figure(made: Made, writer: Writer) -> Figure:
 
 
 def _number(value: float, writer: Writer) -> str:
-    return fixed_number(value, 2, writer.language.decimal_sign)
+    return write_fixed_number(value, 2, writer.language.decimal_sign)
 
 
-def _signed(value: float, writer: Writer) -> str:
-    text = fixed_number(value, 3, writer.language.decimal_sign)
+def _write_signed(value: float, writer: Writer) -> str:
+    text = write_fixed_number(value, 3, writer.language.decimal_sign)
     return text if value < 0 else f"+{text}"

@@ -25,18 +25,18 @@ from zlmreport.document.blocks import (
 from zlmreport.document.subjects.fit import (
     EFFECTS,
     ParameterRow,
-    deviation,
-    error_facts,
-    in_a_sentence,
-    parameters,
+    lay_out_parameters,
+    list_error_facts,
+    write_deviation,
+    write_in_a_sentence,
 )
 from zlmreport.document.writer import NOTHING
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import p_value, percentage
+from zlmreport.language.formatting import write_p_value, write_percentage
 from zlmreport.measurement.measurement_set import CONDITION_NAMES
 from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis, Verdict
 from zlmreport.model.diagnosis.looking import look_for
-from zlmreport.model.diagnosis.report import serious_candidates, verdict_statement
+from zlmreport.model.diagnosis.report import select_serious_candidates, write_verdict_statement
 from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.effect import Effect
@@ -161,29 +161,29 @@ class DiagnosisRows:
     ) -> DiagnosisRows:
         """Return a diagnosis."""
         axis = diagnosis.fit.design.axis
-        serious = serious_candidates(diagnosis)
+        serious = select_serious_candidates(diagnosis)
 
         def rows(candidates: Iterable[Candidate]) -> tuple[CandidateRow, ...]:
             return tuple(
-                _candidate(each, diagnosis, language, titles or {}, is_serious=each in serious)
+                _make_candidate_row(each, diagnosis, language, titles or {}, is_serious=each in serious)
                 for each in candidates
             )
 
         return cls(
-            statement=verdict_statement(diagnosis).in_language(language),
-            error=error_facts(diagnosis.error, axis, language),
-            failures=tuple(failure_row(each, language) for each in diagnosis.failures),
+            statement=write_verdict_statement(diagnosis).in_language(language),
+            error=list_error_facts(diagnosis.error, axis, language),
+            failures=tuple(make_failure_row(each, language) for each in diagnosis.failures),
             candidates=rows(diagnosis.candidates),
-            hidden=tuple(_hidden(diagnosis, language)),
-            not_tested=_not_tested(diagnosis, language),
+            hidden=tuple(_list_hidden(diagnosis, language)),
+            not_tested=_list_not_tested(diagnosis, language),
             not_excluded=tuple(diagnosis.not_excluded),
             remarks=tuple(each.in_language(language) for each in diagnosis.remarks),
             names_candidates=diagnosis.verdict is Verdict.MISSING,
-            remainder=_remainder(diagnosis, language),
+            remainder=_lay_out_remainder(diagnosis, language),
         )
 
 
-def diagnosis_sections(
+def lay_out_diagnosis(
     diagnosis: Diagnosis,
     language: Language,
     titles: Mapping[str, Words],
@@ -214,7 +214,7 @@ def diagnosis_sections(
         section("verdict", VERDICT, Paragraph(rows.statement, _MARKS[diagnosis.verdict]), rows.error),
         section("remainder", LEFT, rows.remainder, _look(diagnosis, language)),
         section("assumed", _ASSUMED, notice(_ASSUMED, rows.remarks)),
-        section("model", EFFECTS, parameters(fit, language) if fit.model.terms else None),
+        section("model", EFFECTS, lay_out_parameters(fit, language) if fit.model.terms else None),
         section(
             "failures",
             FAILURES,
@@ -224,10 +224,10 @@ def diagnosis_sections(
         section(
             "candidates",
             CANDIDATES,
-            _candidates(serious, fit, language),
+            _lay_out_candidates(serious, fit, language),
             Paragraph(excluded) if leads and rows.not_excluded else None,
         ),
-        section("improbable", _IMPROBABLE, _candidates(others, fit, language)),
+        section("improbable", _IMPROBABLE, _lay_out_candidates(others, fit, language)),
         section(
             "remedy",
             REMEDY,
@@ -238,22 +238,22 @@ def diagnosis_sections(
             EXPERIMENT,
             notice(EXPERIMENT, [experiment.statement.in_language(language)] if experiment else []),
         ),
-        section("hidden", HIDDEN, notice(HIDDEN, map(_reason, rows.hidden))),
-        section("not-tried", NOT_TRIED, notice(NOT_TRIED, map(_reason, rows.not_tested))),
-        section("visibility", HIDDEN, _visibility(diagnosis, language, titles)),
+        section("hidden", HIDDEN, notice(HIDDEN, map(_write_reason, rows.hidden))),
+        section("not-tried", NOT_TRIED, notice(NOT_TRIED, map(_write_reason, rows.not_tested))),
+        section("visibility", HIDDEN, _lay_out_visibility(diagnosis, language, titles)),
     )
     return tuple(each for each in sections if each.blocks)
 
 
-def _reason(row: HiddenRow) -> str:
+def _write_reason(row: HiddenRow) -> str:
     return f"{', '.join(row.effects)}: {row.reason}"
 
 
-def _candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language) -> Table | None:
+def _lay_out_candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language) -> Table | None:
     """Return effects that the model may lack, best first; None if there are none.
 
     The columns are ``effect``, ``probability``, ``rms``, ``left_out`` and ``p``, and of those worth a word
-    ``equals``, ``tell``, ``parameters`` and ``explains``.
+    ``equals``, ``tell``, ``lay_out_parameters`` and ``explains``.
     """
     if not candidates:
         return None
@@ -267,7 +267,7 @@ def _candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language
         known = Explained(row.effect, row.title), row.probability, row.rms, row.left_out, row.p
         if not row.is_serious:
             return known
-        fitted = ", ".join(in_a_sentence(each, language) for each in row.parameters)
+        fitted = ", ".join(write_in_a_sentence(each, language) for each in row.parameters)
         return (*known, ", ".join(row.equals) or NOTHING, row.tell_apart_by or NOTHING, fitted, row.explains)
 
     columns = (
@@ -285,7 +285,7 @@ def _candidates(candidates: Sequence[CandidateRow], fit: Fit, language: Language
     return Table(_CANDIDATES.in_language(language), columns[: len(rows[0])], (RowGroup(rows),))
 
 
-def _visibility(diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words]) -> Table:
+def _lay_out_visibility(diagnosis: Diagnosis, language: Language, titles: Mapping[str, Words]) -> Table:
     """Return how much of each effect the plan of the test can see, the best hidden first."""
     axis = diagnosis.fit.design.axis
     columns = (
@@ -302,32 +302,32 @@ def _visibility(diagnosis: Diagnosis, language: Language, titles: Mapping[str, W
         (
             each.effect,
             titles[each.effect].in_language(language),
-            percentage(each.share, language.decimal_sign),
-            deviation(each.smallest_rms, axis, language),
+            write_percentage(each.share, language.decimal_sign),
+            write_deviation(each.smallest_rms, axis, language),
         )
         for each in sorted(diagnosis.visibility, key=lambda each: (each.share, each.effect))
     )
     return Table(_VISIBILITY.in_language(language), columns, (RowGroup(rows),), dense=True)
 
 
-def failure_row(failure: Failure, language: Language) -> FailureRow:
+def make_failure_row(failure: Failure, language: Language) -> FailureRow:
     """Return a test that failed."""
     where = CONDITION_NAMES.get(failure.condition, failure.where)
     return FailureRow(
         failure.statement.in_language(language),
         where.in_language(language),
-        p_value(failure.p_value, language.decimal_sign),
+        write_p_value(failure.p_value, language.decimal_sign),
         failure,
     )
 
 
-def argument(effect: Effect) -> str:
+def write_effect_argument(effect: Effect) -> str:
     """Return an effect as a job would name it, with its keys unless they are the usual ones."""
     settings = effect.settings.model_dump(mode="json", exclude_defaults=True)
     return f"{effect.identifier}: {json.dumps(settings)}" if settings else effect.identifier
 
 
-def _candidate(
+def _make_candidate_row(
     candidate: Candidate,
     diagnosis: Diagnosis,
     language: Language,
@@ -336,20 +336,20 @@ def _candidate(
     is_serious: bool,
 ) -> CandidateRow:
     design, sign = diagnosis.fit.design, language.decimal_sign
-    p = p_value(candidate.p_value, sign, is_extrapolated=candidate.p_value_is_extrapolated)
+    p = write_p_value(candidate.p_value, sign, is_extrapolated=candidate.p_value_is_extrapolated)
     if candidate.p_value_is_extrapolated:
         p = _EXTRAPOLATED.given(p=p).in_language(language)
     title, tell = titles.get(candidate.identifier), candidate.discriminate_by
     remedy = candidate.effect.remedy
     return CandidateRow(
         effect=candidate.identifier,
-        argument=argument(candidate.effect),
+        argument=write_effect_argument(candidate.effect),
         title=title.in_language(language) if title else "",
-        probability=percentage(candidate.probability, sign),
+        probability=write_percentage(candidate.probability, sign),
         p=p,
-        error=error_facts(candidate.error, design.axis, language),
-        rms=deviation(candidate.error.rms, design.axis, language),
-        left_out=deviation(candidate.error.cross_validated_rms, design.axis, language),
+        error=list_error_facts(candidate.error, design.axis, language),
+        rms=write_deviation(candidate.error.rms, design.axis, language),
+        left_out=write_deviation(candidate.error.cross_validated_rms, design.axis, language),
         parameters=tuple(ParameterRow.of(each, design, language) for each in candidate.estimates),
         explains=candidate.explains.in_language(language),
         tell_apart_by=tell.in_language(language) if tell else "",
@@ -368,7 +368,7 @@ def _is_named(candidate: Candidate, diagnosis: Diagnosis) -> bool:
     return candidate.identifier in names or bool(names & {*candidate.equals})
 
 
-def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
+def _lay_out_remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
     """Return what is left without a name: its shape, place, size, share and formula."""
     left = diagnosis.remainder
     if left is None:
@@ -378,7 +378,7 @@ def _remainder(diagnosis: Diagnosis, language: Language) -> Facts | None:
         (_SHAPE, left.shape.in_language(language)),
         (_WHERE, left.where.in_language(language)),
         (_SIZE, wording.deviation(axis, left.rms).in_language(language)),
-        (_OF_THE_REST, f"{percentage(left.share, language.decimal_sign)} %"),
+        (_OF_THE_REST, f"{write_percentage(left.share, language.decimal_sign)} %"),
     ]
     if left.formula is not None:
         pairs.append((_FORMULA, left.formula.formula))
@@ -394,19 +394,19 @@ def _look(diagnosis: Diagnosis, language: Language) -> Paragraph | None:
     return Paragraph(_LOOK.given(at=look.at, measure=look.measure).in_language(language))
 
 
-def _hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
+def _list_hidden(diagnosis: Diagnosis, language: Language) -> Iterator[HiddenRow]:
     axis = diagnosis.fit.design.axis
     for each in diagnosis.visibility:
         if each.is_hidden:
             words = _FOUND_FROM if math.isfinite(each.smallest_rms) else _VISIBLE
             reason = words.given(
-                share=percentage(each.share, language.decimal_sign),
+                share=write_percentage(each.share, language.decimal_sign),
                 size=wording.deviation(axis, each.smallest_rms),
             )
             yield HiddenRow((each.effect,), reason.in_language(language))
 
 
-def _not_tested(diagnosis: Diagnosis, language: Language) -> tuple[HiddenRow, ...]:
+def _list_not_tested(diagnosis: Diagnosis, language: Language) -> tuple[HiddenRow, ...]:
     by_reason: dict[str, list[str]] = {}
     for each in diagnosis.not_testable:
         by_reason.setdefault(each.reason.in_language(language), []).append(each.effect)

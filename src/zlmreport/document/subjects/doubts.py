@@ -12,14 +12,14 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 _OF_A_RUN = Words("{statement}; {remedy}")
 
 
-def doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
+def find_doubts_of_runs(measurements: MeasurementSet) -> Iterator[Words]:
     """Yield a sentence for each run that seems to be in another unit than the others."""
     if not np.isfinite(measurements.deviation).any():
         return
-    from zlmreport.model.diagnosis.faults import FaultKind, recorded_faults  # noqa: PLC0415 - brings the error model
-    from zlmreport.model.fitting.observations import observations_of  # noqa: PLC0415 - likewise
+    from zlmreport.model.diagnosis.faults import FaultKind, find_recorded_faults  # noqa: PLC0415 - brings the error model
+    from zlmreport.model.fitting.observations import make_observations_of  # noqa: PLC0415 - likewise
 
-    observed = observations_of(measurements)
-    for each in recorded_faults(observed.design, observed.deviation):
+    observed = make_observations_of(measurements)
+    for each in find_recorded_faults(observed.design, observed.deviation):
         if each.kind is FaultKind.WRONG_UNIT and each.run is not None:
             yield _OF_A_RUN.given(statement=each.statement, remedy=each.remedy)

@@ -20,15 +20,15 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.writer import NOTHING
 from zlmreport.language import Language, Words, same
-from zlmreport.language.formatting import MINUS, general_number, rounded_pair
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.formatting import MINUS, round_pair, write_general_number
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.units import DEGREE, Unit, with_unit
-from zlmreport.model.compensation.basis import too_fine, waves_of
+from zlmreport.model.compensation.basis import find_too_fine, find_waves_of
 from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
-from zlmreport.model.diagnosis.study import Fitted, Wave, moves_with_time, one_way, waves
+from zlmreport.model.diagnosis.study import Fitted, Wave, list_one_way, list_waves, list_what_moves_with_time
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, unit_of
+from zlmreport.model.effects.effect import Dimension, find_unit_of
 from zlmreport.model.fitting.estimate import Estimate, Plausibility
 from zlmreport.model.fitting.fit import Fit
 
@@ -104,10 +104,12 @@ class ParameterRow:
     def of(cls, estimate: Estimate, design: Design, language: Language) -> ParameterRow:
         """Return an estimated parameter."""
         own, is_counted = estimate.parameter, design.time_is_counted
-        unit = unit_of(own.dimension, design.axis.kind, time_is_counted=is_counted)
-        value, half, number = _rounded(estimate.value, estimate.expanded_uncertainty, unit, language)
+        unit = find_unit_of(own.dimension, design.axis.kind, time_is_counted=is_counted)
+        value, half, number = _round_with_uncertainty(
+            estimate.value, estimate.expanded_uncertainty, unit, language
+        )
         if estimate.is_given or estimate.at_bound:
-            value, half = general_number(unit.from_si(estimate.value), language.decimal_sign), ""
+            value, half = write_general_number(unit.from_si(estimate.value), language.decimal_sign), ""
             number = float(f"{unit.from_si(estimate.value):.6g}")
         expected = estimate.expected
         return cls(
@@ -125,7 +127,7 @@ class ParameterRow:
             estimate.at_bound,
             estimate.is_scanned and not estimate.is_given,
             estimate.plausibility(time_is_counted=is_counted),
-            "" if expected is None else general_number(unit.from_si(expected), language.decimal_sign),
+            "" if expected is None else write_general_number(unit.from_si(expected), language.decimal_sign),
         )
 
 
@@ -137,7 +139,7 @@ class WaveRows:
     phase: ParameterRow
 
 
-def parameter_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...]:
+def make_parameter_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...]:
     """Return the parameters of a model, effect by effect."""
     return tuple(
         ParameterRow.of(each, fit.design, language)
@@ -147,9 +149,9 @@ def parameter_rows(fit: Fit, language: Language) -> tuple[ParameterRow, ...]:
     )
 
 
-def wave_rows(fit: Fit, language: Language) -> tuple[WaveRows, ...]:
+def make_all_wave_rows(fit: Fit, language: Language) -> tuple[WaveRows, ...]:
     """Return the waves of a model; one with a given parameter is left out."""
-    return tuple(_wave(each, fit.design.axis, language) for each in waves(fit))
+    return tuple(_make_wave_rows(each, fit.design.axis, language) for each in list_waves(fit))
 
 
 def fit_sections(fitted: Fitted, language: Language) -> tuple[Section, ...]:
@@ -157,28 +159,31 @@ def fit_sections(fitted: Fitted, language: Language) -> tuple[Section, ...]:
     fit = fitted.fit
     sections = (
         Section(
-            "error", ERROR.in_language(language), (error_facts(fitted.error, fit.design.axis, language),)
+            "error", ERROR.in_language(language), (list_error_facts(fitted.error, fit.design.axis, language),)
         ),
-        Section("model", EFFECTS.in_language(language), (parameters(fit, language),)),
-        Section("polynomials", _EACH_DIRECTION.in_language(language), tuple(_one_way(fit, language))),
+        Section("model", EFFECTS.in_language(language), (lay_out_parameters(fit, language),)),
+        Section("polynomials", _EACH_DIRECTION.in_language(language), tuple(_say_one_way(fit, language))),
     )
     return tuple(each for each in sections if each.blocks)
 
 
-def error_facts(error: ErrorNumbers, axis: Axis, language: Language) -> Facts:
+def list_error_facts(error: ErrorNumbers, axis: Axis, language: Language) -> Facts:
     """Return how far model and readings are apart, root mean square first; what the test tells of it."""
     values = ((RMS, error.rms), (FLOOR, error.noise_rms), (LEFT_OUT, error.cross_validated_rms))
     pairs = [
-        (name.in_language(language), with_unit(deviation(value, axis, language), axis.deviation_unit.symbol))
+        (
+            name.in_language(language),
+            with_unit(write_deviation(value, axis, language), axis.deviation_unit.symbol),
+        )
         for name, value in values
         if value is not None
     ]
     if error.chi2_per_dof is not None:
-        pairs.append(("χ²/ν", significant_words(error.chi2_per_dof).in_language(language)))
+        pairs.append(("χ²/ν", write_significant(error.chi2_per_dof).in_language(language)))
     return Facts(tuple(pairs), ERROR.in_language(language))
 
 
-def equations(fit: Fit, language: Language) -> Formulas:
+def lay_out_equations(fit: Fit, language: Language) -> Formulas:
     """Return the model: the deviation as a sum of effects."""
     return Formulas(
         _SUM.in_language(language),
@@ -189,15 +194,15 @@ def equations(fit: Fit, language: Language) -> Formulas:
     )
 
 
-def parameters(fit: Fit, language: Language) -> Table:
+def lay_out_parameters(fit: Fit, language: Language) -> Table:
     """Return the parameters of a model with their expanded uncertainties, waves by amplitude and phase, too.
 
     Its columns are ``name``, ``symbol``, ``parameter``, ``value``, ``uncertainty``, ``unit``, ``plausible``
     and ``expected``.
     """
     rows = [
-        *parameter_rows(fit, language),
-        *(row for each in wave_rows(fit, language) for row in (each.amplitude, each.phase)),
+        *make_parameter_rows(fit, language),
+        *(row for each in make_all_wave_rows(fit, language) for row in (each.amplitude, each.phase)),
     ]
 
     def say(heading: Words) -> str:
@@ -215,7 +220,7 @@ def parameters(fit: Fit, language: Language) -> Table:
     )
     groups = tuple(
         RowGroup(
-            tuple(_cells(each, language) for each in rows if each.effect == effect.identifier),
+            tuple(_lay_out_cells(each, language) for each in rows if each.effect == effect.identifier),
             f"{effect.identifier}: {effect.title.in_language(language)}",
         )
         for effect in (term.effect for term in fit.model.terms)
@@ -223,9 +228,9 @@ def parameters(fit: Fit, language: Language) -> Table:
     return Table(_PARAMETERS.in_language(language), columns, groups)
 
 
-def _cells(row: ParameterRow, language: Language) -> tuple[Cell, ...]:
+def _lay_out_cells(row: ParameterRow, language: Language) -> tuple[Cell, ...]:
     known = row.uncertainty if not row.is_on_grid else _OF_GRID.given(half_width=row.uncertainty)
-    uncertainty = known if row.uncertainty else _how_it_is_known(row)
+    uncertainty = known if row.uncertainty else _say_how_it_is_known(row)
     return (
         row.name,
         Symbol(row.notation),
@@ -238,18 +243,18 @@ def _cells(row: ParameterRow, language: Language) -> tuple[Cell, ...]:
     )
 
 
-def _how_it_is_known(row: ParameterRow) -> Words:
+def _say_how_it_is_known(row: ParameterRow) -> Words:
     return _GIVEN if row.is_given else _HELD.given(bound=row.at_bound)
 
 
-def in_a_sentence(row: ParameterRow, language: Language) -> str:
+def write_in_a_sentence(row: ParameterRow, language: Language) -> str:
     """Return a parameter within a sentence: ``drift 3.1 ± 0.4 µm``."""
     notes: list[Words | str] = []
     if row.uncertainty:
         notes += [_GRID] if row.is_on_grid else []
         amount = f"{row.value} ± {row.uncertainty} {row.unit}"
     else:
-        notes.append(_how_it_is_known(row))
+        notes.append(_say_how_it_is_known(row))
         amount = f"{row.value} {row.unit}"
     if row.plausibility in _DOUBTS:
         notes.append(_DOUBTS[row.plausibility])
@@ -259,26 +264,27 @@ def in_a_sentence(row: ParameterRow, language: Language) -> str:
     return " ".join((row.name, amount.rstrip(), *(f"({each})" for each in said)))
 
 
-def _one_way(fit: Fit, language: Language) -> Iterator[Paragraph]:
+def _say_one_way(fit: Fit, language: Language) -> Iterator[Paragraph]:
     """Yield that readings have unequal weights, and the polynomial of each direction."""
     axis, (least, largest) = fit.design.axis, fit.noise.span
     if least < largest:
-        ends = (deviation(least, axis, language), deviation(largest, axis, language))
+        ends = (write_deviation(least, axis, language), write_deviation(largest, axis, language))
         words = _WEIGHTED.given(least=ends[0], largest=with_unit(ends[1], axis.deviation_unit.symbol))
         yield Paragraph(words.in_language(language))
-    curves = tuple(one_way(fit))
+    curves = tuple(list_one_way(fit))
     for approach, values, _ in curves:
         powers = [(axis.name, power) for power in range(len(values))]
-        yield Paragraph(f"Δ{approach.arrow} = {polynomial(values.tolist(), powers, language)}")
+        yield Paragraph(f"Δ{approach.arrow} = {write_polynomial(values.tolist(), powers, language)}")
     if curves:
         first, last = (
-            general_number(axis.position_unit.from_si(end), language.decimal_sign) for end in fit.design.span
+            write_general_number(axis.position_unit.from_si(end), language.decimal_sign)
+            for end in fit.design.span
         )
         words = _SCOPE.given(axis=axis.name, unit=axis.position_unit.symbol, first=first, last=last)
         yield Paragraph(words.in_language(language))
 
 
-def polynomial(
+def write_polynomial(
     coefficients: Sequence[float], powers: Sequence[tuple[str, int]], language: Language = Language.ENGLISH
 ) -> str:
     """Write a polynomial: it needs more digits than each of its terms is known to.
@@ -296,24 +302,24 @@ def polynomial(
     return " ".join([first.removeprefix("+ ").replace(f"{MINUS} ", MINUS), *others])
 
 
-def deviation(value: float | None, axis: Axis, language: Language) -> str:
+def write_deviation(value: float | None, axis: Axis, language: Language) -> str:
     """Write a deviation (m or rad) with three significant digits, without its unit."""
     if value is None or not math.isfinite(value):
         return NOTHING
-    return significant_words(axis.deviation_unit.from_si(value)).in_language(language)
+    return write_significant(axis.deviation_unit.from_si(value)).in_language(language)
 
 
-def no_table_takes_away(fit: Fit, language: Language) -> str:
+def say_no_table_takes_away(fit: Fit, language: Language) -> str:
     """Return the sentences on effects that no table of positions takes away; empty if there are none."""
     named = (
-        (_MOVES, moves_with_time(fit)),
-        (_TOO_FINE, too_fine(waves_of(fit), fit.design.target_positions)),
+        (_MOVES, list_what_moves_with_time(fit)),
+        (_TOO_FINE, find_too_fine(find_waves_of(fit), fit.design.target_positions)),
     )
     said = (words.given(effects=", ".join(effects)) for words, effects in named if effects)
     return " ".join(words.in_language(language) for words in said)
 
 
-def _wave(wave: Wave, axis: Axis, language: Language) -> WaveRows:
+def _make_wave_rows(wave: Wave, axis: Axis, language: Language) -> WaveRows:
     harmonic, k = wave.harmonic, wave.coverage_factor
 
     def row(
@@ -332,18 +338,22 @@ def _wave(wave: Wave, axis: Axis, language: Language) -> WaveRows:
         )
 
     unit = axis.deviation_unit
-    amplitude = _rounded(harmonic.amplitude, k * harmonic.amplitude_uncertainty, unit, language)
-    phase = _rounded(harmonic.phase, k * harmonic.phase_uncertainty, DEGREE, language)
+    amplitude = _round_with_uncertainty(
+        harmonic.amplitude, k * harmonic.amplitude_uncertainty, unit, language
+    )
+    phase = _round_with_uncertainty(harmonic.phase, k * harmonic.phase_uncertainty, DEGREE, language)
     return WaveRows(
         row("amplitude", "A", _AMPLITUDE, amplitude, unit), row("phase", "φ", _PHASE, phase, DEGREE)
     )
 
 
-def _rounded(value: float, expanded: float, unit: Unit, language: Language) -> tuple[str, str, float]:
+def _round_with_uncertainty(
+    value: float, expanded: float, unit: Unit, language: Language
+) -> tuple[str, str, float]:
     """Write a value and its uncertainty (SI), and return the written value as a number too."""
     sign = language.decimal_sign
     if expanded > _UNDETERMINED * max(abs(value), 1.0):
         # Columns that hang together to the last digit: the readings say nothing of it.
-        return general_number(unit.from_si(value), sign), "∞", float(f"{unit.from_si(value):.6g}")
-    printed, half = rounded_pair(unit.from_si(value), unit.from_si(expanded), sign)
+        return write_general_number(unit.from_si(value), sign), "∞", float(f"{unit.from_si(value):.6g}")
+    printed, half = round_pair(unit.from_si(value), unit.from_si(expanded), sign)
     return printed, half, float(printed.replace(MINUS, "-").replace(sign, "."))

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from zlmreport.document.blocks import Align, Column, ColumnKind, Paragraph, RowGroup, Section, Symbol, Table
-from zlmreport.document.subjects.fit import deviation, no_table_takes_away
+from zlmreport.document.subjects.fit import say_no_table_takes_away, write_deviation
 from zlmreport.document.writer import NOTHING, Writer
 from zlmreport.evaluation.evaluation import Group, Quantity
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Words
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.compensation.basis import FittedModel, compensated
+from zlmreport.model.compensation.basis import FittedModel, compensate_readings
 from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
-from zlmreport.model.diagnosis.study import Fitted, Study, corrected
+from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
 
 if TYPE_CHECKING:
     from zlmreport.evaluation.evaluate import EvaluatingStandard
@@ -52,19 +52,19 @@ class StandardForecast:
     by_table: FloatArray  #: (quantities,): With a table of the model, its rows at the targets, m or rad.
 
 
-def forecasts(
+def make_forecasts(
     standards: Iterable[tuple[EvaluatingStandard, Any]], study: Study, history: Sequence[Fitted]
 ) -> tuple[StandardForecast, ...]:
     """Return the forecast by each standard."""
-    tests = [corrected(study.measurements, study.observed, each.fit) for each in history]
-    tests.append(compensated(FittedModel(study.measurements, study.observed, history[-1].fit)))
+    tests = [correct_by_model(study.measurements, study.observed, each.fit) for each in history]
+    tests.append(compensate_readings(FittedModel(study.measurements, study.observed, history[-1].fit)))
     statistics = position_statistics(
         np.stack([test.deviations() for test in tests]), study.measurements.target_positions
     )
     found = []
     for standard, options in standards:
         values = standard.arithmetic(statistics, options).parameters
-        quantities = _leading(standard.quantities)
+        quantities = _select_leading(standard.quantities)
         table = np.stack([values[quantity.symbol] for quantity in quantities], axis=1)
         found.append(
             StandardForecast(
@@ -79,7 +79,7 @@ def forecasts(
     return tuple(found)
 
 
-def _leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
+def _select_leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
     """Return the first quantity of each group."""
     first: dict[Group, Quantity] = {}
     for quantity in quantities:
@@ -87,7 +87,7 @@ def _leading(quantities: Sequence[Quantity]) -> tuple[Quantity, ...]:
     return tuple(first[group] for group in _ORDER if group in first)
 
 
-def fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) -> Section:
+def lay_out_fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) -> Section:
     """Return how the error fell, effect by effect, and what a standard would say after each.
 
     Its table has the columns ``effect``, ``share`` (of the largest error), ``rms``, ``chi2``,
@@ -101,9 +101,9 @@ def fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) 
         chi2 = error.chi2_per_dof
         return (
             _share(error.rms, largest),
-            deviation(error.rms, axis, language),
-            NOTHING if chi2 is None else say(significant_words(chi2)),
-            deviation(error.cross_validated_rms, axis, language),
+            write_deviation(error.rms, axis, language),
+            NOTHING if chi2 is None else say(write_significant(chi2)),
+            write_deviation(error.cross_validated_rms, axis, language),
         )
 
     columns = (
@@ -122,9 +122,9 @@ def fall(history: Sequence[Fitted], forecast: StandardForecast, writer: Writer) 
     floor = whole.error.noise_rms
     if floor is not None:
         blank = ("",) * (2 + len(forecast.quantities))
-        rows.append((say(_FLOOR), _share(floor, largest), deviation(floor, axis, language), *blank))
+        rows.append((say(_FLOOR), _share(floor, largest), write_deviation(floor, axis, language), *blank))
     caption = say(_FALL.given(designation=forecast.designation))
-    left = no_table_takes_away(whole.fit, language)
+    left = say_no_table_takes_away(whole.fit, language)
     return Section(
         "fall",
         say(FALL),
@@ -136,7 +136,7 @@ def _share(value: float, largest: float) -> str:
     return f"{min(100.0, 100.0 * value / largest):.1f}"
 
 
-def left_after_compensation(forecasts: Sequence[StandardForecast], writer: Writer) -> Table:
+def lay_out_left_after_compensation(forecasts: Sequence[StandardForecast], writer: Writer) -> Table:
     """Return what a compensation would leave of the leading parameters of each standard."""
     say, unit = writer.say, writer.deviation_unit.symbol
     columns = (

@@ -10,13 +10,13 @@ import numpy as np
 
 from zlmreport.document.certificate.document import Linked
 from zlmreport.document.figures.model_diagram import SPREAD, ModelDiagram, estimate
-from zlmreport.document.figures.model_residuals import over_position
-from zlmreport.document.subjects.diagnosis import FAILURES, FailureRow, failure_row
+from zlmreport.document.figures.model_residuals import draw_over_position
+from zlmreport.document.subjects.diagnosis import FAILURES, FailureRow, make_failure_row
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS
 from zlmreport.model.diagnosis.residuals import Failure, ResidualTest
-from zlmreport.model.diagnosis.study import Fitted, Study, corrected
-from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.diagnosis.study import Fitted, Study, correct_by_model
+from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.curve import shows_reach_only
 
 if TYPE_CHECKING:
@@ -79,7 +79,9 @@ GRAPH_TEXTS: Mapping[str, Words] = MappingProxyType(
 _IN_TIME = {ResidualTest.TIME_ORDER, ResidualTest.PERIOD_IN_TIME}
 
 
-def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, language: Language) -> Linked:
+def link_graphs(
+    section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, language: Language
+) -> Linked:
     """Return the linked graphs of a studied model.
 
     `study`: The readings, none set aside.
@@ -87,12 +89,14 @@ def linked(section: str, study: Study, whole: Fitted, diagnosis: Diagnosis, lang
     return Linked(
         section,
         {name: words.in_language(language) for name, words in GRAPH_TEXTS.items()},
-        graphs(study, whole, language),
-        tuple(failure_values(failure_row(each, language), diagnosis, study) for each in diagnosis.failures),
+        collect_graphs(study, whole, language),
+        tuple(
+            collect_failure(make_failure_row(each, language), diagnosis, study) for each in diagnosis.failures
+        ),
     )
 
 
-def failure_values(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[str, Any]:
+def collect_failure(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[str, Any]:
     """Return a failure: what is said of it, and the axis and the readings that show it."""
     failure = row.failure
     axis = failure.condition or "position"
@@ -105,11 +109,11 @@ def failure_values(row: FailureRow, diagnosis: Diagnosis, study: Study) -> dict[
         "where": row.where,
         "p": row.p,
         "axis": axis,
-        "readings": _readings(failure, diagnosis, study),
+        "readings": _list_failing_readings(failure, diagnosis, study),
     }
 
 
-def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
+def collect_graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
     """Return what both graphs draw, in the units of the page.
 
     `study`: The readings, none set aside.
@@ -117,13 +121,13 @@ def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
     observed, axis = study.observed, study.job.axis
     design = observed.design
     diagram = ModelDiagram(whole.fit.of_the_job, whole.error)
-    left = corrected(study.measurements, observed, whole.fit).deviation[observed.reading]
-    aside = outliers(study.together.design, study.together.deviation).readings
+    left = correct_by_model(study.measurements, observed, whole.fit).deviation[observed.reading]
+    aside = find_outliers(study.together.design, study.together.deviation).readings
     fitted = np.ones(len(observed.reading), dtype=np.bool_)
     fitted[aside[aside < len(fitted)]] = False  # the job's own readings stand first
     unit = axis.deviation_unit
     return {
-        "axes": list(_axes(study, language)),
+        "axes": list(_list_axes(study, language)),
         "unit": unit.symbol,
         "deviation": _DEVIATION.in_language(language),
         "residual": _RESIDUAL.in_language(language),
@@ -131,17 +135,17 @@ def graphs(study: Study, whole: Fitted, language: Language) -> dict[str, Any]:
             "place": observed.reading.tolist(),
             "direction": np.where(design.direction > 0, 1, -1).tolist(),
             "run": design.run.tolist(),
-            "deviation": drawn_values(unit.from_si(observed.deviation)),
-            "residual": drawn_values(unit.from_si(left)),
+            "deviation": collect_drawn_values(unit.from_si(observed.deviation)),
+            "residual": collect_drawn_values(unit.from_si(left)),
             "fitted": fitted.tolist(),
         },
-        "model": model_curves(diagram),
+        "model": collect_model_curves(diagram),
         "noise": unit.from_si(SPREAD * diagram.noise),
-        "alternative": over_position(diagram).alternative.in_language(language),
+        "alternative": draw_over_position(diagram).alternative.in_language(language),
     }
 
 
-def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
+def collect_model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
     """Return the model with its U for each direction; nothing for a model of no effect."""
     if not diagram.fit.model.terms:
         return []
@@ -150,34 +154,34 @@ def model_curves(diagram: ModelDiagram) -> list[dict[str, Any]]:
     return [
         {
             "direction": int(approach),
-            "x": drawn_values(curve.x),
-            "y": drawn_values(curve.y),
-            "low": drawn_values(band.lower),
-            "high": drawn_values(band.upper),
+            "x": collect_drawn_values(curve.x),
+            "y": collect_drawn_values(curve.y),
+            "low": collect_drawn_values(band.lower),
+            "high": collect_drawn_values(band.upper),
             "reach": reaches,
         }
         for approach, curve, band in zip(diagram.approaches, panel.curves, panel.bands, strict=True)
     ]
 
 
-def _axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
+def _list_axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
     """Yield everything over which readings can be laid out; the first is the position."""
     design, axis = study.observed.design, study.job.axis
-    yield _axis(
+    yield _make_axis(
         "position",
         _POSITION.in_language(language),
         axis.position_unit.symbol,
         axis.position_unit.from_si(design.position),
     )
     if design.time_is_counted:
-        yield _axis("time", _COUNTED.in_language(language), "", 1.0 + design.time)
+        yield _make_axis("time", _COUNTED.in_language(language), "", 1.0 + design.time)
     else:
         in_minutes = design.duration > _LONG
         values = design.time / _MINUTE if in_minutes else design.time
-        yield _axis("time", _TIME.in_language(language), "min" if in_minutes else "s", values)
-    yield _axis("run", _RUN.in_language(language), "", design.run.astype(np.float64))
+        yield _make_axis("time", _TIME.in_language(language), "min" if in_minutes else "s", values)
+    yield _make_axis("run", _RUN.in_language(language), "", design.run.astype(np.float64))
     if design.is_bidirectional:
-        yield _axis("direction", _DIRECTION.in_language(language), "", design.direction)
+        yield _make_axis("direction", _DIRECTION.in_language(language), "", design.direction)
     for name, log in study.measurements.conditions.items():
         at = log[study.observed.reading]
         if np.isnan(at).all():
@@ -186,19 +190,19 @@ def _axes(study: Study, language: Language) -> Iterator[dict[str, Any]]:
         if name in CONDITIONS:
             scale = CONDITIONS[name].unit
             at, unit = scale.from_si(at), scale.symbol
-        yield _axis(name, title.in_language(language), unit, at)
+        yield _make_axis(name, title.in_language(language), unit, at)
 
 
-def _axis(key: str, title: str, unit: str, values: FloatArray) -> dict[str, Any]:
-    return {"key": key, "title": title, "unit": unit, "values": drawn_values(values)}
+def _make_axis(key: str, title: str, unit: str, values: FloatArray) -> dict[str, Any]:
+    return {"key": key, "title": title, "unit": unit, "values": collect_drawn_values(values)}
 
 
-def drawn_values(values: FloatArray) -> list[float | None]:
+def collect_drawn_values(values: FloatArray) -> list[float | None]:
     """Return values in the units of the page as JSON has them: NaN, which it has not, is nothing."""
     return [None if value != value else value for value in np.round(values, _DECIMALS).tolist()]  # noqa: PLR0124 - NaN is what differs from itself
 
 
-def _readings(failure: Failure, diagnosis: Diagnosis, study: Study) -> list[int]:
+def _list_failing_readings(failure: Failure, diagnosis: Diagnosis, study: Study) -> list[int]:
     """Return the places of the readings that show a failure, in the measurement set; none where all do."""
     if failure.test is ResidualTest.OUTLIERS:
         return [int(each) for each in diagnosis.outliers]

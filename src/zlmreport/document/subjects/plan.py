@@ -20,15 +20,15 @@ from zlmreport.document.blocks import (
 from zlmreport.evaluation.checks import position_in_words, readings_in_words
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number, general_number, percentage
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.formatting import write_fixed_number, write_general_number, write_percentage
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects import wording
-from zlmreport.model.effects.effect import Shape, unit_of
+from zlmreport.model.effects.effect import Shape, find_unit_of
 from zlmreport.model.planning.methods import Method, Visit
 from zlmreport.model.planning.plan import ASSUMPTION
 from zlmreport.model.planning.planned_test import PlannedTest
-from zlmreport.model.planning.targets import in_users_unit
+from zlmreport.model.planning.targets import convert_to_users_unit
 from zlmreport.model.planning.visibility import Remedy, SeenEffect, Sight
 
 _MINUTE = 60.0
@@ -82,7 +82,7 @@ _PARAMETER = Words("{name} {size}{unit}")
 _RMS = Words("{size} rms")
 
 
-def size_of_plan(planned: PlannedTest) -> Words:
+def say_size_of_plan(planned: PlannedTest) -> Words:
     """Return how many targets and readings a plan has."""
     targets = _COUNTED_TARGETS.given(number=len(planned.proposal.plan.targets))
     return _COUNT.given(targets=targets, readings=readings_in_words(len(planned.visits)))
@@ -127,15 +127,15 @@ class _Plan:
         return _ASSUMED if key in self.planned.proposal.assumed else ""
 
     def number(self, value: float) -> str:
-        return general_number(value, self.language.decimal_sign)
+        return write_general_number(value, self.language.decimal_sign)
 
     def targets(self) -> Iterator[Block]:
         proposal, unit = self.planned.proposal, self.axis.position_unit.symbol
         how = _FRACTIONS if proposal.has_fractions else _NO_FRACTIONS
         yield Paragraph(self.say(how.given(unit=unit, seed=proposal.seed)))
-        targets = in_users_unit(self.axis, proposal.plan.targets)
+        targets = convert_to_users_unit(self.axis, proposal.plan.targets)
         decimals = max(len(f"{target:.9f}".rstrip("0").partition(".")[2]) for target in targets)
-        texts = (fixed_number(each, decimals, self.language.decimal_sign) for each in targets)
+        texts = (write_fixed_number(each, decimals, self.language.decimal_sign) for each in targets)
         yield Facts(tuple((str(number), text) for number, text in enumerate(texts, start=1)))
         for period in self.planned.half_seen:
             yield Paragraph(self.say(_HALF_SEEN.given(period=period)), Mark.OPEN)
@@ -144,7 +144,7 @@ class _Plan:
         planned, plan = self.planned, self.planned.proposal.plan
         unit = self.axis.position_unit
         runs = _ONCE if plan.runs == 1 else _TIMES.given(runs=plan.runs)
-        stretches = list(_stretches(planned.visits))
+        stretches = list(_join_stretches(planned.visits))
         shown = "  ".join(stretches[:_MOST_STRETCHES])
         method = _METHOD.given(method=plan.method.value, assumed=self.assumed("measurement.method"))
         yield Paragraph(self.say(method))
@@ -213,7 +213,7 @@ class _Plan:
             elif each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}:
                 remedy = self.planned.remedies.get(name)
                 item = f"{name}: {self.say(self.blurred(each, remedy))}"
-                blurred.setdefault(self.say(_what_to_do(remedy)), []).append(item)
+                blurred.setdefault(self.say(_say_what_to_do(remedy)), []).append(item)
         yield from (Notice(text, tuple(items)) for text, items in blurred.items())
         yield from (Paragraph(f"{', '.join(names)}: {text}") for text, names in untestable.items())
 
@@ -252,25 +252,25 @@ class _Plan:
         if seen.smallest is None:
             return _RMS.given(size=wording.deviation(self.axis, seen.smallest_rms))
         parameter, value = seen.smallest
-        unit = unit_of(parameter.dimension, self.axis.kind)
-        size = significant_words(value * unit.per_si, 2)
+        unit = find_unit_of(parameter.dimension, self.axis.kind)
+        size = write_significant(value * unit.per_si, 2)
         return _PARAMETER.given(name=parameter.name, size=size, unit=f" {unit.symbol}".rstrip())
 
     def percent(self, share: float) -> str:
-        return percentage(share, self.language.decimal_sign)
+        return write_percentage(share, self.language.decimal_sign)
 
 
-def _what_to_do(remedy: Remedy | None) -> Words:
+def _say_what_to_do(remedy: Remedy | None) -> Words:
     if remedy is None:
         return _NO_REMEDY
     return _REMEDY.given(reason=remedy.reason, advice=remedy.advice) if remedy.reason else remedy.advice
 
 
-def _stretches(visits: Sequence[Visit]) -> Iterator[str]:
+def _join_stretches(visits: Sequence[Visit]) -> Iterator[str]:
     """Yield visits in their order; those that go on in one direction from target to target as one."""
     start = 0
     for index in range(1, len(visits) + 1):
-        if index < len(visits) and _goes_on(visits[index - 1], visits[index]):
+        if index < len(visits) and _is_going_on(visits[index - 1], visits[index]):
             continue
         first, last = visits[start], visits[index - 1]
         arrow = first.approach.arrow
@@ -279,6 +279,6 @@ def _stretches(visits: Sequence[Visit]) -> Iterator[str]:
         start = index
 
 
-def _goes_on(one: Visit, other: Visit) -> bool:
+def _is_going_on(one: Visit, other: Visit) -> bool:
     step = other.target - one.target
     return one.run == other.run and one.approach is other.approach and step == int(one.approach)

@@ -11,9 +11,9 @@ from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import HELD
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.effects.effect import unit_of
+from zlmreport.model.effects.effect import find_unit_of
 from zlmreport.model.planning.planned_test import PlannedTest
-from zlmreport.model.planning.targets import in_users_unit
+from zlmreport.model.planning.targets import convert_to_users_unit
 from zlmreport.model.planning.visibility import Remedy, SeenEffect
 
 SCHEMA = "zlmreport/plan/1"
@@ -23,7 +23,7 @@ def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path] = ()) ->
     """Return a plan as plain values for JSON."""
     axis, proposal = job.axis, planned.proposal
     plan, position = proposal.plan, axis.position_unit
-    targets = in_users_unit(axis, plan.targets)
+    targets = convert_to_users_unit(axis, plan.targets)
     return {
         "schema": SCHEMA,
         "certificate": {"number": job.keys.certificate.number},
@@ -43,7 +43,7 @@ def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path] = ()) ->
         "travelled": position.from_si(planned.travelled),
         "duration": planned.duration,
         "targets": targets,
-        "two_phases_of": [_said(period) for period in planned.half_seen],
+        "two_phases_of": [_say(period) for period in planned.half_seen],
         "visits": [
             {
                 "target": targets[visit.target],
@@ -55,15 +55,15 @@ def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path] = ()) ->
         ],
         "model": list(planned.model.identifiers),
         "visibility": [
-            _seen_effect(each, planned.remedies.get(each.effect.identifier), axis)
+            _collect_seen_effect(each, planned.remedies.get(each.effect.identifier), axis)
             for each in planned.seen_effects
         ],
         "log": [{"column": column, "effects": names} for column, names in planned.logs.items()],
         "requirements": [
             {
                 "standard": designation,
-                "requirement": _said(finding.requirement),
-                "found": _said(finding.found),
+                "requirement": _say(finding.requirement),
+                "found": _say(finding.found),
                 "met": finding.met,
             }
             for designation, findings in planned.findings.items()
@@ -73,12 +73,12 @@ def plan_values(job: Job, planned: PlannedTest, written: Sequence[Path] = ()) ->
     }
 
 
-def _seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
+def _collect_seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[str, Any]:
     seen = found.visibility
     smallest = None
     if seen.smallest is not None and math.isfinite(seen.smallest[1]):
         parameter, value = seen.smallest
-        unit = unit_of(parameter.dimension, axis.kind)
+        unit = find_unit_of(parameter.dimension, axis.kind)
         smallest = {"name": parameter.name, "value": value * unit.per_si, "unit": unit.ascii}
     return {
         "effect": seen.effect,
@@ -89,17 +89,17 @@ def _seen_effect(found: SeenEffect, remedy: Remedy | None, axis: Axis) -> dict[s
         else None,
         "smallest": smallest,
         "log": list(found.logs),
-        "reason": None if seen.reason is None else _said(seen.reason),
+        "reason": None if seen.reason is None else _say(seen.reason),
         "remedy": None
         if remedy is None
         else {
-            "reason": None if remedy.reason is None else _said(remedy.reason),
-            "advice": _said(remedy.advice),
+            "reason": None if remedy.reason is None else _say(remedy.reason),
+            "advice": _say(remedy.advice),
             "share": remedy.share,
         },
     }
 
 
-def _said(words: Words | str) -> str:
+def _say(words: Words | str) -> str:
     text = words if isinstance(words, str) else words.in_language(Language.ENGLISH)
     return text.replace(HELD, " ")

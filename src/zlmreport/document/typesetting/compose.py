@@ -21,13 +21,13 @@ from zlmreport.document.blocks import (
     Section,
     Table,
     Verdict,
-    text_of,
+    write_cell_text,
 )
 from zlmreport.document.certificate import columns
 from zlmreport.document.certificate.columns import GatheredBlock, NumberedBlock
 from zlmreport.document.certificate.document import Certificate, Linked
-from zlmreport.document.certificate.endings import Ending, all_of, endings
-from zlmreport.document.typesetting.resources import linked_values
+from zlmreport.document.certificate.endings import Ending, find_endings, is_all_of
+from zlmreport.document.typesetting.resources import write_linked_values
 from zlmreport.document.typesetting.templates import (
     CellContext,
     Context,
@@ -42,8 +42,8 @@ from zlmreport.document.typesetting.templates import (
     SectionContext,
     TableContext,
     render,
-    symbol,
-    text_with_symbols,
+    set_symbol,
+    set_text_with_symbols,
 )
 
 #: Where a renderer finds a drawing by its number from 0, and the logo.
@@ -84,8 +84,8 @@ def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
     """Set a certificate; the result starts with a document type and parses as XML."""
     own = certificate.look.templates
     cover, *sections = (
-        [(each.block, render(_context(each, certificate, setting), own)) for each in blocks]
-        for blocks in columns.numbered(certificate)
+        [(each.block, render(_make_context(each, certificate, setting), own)) for each in blocks]
+        for blocks in columns.number_blocks(certificate)
     )
     linked = certificate.linked if setting.script else None
     context = DocumentContext(
@@ -93,19 +93,19 @@ def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
         style=Markup(setting.style),  # noqa: S704 (the renderer's own style sheets)
         policy=setting.policy,
         script=Markup(setting.script),  # noqa: S704 (the renderer's own script)
-        letterhead=_letterhead(certificate, setting),
+        letterhead=_set_letterhead(certificate, setting),
         cover=tuple(markup for _, markup in cover),
         sections=tuple(
-            _section(number, section, ending, blocks, linked, own)
+            _set_section(number, section, ending, blocks, linked, own)
             for number, (section, ending, blocks) in enumerate(
-                zip(certificate.sections, endings(certificate), sections, strict=True), start=1
+                zip(certificate.sections, find_endings(certificate), sections, strict=True), start=1
             )
         ),
     )
     return render(context)
 
 
-def _letterhead(certificate: Certificate, setting: Setting) -> Markup:
+def _set_letterhead(certificate: Certificate, setting: Setting) -> Markup:
     letterhead = certificate.letterhead
     if letterhead is None:
         return Markup()
@@ -113,7 +113,7 @@ def _letterhead(certificate: Certificate, setting: Setting) -> Markup:
     return render(LetterheadContext(letterhead, logo), certificate.look.templates)
 
 
-def _section(  # noqa: PLR0913, PLR0917 - what a section is set from
+def _set_section(  # noqa: PLR0913, PLR0917 - what a section is set from
     number: int,
     section: Section,
     ending: Ending,
@@ -125,8 +125,8 @@ def _section(  # noqa: PLR0913, PLR0917 - what a section is set from
     markup = [each for _, each in blocks]
     if linked and linked.section == section.key:
         first = next(at for at, (block, _) in enumerate(blocks) if isinstance(block, Graph))
-        markup.insert(first, render(LinkedContext(linked_values(linked))))
-    is_whole = all_of(section, ending)
+        markup.insert(first, render(LinkedContext(write_linked_values(linked))))
+    is_whole = is_all_of(section, ending)
     context = SectionContext(
         section.key,
         number,
@@ -140,35 +140,35 @@ def _section(  # noqa: PLR0913, PLR0917 - what a section is set from
     return render(context, own)
 
 
-def _context(numbered: NumberedBlock, certificate: Certificate, setting: Setting) -> Context:
+def _make_context(numbered: NumberedBlock, certificate: Certificate, setting: Setting) -> Context:
     label = numbered.label
     match numbered.block:
         case Table() as table:
             page = certificate.page_words.page
-            return _table(table, label, page, is_for_screens=setting.is_for_screens)
+            return _make_table_context(table, label, page, is_for_screens=setting.is_for_screens)
         case Formulas() as formulas:
-            return _formulas(formulas, label)
+            return _make_formulas_context(formulas, label)
         case Graph(figure):
             number = numbered.number - 1
             return GraphContext(
                 label=label,
-                caption=text_with_symbols(figure.title.in_language(certificate.language), figure.symbols),
+                caption=set_text_with_symbols(figure.title.in_language(certificate.language), figure.symbols),
                 alternative=figure.alternative.in_language(certificate.language),
                 address=GRAPH_ADDRESS.format(number),
                 drawing=Markup(setting.drawings[number]) if setting.drawings else Markup(),  # noqa: S704 (the drawer's own)
             )
         case Paragraph(text, fine=fine, verdict=verdict, symbols=symbols):
-            shape = _shape(verdict) if verdict else ""
+            shape = _name_shape(verdict) if verdict else ""
             return ParagraphContext(
-                text_with_symbols(text, symbols), fine, shape, verdict.word if verdict else ""
+                set_text_with_symbols(text, symbols), fine, shape, verdict.word if verdict else ""
             )
         case Notice() as block:
             return block
         case facts:
-            return FactsContext(columns.side_by_side(facts))
+            return FactsContext(columns.balance_facts(facts))
 
 
-def _shape(verdict: Verdict) -> str:
+def _name_shape(verdict: Verdict) -> str:
     """Return the class name of a verdict's shape."""
     return verdict.mark.value.replace(" ", "-")
 
@@ -176,32 +176,32 @@ def _shape(verdict: Verdict) -> str:
 _ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
 
 
-def _table(table: Table, label: str, page: str, *, is_for_screens: bool) -> TableContext:
-    layout = columns.table_layout(table)
+def _make_table_context(table: Table, label: str, page: str, *, is_for_screens: bool) -> TableContext:
+    layout = columns.lay_out_table(table)
     styles = tuple(
         "apart" if apart else _ALIGNMENT[column.align]
         for column, apart in zip(table.columns, layout.apart, strict=True)
     )
-    padding = iter(columns.decimal_padding(table))
+    padding = iter(columns.pad_decimals(table))
     return TableContext(
         label=label,
-        caption=text_with_symbols(table.caption, table.symbols),
+        caption=set_text_with_symbols(table.caption, table.symbols),
         size=layout.size,
         whole=layout.is_whole,
         in_fives=layout.in_fives,
-        widths=_per_cent(layout.widths),
+        widths=_write_per_cent(layout.widths),
         headings=tuple(
-            CellContext(text_of(column.heading, symbol), style, column.unit)
+            CellContext(write_cell_text(column.heading, set_symbol), style, column.unit)
             for column, style in zip(table.columns, styles, strict=True)
         ),
         is_for_screens=is_for_screens,
-        labels=_labels(table) if is_for_screens else (),
+        labels=_list_labels(table) if is_for_screens else (),
         groups=tuple(
             RowGroupContext(
                 heading=group.heading,
                 note=group.note,
                 section=group.section,
-                rows=tuple(tuple(map(_cell, row, styles, next(padding))) for row in group.rows),
+                rows=tuple(tuple(map(_make_cell_context, row, styles, next(padding))) for row in group.rows),
             )
             for group in table.groups
         ),
@@ -209,36 +209,36 @@ def _table(table: Table, label: str, page: str, *, is_for_screens: bool) -> Tabl
     )
 
 
-def _formulas(formulas: Formulas, label: str) -> FormulasContext:
-    layout = columns.table_layout(formulas)
+def _make_formulas_context(formulas: Formulas, label: str) -> FormulasContext:
+    layout = columns.lay_out_table(formulas)
     return FormulasContext(
         label=label,
         caption=formulas.caption,
         whole=layout.is_whole,
-        widths=_per_cent(layout.widths),
+        widths=_write_per_cent(layout.widths),
         rows=tuple(
-            (symbol(letter.notation), symbol(formula.notation), name)
+            (set_symbol(letter.notation), set_symbol(formula.notation), name)
             for letter, formula, name in formulas.rows
         ),
     )
 
 
-def _labels(table: Table) -> tuple[str, ...]:
+def _list_labels(table: Table) -> tuple[str, ...]:
     """Return what stands above the cells of a table of words; nothing of one of numbers: it is scrolled."""
     if table.columns[0].align is Align.RIGHT:
         return ()
     return tuple(
-        f"{text_of(each.heading)} ({each.unit})" if each.unit else text_of(each.heading)
+        f"{write_cell_text(each.heading)} ({each.unit})" if each.unit else write_cell_text(each.heading)
         for each in table.columns
     )
 
 
-def _per_cent(widths: Iterable[float]) -> tuple[str, ...]:
+def _write_per_cent(widths: Iterable[float]) -> tuple[str, ...]:
     return tuple(f"{width:.2f}" for width in widths)
 
 
-def _cell(cell: Cell, style: str, padding: str) -> CellContext:
+def _make_cell_context(cell: Cell, style: str, padding: str) -> CellContext:
     if isinstance(cell, Verdict):
-        return CellContext(cell.word, f"verdict {_shape(cell)} {style}".strip())
+        return CellContext(cell.word, f"verdict {_name_shape(cell)} {style}".strip())
     note = cell.meaning if isinstance(cell, Explained) else ""
-    return CellContext(text_of(cell, symbol), f"{style} {padding}".strip(), note=note)
+    return CellContext(write_cell_text(cell, set_symbol), f"{style} {padding}".strip(), note=note)

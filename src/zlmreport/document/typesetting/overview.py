@@ -9,10 +9,16 @@ from typing import ClassVar
 
 from markupsafe import Markup
 
-from zlmreport.document.typesetting.resources import PACKAGE, FontFace, font, font_faces, style_sheet
+from zlmreport.document.typesetting.resources import (
+    PACKAGE,
+    FontFace,
+    read_font,
+    style_sheet,
+    write_font_faces,
+)
 
 
-def drawing(image: str) -> Markup:
+def make_drawing(image: str) -> Markup:
     """Return a graph of our own as markup.
 
     `image`: As `zlmreport.document.figures.canvas.SvgCanvas` writes it, which escapes all text.
@@ -20,19 +26,19 @@ def drawing(image: str) -> Markup:
     return Markup(image.strip())  # noqa: S704 (the canvas has escaped every text)
 
 
-def overview_style() -> Markup:
+def make_overview_style() -> Markup:
     """Return the style sheet of an overview, the typeface in it."""
-    return Markup(f"{font_faces(_embedded)}\n{style_sheet('tokens', 'overview')}")  # noqa: S704 (our own style sheets)
+    return Markup(f"{write_font_faces(_embed_face)}\n{style_sheet('tokens', 'overview')}")  # noqa: S704 (our own style sheets)
 
 
-def overview_script() -> Markup:
+def read_overview_script() -> Markup:
     """Return the script by which a reader searches an overview; it is well-formed in XML, too."""
     text = (files(PACKAGE) / "scripts" / "overview.js").read_text("utf-8")
     return Markup(f"//<![CDATA[\n{text}//]]>\n")  # noqa: S704 (our own script)
 
 
-def _embedded(face: FontFace) -> str:
-    return f"data:font/woff2;base64,{b64encode(font(f'{face.stem}.woff2')).decode('ascii')}"
+def _embed_face(face: FontFace) -> str:
+    return f"data:font/woff2;base64,{b64encode(read_font(f'{face.stem}.woff2')).decode('ascii')}"
 
 
 _NO_DRAWING = Markup()

@@ -45,7 +45,7 @@ FACES = (
 )
 
 
-def font(name: str) -> bytes:
+def read_font(name: str) -> bytes:
     """Return the bytes of a font file: ``IBMPlexSans-Regular.woff2``."""
     return (files(PACKAGE) / "fonts" / name).read_bytes()
 
@@ -60,7 +60,7 @@ def style_sheet(*names: str, accent: str = _ACCENT) -> str:
     return "\n".join(sheets).replace(_ACCENT, accent)
 
 
-def font_faces(address: Callable[[FontFace], str]) -> str:
+def write_font_faces(address: Callable[[FontFace], str]) -> str:
     """Return the rules that bring in the typeface; `address` says where each face is found."""
     return "\n".join(
         f'@font-face {{ font-family: "{FAMILY}"; font-style: {face.style}; font-weight: {face.weight}; '
@@ -69,7 +69,7 @@ def font_faces(address: Callable[[FontFace], str]) -> str:
     )
 
 
-def own_style(look: Look, address: Callable[[bytes], str]) -> str:
+def write_own_style(look: Look, address: Callable[[bytes], str]) -> str:
     """Return the style sheet of a laboratory's own look; `address` says where a font is found."""
     rules = [text for name, text in look.templates if name == STYLE_SHEET]
     if face := look.typeface:
@@ -106,26 +106,26 @@ class PageFile:
     media_type: str
 
 
-def page_file(name: str) -> PageFile | None:
+def find_page_file(name: str) -> PageFile | None:
     """Return a file by its name; None for any name that is not on the list."""
-    return page_files().get(name)
+    return read_page_files().get(name)
 
 
 @cache
-def page_files() -> dict[str, PageFile]:
+def read_page_files() -> dict[str, PageFile]:
     """Return all files of the page by their names."""
     found = {
         each.name: each.read_bytes()
         for each in (files(PACKAGE) / _WORKBENCH).iterdir()
-        if each.is_file() and _suffix(each.name) in _MEDIA_TYPES
+        if each.is_file() and _find_suffix(each.name) in _MEDIA_TYPES
     }
-    found |= {f"{face.stem}.woff2": font(f"{face.stem}.woff2") for face in FACES}
+    found |= {f"{face.stem}.woff2": read_font(f"{face.stem}.woff2") for face in FACES}
     found[_TOKENS] = style_sheet("tokens").encode()
-    found[_FACES] = font_faces(lambda face: f"{face.stem}.woff2").encode()
-    return {name: PageFile(content, _MEDIA_TYPES[_suffix(name)]) for name, content in found.items()}
+    found[_FACES] = write_font_faces(lambda face: f"{face.stem}.woff2").encode()
+    return {name: PageFile(content, _MEDIA_TYPES[_find_suffix(name)]) for name, content in found.items()}
 
 
-def _suffix(name: str) -> str:
+def _find_suffix(name: str) -> str:
     return f".{name.rpartition('.')[2]}"
 
 
@@ -138,7 +138,7 @@ _EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const) (\w+))", r
 _AS_XML = "//<![CDATA[\n{}//]]>\n"
 
 
-def linked_values(linked: Linked) -> Markup:
+def write_linked_values(linked: Linked) -> Markup:
     """Return the values as JSON without any character that begins markup or a reference to an entity."""
     text = json.dumps(asdict(linked), separators=(",", ":"), allow_nan=False)
     for character in "<>&":
@@ -147,7 +147,7 @@ def linked_values(linked: Linked) -> Markup:
 
 
 @cache
-def linked_script() -> str:
+def read_linked_script() -> str:
     """Return the script that shows the values."""
     modules: dict[str, str] = {}
     _gather(_ENTRY, modules)
@@ -155,33 +155,33 @@ def linked_script() -> str:
     return _AS_XML.format(f'(() => {{\n"use strict";\n{body}}})();\n')
 
 
-def fingerprint(content: str) -> str:
+def digest_script(content: str) -> str:
     """Return the digest of a script as a content security policy names it."""
     return f"'sha256-{b64encode(sha256(content.encode()).digest()).decode('ascii')}'"
 
 
 @cache
-def linked_style() -> str:
+def read_linked_style() -> str:
     """Return the style sheets of the graphs."""
-    return "\n".join(_text(name) for name in _STYLES)
+    return "\n".join(_read_text(name) for name in _STYLES)
 
 
 def _gather(name: str, modules: dict[str, str]) -> None:
     """Add a module after those that it imports, each as a constant that holds what it exports."""
-    text = _text(name)
+    text = _read_text(name)
     for _, other in _IMPORT.findall(text):
         if other not in modules:
             _gather(other, modules)
     exported = ", ".join(_EXPORT.findall(text))
-    text = _IMPORT.sub(lambda found: f"const {found[1]} = {_constant(found[2])};", text)
+    text = _IMPORT.sub(lambda found: f"const {found[1]} = {_read_constant(found[2])};", text)
     text = _EXPORT.sub("", text)
-    modules[name] = f"const {_constant(name)} = (() => {{\n{text}return {{ {exported} }};\n}})();\n"
+    modules[name] = f"const {_read_constant(name)} = (() => {{\n{text}return {{ {exported} }};\n}})();\n"
 
 
-def _constant(name: str) -> str:
+def _read_constant(name: str) -> str:
     return f"{PurePosixPath(name).stem}Module"
 
 
-def _text(name: str) -> str:
-    shared: PageFile | None = page_files().get(name)
+def _read_text(name: str) -> str:
+    shared: PageFile | None = read_page_files().get(name)
     return shared.content.decode() if shared else (files(PACKAGE) / _FOLDER / name).read_text("utf-8")

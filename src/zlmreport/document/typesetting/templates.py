@@ -24,7 +24,7 @@ from jinja2 import (
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.document.blocks import Facts, Notice, Symbol, with_symbols
+from zlmreport.document.blocks import Facts, Notice, Symbol, split_at_symbols
 from zlmreport.document.certificate.document import Certificate, Letterhead
 from zlmreport.document.typesetting.overview import (
     OverviewContext,
@@ -37,7 +37,7 @@ from zlmreport.document.typesetting.overview import (
 )
 from zlmreport.document.typesetting.resources import PACKAGE
 from zlmreport.errors import InputError, Place
-from zlmreport.language.formatting import Span, held, spans
+from zlmreport.language.formatting import Span, hold_units, split_spans
 
 
 @dataclass(frozen=True, slots=True)
@@ -223,7 +223,7 @@ Context: TypeAlias = (
 _OF_BLOCKS: dict[type, str] = {Notice: "notice.html"}
 
 
-def template_of(context: type[Context]) -> str:
+def name_template_of(context: type[Context]) -> str:
     """Return the name of the template that belongs to a kind of context."""
     return _OF_BLOCKS.get(context) or str(vars(context)["template"])
 
@@ -239,19 +239,19 @@ _WORDS = re.compile(r"[+−-]?\w+(?:[.,]\w+)*")
 _PICTURES = re.compile(r"<(?:img|svg)\b")
 
 
-def _held(value: object) -> object:
+def _hold_together(value: object) -> object:
     """Hold together what belongs together in a text; markup and what was escaped are left as they are."""
-    return held(value) if type(value) is str else value
+    return hold_units(value) if type(value) is str else value
 
 
 @lru_cache(maxsize=8)
-def environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvironment:
+def make_environment(own: tuple[tuple[str, str], ...] = ()) -> ImmutableSandboxedEnvironment:
     """Return the environment; templates are compiled once in a process, those of a laboratory's own first."""
     usual = PackageLoader(PACKAGE)
     return ImmutableSandboxedEnvironment(
         loader=ChoiceLoader([DictLoader(dict(own)), usual, PrefixLoader({_USUAL: usual})]) if own else usual,
         autoescape=True,
-        finalize=_held,
+        finalize=_hold_together,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -266,38 +266,38 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
     prints.
     """
     values = {field.name: getattr(context, field.name) for field in fields(context)}
-    name = template_of(type(context))
-    text = environment().get_template(name).render(values)
+    name = name_template_of(type(context))
+    text = make_environment().get_template(name).render(values)
     if name in dict(own):
         usual, place = text, Place(name)
         try:
-            text = environment(own).get_template(name).render(values)
+            text = make_environment(own).get_template(name).render(values)
             ET.fromstring(f"<block>{_NOT_IN_XML.sub(_REPLACEMENT, text)}</block>")  # noqa: S314 - the job's own
         except (TemplateError, ArithmeticError, RecursionError, TypeError, ET.ParseError) as error:
             line = getattr(error, "lineno", None) or 0
             raise InputError.at(Place(name, line), f"this template does not work: {error}") from error
-        if lacking := [*(_shown(usual) - _shown(text))]:
+        if lacking := [*(_count_shown(usual) - _count_shown(text))]:
             raise InputError.at(
                 place, f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
             )
     return Markup(_NOT_IN_XML.sub(_REPLACEMENT, text))  # noqa: S704 (the template has escaped every value)
 
 
-def _shown(markup: str) -> Counter[str]:
+def _count_shown(markup: str) -> Counter[str]:
     """Return the words and pictures of a block."""
     text = Markup(markup).striptags()  # noqa: S704 - it is only looked at
     return Counter([*_WORDS.findall(text), *_PICTURES.findall(markup)])
 
 
-def text_with_symbols(text: str, notations: Iterable[str]) -> Markup:
+def set_text_with_symbols(text: str, notations: Iterable[str]) -> Markup:
     """Set a text, and in it as symbols those of these notations."""
     return Markup().join(
-        symbol(part.notation) if isinstance(part, Symbol) else held(part)
-        for part in with_symbols(text, notations)
+        set_symbol(part.notation) if isinstance(part, Symbol) else hold_units(part)
+        for part in split_at_symbols(text, notations)
     )
 
 
 @lru_cache(maxsize=1024)
-def symbol(notation: str) -> Markup:
+def set_symbol(notation: str) -> Markup:
     """Set a symbol or a formula; the same few come again and again."""
-    return render(SymbolContext(spans(notation)))
+    return render(SymbolContext(split_spans(notation)))

@@ -32,7 +32,7 @@ _ANYTHING_ELSE = re.compile(
 )
 
 
-def compensated_by_instrument(job: Job, measurements: MeasurementSet) -> Compensated:
+def find_compensated_by_instrument(job: Job, measurements: MeasurementSet) -> Compensated:
     """Return what the instrument has corrected itself; the job's word counts before the file's."""
     instrument = job.keys.instrument
     stated = instrument.compensates if instrument else None

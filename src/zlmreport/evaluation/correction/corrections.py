@@ -17,14 +17,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.evaluation.correction.compensated import compensated_by_instrument
+from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
 from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import AirKeys, DeadPathKeys, ExclusionKeys, MaterialKeys
 from zlmreport.language import Words
-from zlmreport.language.formatting import general_number
+from zlmreport.language.formatting import write_general_number
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray, decimals_of, read_only_floats
+from zlmreport.measurement.arrays import FloatArray, count_decimals_of, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet
 from zlmreport.measurement.provenance import Correction, Exclusion
@@ -33,7 +33,11 @@ from zlmreport.measurement.refractive_index import (
     STANDARD_PRESSURE,
     refractive_index,
 )
-from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN, REFERENCE_TEMPERATURE, above_reference
+from zlmreport.measurement.units import (
+    MICROMETRE_PER_METRE_KELVIN,
+    REFERENCE_TEMPERATURE,
+    compute_above_reference,
+)
 
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6
@@ -42,7 +46,7 @@ _MOST_DECIMALS = 3
 _KEY = "measurement.excluded"
 
 
-def displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index: float) -> FloatArray:
+def correct_displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index: float) -> FloatArray:
     """Return the displacement by the true wavelength, D·nₐ/n.
 
     `displayed`, (N,): Displacement from the datum as the instrument displayed it, m.
@@ -52,7 +56,7 @@ def displacement_in_air(displayed: FloatArray, index: FloatArray, assumed_index:
     return displayed * (assumed_index / index)
 
 
-def dead_path_error(index: FloatArray, index_at_datum: float, dead_path: float) -> FloatArray:
+def compute_dead_path_error(index: FloatArray, index_at_datum: float, dead_path: float) -> FloatArray:
     """Return how far the air along the dead path has moved the datum, Dp·(n − n₀)/n, m.
 
     `index`, (N,): n at each reading.
@@ -102,7 +106,7 @@ class Corrections:
     expansion: Expansion | None = None
 
 
-def corrected(measurements: MeasurementSet, corrections: Corrections) -> MeasurementSet:
+def correct(measurements: MeasurementSet, corrections: Corrections) -> MeasurementSet:
     """Return a new set of readings, corrected, with every correction in its provenance.
 
     The displacement from the datum is corrected; a target position is what the axis was commanded to, and
@@ -112,53 +116,53 @@ def corrected(measurements: MeasurementSet, corrections: Corrections) -> Measure
     displacement = target + measurements.deviation - corrections.datum
     applied: list[Correction] = []
     if corrections.air is not None:
-        displacement, found = _in_air(displacement, corrections.air)
+        displacement, found = _correct_for_air(displacement, corrections.air)
         applied.append(found)
         if corrections.dead_path is not None:
-            displacement, found = _without_dead_path(displacement, corrections.air, corrections.dead_path)
+            displacement, found = _correct_dead_path(displacement, corrections.air, corrections.dead_path)
             applied.append(found)
     if corrections.expansion is not None:
-        displacement, found = _at_20_degrees(displacement, corrections.expansion)
+        displacement, found = _correct_to_20_degrees(displacement, corrections.expansion)
         applied.append(found)
     deviation = read_only_floats(displacement + corrections.datum - target)
     unit = measurements.axis.deviation_unit
-    step = unit.to_si(10.0 ** -decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    step = unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
     provenance = replace(measurements.provenance, corrections=tuple(applied), step=step)
     return replace(measurements, deviation=deviation, provenance=provenance)
 
 
-def _in_air(displayed: FloatArray, air: Air) -> tuple[FloatArray, Correction]:
-    displacement = displacement_in_air(displayed, air.index, air.assumed_index)
+def _correct_for_air(displayed: FloatArray, air: Air) -> tuple[FloatArray, Correction]:
+    displacement = correct_displacement_in_air(displayed, air.index, air.assumed_index)
     inputs = _AIR_INPUTS.given(
         low=number_words(float(air.index.min()), 8),
         high=number_words(float(air.index.max()), 8),
         assumed=number_words(float(air.assumed_index), 8),
     )
-    return displacement, Correction(_AIR, _AIR_METHOD, inputs, _largest(displacement - displayed))
+    return displacement, Correction(_AIR, _AIR_METHOD, inputs, _find_largest(displacement - displayed))
 
 
-def _without_dead_path(displacement: FloatArray, air: Air, dead_path: float) -> tuple[FloatArray, Correction]:
-    error = dead_path_error(air.index, float(air.index[0]), dead_path)
+def _correct_dead_path(displacement: FloatArray, air: Air, dead_path: float) -> tuple[FloatArray, Correction]:
+    error = compute_dead_path_error(air.index, float(air.index[0]), dead_path)
     inputs = _DEAD_PATH_INPUTS.given(length=1e3 * abs(dead_path))
-    return displacement - error, Correction(_DEAD_PATH, _DEAD_PATH_METHOD, inputs, _largest(error))
+    return displacement - error, Correction(_DEAD_PATH, _DEAD_PATH_METHOD, inputs, _find_largest(error))
 
 
-def _at_20_degrees(displacement: FloatArray, expansion: Expansion) -> tuple[FloatArray, Correction]:
-    difference = above_reference(expansion.temperature)
+def _correct_to_20_degrees(displacement: FloatArray, expansion: Expansion) -> tuple[FloatArray, Correction]:
+    difference = compute_above_reference(expansion.temperature)
     change = -displacement * expansion.coefficient * difference
     inputs = _MATERIAL_INPUTS.given(
         alpha=1e6 * expansion.coefficient, low=float(difference.min()), high=float(difference.max())
     )
-    return displacement + change, Correction(_MATERIAL, _MATERIAL_METHOD, inputs, _largest(change))
+    return displacement + change, Correction(_MATERIAL, _MATERIAL_METHOD, inputs, _find_largest(change))
 
 
-def _largest(change: FloatArray) -> float:
+def _find_largest(change: FloatArray) -> float:
     """Return the change of the largest amount, with its sign; 0 where there are no readings."""
     known = change[np.isfinite(change)]
     return float(known[np.argmax(np.abs(known))]) if len(known) else 0.0
 
 
-def without_excluded(measurements: MeasurementSet, job: Job) -> MeasurementSet:
+def drop_excluded(measurements: MeasurementSet, job: Job) -> MeasurementSet:
     """Return readings without those that a job sets aside.
 
     A reading that is set aside is missing from the set, and stands in its provenance with its value.
@@ -173,7 +177,7 @@ def without_excluded(measurements: MeasurementSet, job: Job) -> MeasurementSet:
     for index, each in enumerate(keys):
         place = job.place_of(f"{_KEY}.{index}")
         try:
-            reading = _reading(each, measurements)
+            reading = _find_reading(each, measurements)
         except LookupError as error:
             problems.append(Problem(place, f"{_KEY}: {error.args[0]}"))
             continue
@@ -195,7 +199,7 @@ def without_excluded(measurements: MeasurementSet, job: Job) -> MeasurementSet:
     return replace(measurements, deviation=read_only_floats(deviation), provenance=provenance)
 
 
-def _reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
+def _find_reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
     """Return the place of the reading that a key names; raise `LookupError` saying why there is none."""
     axis = measurements.axis
     unit = axis.position_unit
@@ -203,13 +207,13 @@ def _reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
     nearest = int(np.argmin(np.abs(targets - key.target)))
     if abs(float(targets[nearest]) - key.target) > _SAME:
         raise LookupError(
-            f"there is no target {_position(axis, key.target)}; the nearest is "
-            f"{_position(axis, float(targets[nearest]))}"
+            f"there is no target {_write_position(axis, key.target)}; the nearest is "
+            f"{_write_position(axis, float(targets[nearest]))}"
         )
     approach = Approach.POSITIVE if key.direction == "+" else Approach.NEGATIVE
     at_target = (measurements.target == nearest) & (measurements.approach == approach)
     found = np.flatnonzero(at_target & (measurements.run == key.run))
-    where = f"{_position(axis, key.target)} {approach.arrow}"
+    where = f"{_write_position(axis, key.target)} {approach.arrow}"
     if not found.size:
         runs: Sequence[int] = sorted(set(measurements.run[at_target].tolist()))
         there = f"runs there: {', '.join(map(str, runs))}" if runs else "nothing was read there"
@@ -221,14 +225,14 @@ def _reading(key: ExclusionKeys, measurements: MeasurementSet) -> int:
     return int(found[0])
 
 
-def _position(axis: Axis, value: float) -> str:
-    return f"{general_number(value)} {axis.position_unit.symbol}"
+def _write_position(axis: Axis, value: float) -> str:
+    return f"{write_general_number(value)} {axis.position_unit.symbol}"
 
 
 _NANOMETRE = 1e-9
 
 
-def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None:
+def find_corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None:
     """Return what a job corrects its readings for; None where it asks for nothing.
 
     Raises `InputError` with everything that a correction needs and neither the readings nor the job tell.
@@ -236,29 +240,29 @@ def corrections_of(job: Job, measurements: MeasurementSet) -> Corrections | None
     keys = job.keys.corrections
     if keys is None or not (keys.air or keys.dead_path or keys.material):
         return None
-    problems = list(_corrected_already(job, measurements))
+    problems = list(_find_corrected_already(job, measurements))
     if not job.axis.has_length:
         message = "corrections of lengths do not apply to a rotary axis: take corrections out"
         problems.append(Problem(job.place_of("corrections"), message))
     if keys.dead_path and not keys.air:
         message = "corrections.dead_path needs the index of the air: add corrections.air"
         problems.append(Problem(job.place_of("corrections.dead_path"), message))
-    air = _air(keys.air, job, measurements, problems) if keys.air else None
-    expansion = _expansion(keys.material, job, measurements, problems) if keys.material else None
+    air = _make_air(keys.air, job, measurements, problems) if keys.air else None
+    expansion = _make_expansion(keys.material, job, measurements, problems) if keys.material else None
     if problems:
         raise InputError(problems)
     to_si = job.axis.position_unit.to_si
     return Corrections(
-        datum=_datum(measurements) if keys.datum is None else to_si(keys.datum),
+        datum=_find_datum(measurements) if keys.datum is None else to_si(keys.datum),
         air=air,
-        dead_path=_signed(keys.dead_path, to_si(keys.dead_path.length)) if keys.dead_path else None,
+        dead_path=_sign_dead_path(keys.dead_path, to_si(keys.dead_path.length)) if keys.dead_path else None,
         expansion=expansion,
     )
 
 
-def _corrected_already(job: Job, measurements: MeasurementSet) -> Iterator[Problem]:
+def _find_corrected_already(job: Job, measurements: MeasurementSet) -> Iterator[Problem]:
     """Yield the corrections that the instrument has made before: nothing is corrected twice."""
-    keys, done = job.keys.corrections, compensated_by_instrument(job, measurements)
+    keys, done = job.keys.corrections, find_compensated_by_instrument(job, measurements)
     for name, asked, made in (
         ("material", keys and keys.material, done.material),
         ("air", keys and keys.air, done.air),
@@ -270,14 +274,14 @@ def _corrected_already(job: Job, measurements: MeasurementSet) -> Iterator[Probl
             yield Problem(job.place_of(f"corrections.{name}"), message)
 
 
-def _datum(measurements: MeasurementSet) -> float:
+def _find_datum(measurements: MeasurementSet) -> float:
     """Return where the instrument was set to zero, as the readings tell; or else the first target."""
     if measurements.datum is None:
         return float(measurements.target_positions[0])
     return measurements.datum
 
 
-def condition_at_readings(name: str, job: Job, measurements: MeasurementSet) -> FloatArray | None:
+def find_condition_at_readings(name: str, job: Job, measurements: MeasurementSet) -> FloatArray | None:
     """Return a condition at each reading, SI: as logged, or as the job states it; None where neither tells.
 
     Between readings at which it was not logged it is taken to change evenly.
@@ -292,9 +296,9 @@ def condition_at_readings(name: str, job: Job, measurements: MeasurementSet) -> 
     return None
 
 
-def _air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]) -> Air | None:
+def _make_air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]) -> Air | None:
     wavelength = keys.wavelength * _NANOMETRE
-    conditions = _conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)
+    conditions = _find_conditions(STATE_OF_AIR, "corrections.air", job, measurements, problems)
     if conditions is None:
         return None
     temperature, pressure, humidity = conditions
@@ -303,17 +307,17 @@ def _air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: list[P
         return Air(index, keys.assumed)
     if keys.assumed == "vacuum":
         return Air(index, 1.0)
-    return Air(index, standard_index(wavelength))
+    return Air(index, compute_standard_index(wavelength))
 
 
-def standard_index(wavelength: float) -> float:
+def compute_standard_index(wavelength: float) -> float:
     """Return the index of air at 20 °C, 1013.25 hPa and 50 %."""
     state = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
     temperature, pressure, humidity = map(np.array, state)
     return float(refractive_index(temperature, pressure, humidity, wavelength))
 
 
-def _expansion(
+def _make_expansion(
     keys: MaterialKeys, job: Job, measurements: MeasurementSet, problems: list[Problem]
 ) -> Expansion | None:
     environment = job.keys.environment
@@ -324,13 +328,13 @@ def _expansion(
             "expansion_coefficient, µm/(m·K)"
         )
         problems.append(Problem(job.place_of("corrections.material"), message))
-    conditions = _conditions((keys.temperature,), "corrections.material", job, measurements, problems)
+    conditions = _find_conditions((keys.temperature,), "corrections.material", job, measurements, problems)
     if conditions is None or not isinstance(coefficient, float):
         return None
     return Expansion(coefficient * MICROMETRE_PER_METRE_KELVIN, conditions[0])
 
 
-def _conditions(
+def _find_conditions(
     names: Iterable[str], key: str, job: Job, measurements: MeasurementSet, problems: list[Problem]
 ) -> list[FloatArray] | None:
     """Return each condition at each reading, SI: as it was logged, or as the job states it for all."""
@@ -356,6 +360,6 @@ def _conditions(
     return None if problems else found
 
 
-def _signed(keys: DeadPathKeys, length: float) -> float:
+def _sign_dead_path(keys: DeadPathKeys, length: float) -> float:
     """Return the dead path, negative where positions rise towards the interferometer."""
     return length if keys.measured_path == "grows" else -length

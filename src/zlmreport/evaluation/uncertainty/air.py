@@ -11,15 +11,15 @@ from collections.abc import Iterator
 import numpy as np
 
 from zlmreport.evaluation.correction.compensated import (
-    compensated_by_instrument,
     counts_wavelengths,
+    find_compensated_by_instrument,
     is_blind_to_air,
     speaks_of_air,
 )
 from zlmreport.evaluation.correction.corrections import (
-    condition_at_readings,
-    displacement_in_air,
-    standard_index,
+    compute_standard_index,
+    correct_displacement_in_air,
+    find_condition_at_readings,
 )
 from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Contribution, Distribution, KnownError, from_range
@@ -69,22 +69,22 @@ def is_silent_on_air(job: Job, measurements: MeasurementSet) -> bool:
         return False
     is_told = keys.corrections is not None and keys.corrections.air is not None
     is_said = speaks_of_air(instrument.compensation or "")
-    return not (is_told or is_said or compensated_by_instrument(job, measurements).air is not None)
+    return not (is_told or is_said or find_compensated_by_instrument(job, measurements).air is not None)
 
 
-def air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownError]:
+def find_air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownError]:
     """Yield the error of lengths whose instrument did not look at the air, where its state is known."""
     state = _state(job, measurements)
     if not is_blind_to_air(job) or any(each is None for each in state):
         return
     temperature, pressure, humidity = (each for each in state if each is not None)
     index = refractive_index(temperature, pressure, humidity)
-    assumed = standard_index(HELIUM_NEON)
+    assumed = compute_standard_index(HELIUM_NEON)
     targets, datum = measurements.target_positions, measurements.datum
     displayed = targets[measurements.target] - (targets[0] if datum is None else datum)
-    correction = read_only_floats(displacement_in_air(displayed, index, assumed) - displayed)
+    correction = read_only_floats(correct_displacement_in_air(displayed, index, assumed) - displayed)
     length = float(targets[-1] - targets[0])
-    at_end = float(displacement_in_air(np.array(length), np.array(np.mean(index)), assumed)) - length
+    at_end = float(correct_displacement_in_air(np.array(length), np.array(np.mean(index)), assumed)) - length
     yield KnownError(
         name=_UNCOMPENSATED,
         correction=correction,
@@ -92,17 +92,17 @@ def air_error(job: Job, measurements: MeasurementSet) -> Iterator[KnownError]:
         source=_UNCOMPENSATED_SOURCE.given(
             index=number_words(float(np.mean(index)), 7),
             assumed=number_words(assumed, 7),
-            length=wording.length(length),
+            length=wording.write_length(length),
         ),
     )
 
 
 def _state(job: Job, measurements: MeasurementSet) -> list[FloatArray | None]:
     """Return temperature, pressure and humidity of the air at each reading; None for what nobody knows."""
-    return [condition_at_readings(name, job, measurements) for name in STATE_OF_AIR]
+    return [find_condition_at_readings(name, job, measurements) for name in STATE_OF_AIR]
 
 
-def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> Iterator[Contribution]:
+def list_air_contributions(job: Job, measurements: MeasurementSet, length: float) -> Iterator[Contribution]:
     """Yield the contributions of the air.
 
     None where lengths are not counted in its wavelengths, or where that of the instrument has it in it; of an
@@ -113,7 +113,7 @@ def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> 
     corrections = job.keys.corrections
     by_program = corrections is not None and corrections.air is not None
     is_blind = is_blind_to_air(job)
-    if not (by_program or is_blind or compensated_by_instrument(job, measurements).air):
+    if not (by_program or is_blind or find_compensated_by_instrument(job, measurements).air):
         return
     state = _state(job, measurements)
     conditions = [
@@ -124,17 +124,17 @@ def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> 
         stated = getattr(job.keys.uncertainty, name)
         if stated and not (is_blind and state[place] is None):
             unit = CONDITIONS[name].unit
-            sensitivity = _sensitivity(conditions, place) * unit.si
+            sensitivity = _compute_sensitivity(conditions, place) * unit.si
             yield Contribution(
                 name=CONDITION_NAMES[name],
                 standard_uncertainty=from_range(abs(sensitivity) * stated * length, Distribution.RECTANGULAR),
                 acts=Acts.ALONG_THE_LENGTH,
                 distribution=Distribution.RECTANGULAR,
-                stated=wording.full_range("R", stated, _difference_unit(unit.symbol)),
+                stated=wording.say_full_range("R", stated, _name_difference_unit(unit.symbol)),
                 source=_SOURCE.given(
                     sensitivity=float(f"{1e6 * sensitivity:.2g}"),
-                    unit=_difference_unit(unit.symbol),
-                    length=wording.length(length),
+                    unit=_name_difference_unit(unit.symbol),
+                    length=wording.write_length(length),
                 ),
                 contributor=name,
             )
@@ -150,7 +150,7 @@ def air_contributions(job: Job, measurements: MeasurementSet, length: float) -> 
     )
 
 
-def _sensitivity(conditions: list[float], place: int) -> float:
+def _compute_sensitivity(conditions: list[float], place: int) -> float:
     """Return ∂n/∂c of one of temperature, pressure and humidity, by a central difference."""
     step = _STEP * max(conditions[place], 1.0)
     ends = []
@@ -162,6 +162,6 @@ def _sensitivity(conditions: list[float], place: int) -> float:
     return (ends[1] - ends[0]) / (2 * step)
 
 
-def _difference_unit(symbol: str) -> str:
+def _name_difference_unit(symbol: str) -> str:
     """Return the unit of a difference: kelvin for degrees Celsius."""
     return "K" if symbol == "°C" else symbol

@@ -23,11 +23,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.statistics import PositionStatistics, joined_statistics, position_statistics
+from zlmreport.evaluation.statistics import PositionStatistics, join_statistics, position_statistics
 from zlmreport.evaluation.uncertainty.budget import Budget
-from zlmreport.evaluation.uncertainty.long_tails import Tails, long_tails
-from zlmreport.evaluation.uncertainty.monte_carlo import StandardArithmetic, seed_of, shortened
-from zlmreport.evaluation.uncertainty.rounding import Axes, drawn_axes, hiding_resolution
+from zlmreport.evaluation.uncertainty.long_tails import Tails, find_long_tails
+from zlmreport.evaluation.uncertainty.monte_carlo import StandardArithmetic, make_seed_of, shorten
+from zlmreport.evaluation.uncertainty.rounding import Axes, find_hiding_resolution, sample_axes
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.measurement_set import MeasurementSet
 
@@ -65,7 +65,7 @@ class _Scatter:
     tails: Tails | None = None  #: Of the readings of a cell, where they may be long.
 
 
-def axis_intervals(
+def compute_axis_intervals(
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
     pairs: int = PAIRS,
     budget: Budget | None = None,
@@ -80,14 +80,14 @@ def axis_intervals(
     `budget`: Of its set-up: a resolution that hides the scatter hides it in the next test, too.
     """
     measurements = evaluations[0][0].measurements
-    generator = np.random.Generator(np.random.PCG64(seed_of(measurements)))
+    generator = np.random.Generator(np.random.PCG64(make_seed_of(measurements)))
     stops = not measurements.axis.measurand.is_continuous
-    simulated = _simulated_pairs(measurements, pairs, generator, budget) if stops else None
+    simulated = _simulate_pairs(measurements, pairs, generator, budget) if stops else None
     if simulated is None:
         return tuple({} for _ in evaluations)
     first, second = simulated
     lines = zip(measurements.lines, budget.lines, strict=False) if budget else ()
-    rounded = any(hiding_resolution(of_line, line.deviations()) for line, of_line in lines)
+    rounded = any(find_hiding_resolution(of_line, line.deviations()) for line, of_line in lines)
     found = []
     for evaluation, arithmetic in evaluations:
         one, other = arithmetic(first).parameters, arithmetic(second).parameters
@@ -101,30 +101,30 @@ def axis_intervals(
     return tuple(found)
 
 
-def _simulated_pairs(
+def _simulate_pairs(
     measurements: MeasurementSet, pairs: int, generator: np.random.Generator, budget: Budget | None
 ) -> tuple[PositionStatistics, PositionStatistics] | None:
     """Return two stacks of tests, of each axis one in each; None where a line tells nothing of scatter."""
     if measurements.tests:
         budgets = budget.tests if budget else {}
         lines = {
-            name: _simulated_pairs(each, pairs, generator, budgets.get(name))
+            name: _simulate_pairs(each, pairs, generator, budgets.get(name))
             for name, each in measurements.tests.items()
         }
         known = {name: each for name, each in lines.items() if each}
         if len(known) < len(lines):
             return None
         one, other = ({name: each[stack] for name, each in known.items()} for stack in (0, 1))
-        return joined_statistics(one), joined_statistics(other)
+        return join_statistics(one), join_statistics(other)
     readings = measurements.deviations()
     scatter = _scatter_of(readings, measurements.target_positions)
     if scatter is None:
         return None
-    hiding = hiding_resolution(budget, readings) if budget else None
-    axes = drawn_axes(hiding, readings, pairs, generator) if hiding else None
+    hiding = find_hiding_resolution(budget, readings) if budget else None
+    axes = sample_axes(hiding, readings, pairs, generator) if hiding else None
     first, second = (
         position_statistics(each, measurements.target_positions)
-        for each in _pairs(scatter, np.isfinite(readings), pairs, generator, axes)
+        for each in _sample_pairs(scatter, np.isfinite(readings), pairs, generator, axes)
     )
     return first, second
 
@@ -146,7 +146,7 @@ def _interval(
         low, high = np.quantile(differences, (tail, 1.0 - tail))
     never_negative = value >= 0 and float(min(one.min(), other.min())) >= 0
     lowest = value + float(low)
-    return shortened(max(lowest, 0.0) if never_negative else lowest), shortened(value + float(high))
+    return shorten(max(lowest, 0.0) if never_negative else lowest), shorten(value + float(high))
 
 
 def _scatter_of(readings: FloatArray, target_positions: FloatArray) -> _Scatter | None:
@@ -179,7 +179,7 @@ def _scatter_of(readings: FloatArray, target_positions: FloatArray) -> _Scatter 
         run_variance,
         run_freedom,
         max(-1.0, min(1.0, correlation)),
-        long_tails(own.reshape(-1, own.shape[-1])),
+        find_long_tails(own.reshape(-1, own.shape[-1])),
     )
 
 
@@ -195,10 +195,10 @@ def _pooled(
     own = float(np.median(freedom[known]))
     chance = _trigamma(own / 2)
     logarithms = np.log(np.where(known, variance, 1.0)) - _digamma(own / 2) + math.log(own / 2)
-    trend, spent = _trend(logarithms, known, np.broadcast_to(positions, known.shape), chance)
+    trend, spent = _fit_trend(logarithms, known, np.broadcast_to(positions, known.shape), chance)
     logarithms -= trend
     level = np.where(known, variance, 0.0) / np.exp(trend)
-    alike = _alike(logarithms, known, chance)
+    alike = _select_alike(logarithms, known, chance)
     cells = np.count_nonzero(alike)
     observed = float(logarithms[alike].var(ddof=1))
     beyond_chance = observed * (1 + _CAUTION * math.sqrt(2 / (cells - 1))) - chance
@@ -212,12 +212,12 @@ def _pooled(
         pooled_freedom = freedom + prior
         pooled = (level * freedom + prior * scale) / pooled_freedom
     pooled = pooled * np.exp(trend)
-    pooled_freedom = _blurred(pooled_freedom, spent)
+    pooled_freedom = _blur_freedom(pooled_freedom, spent)
     stands_out = known & ~alike
     return np.where(stands_out, variance, pooled), np.where(stands_out, freedom, pooled_freedom)
 
 
-def _trend(
+def _fit_trend(
     logarithms: FloatArray, known: BoolArray, positions: FloatArray, chance: float
 ) -> tuple[FloatArray, FloatArray]:
     """Return how ln σ² grows along the axis, about its mean, and the variance of that; 0 if by chance."""
@@ -234,7 +234,7 @@ def _trend(
     return slope * x, variance * x**2
 
 
-def _blurred(freedom: FloatArray, variance: FloatArray) -> FloatArray:
+def _blur_freedom(freedom: FloatArray, variance: FloatArray) -> FloatArray:
     """Return degrees of freedom of variances whose logarithms are known worse by a `variance`."""
     return np.array(
         [
@@ -244,7 +244,7 @@ def _blurred(freedom: FloatArray, variance: FloatArray) -> FloatArray:
     ).reshape(freedom.shape)
 
 
-def _alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray:
+def _select_alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray:
     """Return the cells without those whose ln s² stands out from the others, the largest first."""
     alike = known.copy()
     while np.count_nonzero(alike) > max(_FEWEST, (1 - _MOST_STANDING_OUT) * np.count_nonzero(known)):
@@ -258,7 +258,7 @@ def _alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray
     return alike
 
 
-def _pairs(
+def _sample_pairs(
     scatter: _Scatter, there: BoolArray, count: int, generator: np.random.Generator, axes: Axes | None = None
 ) -> tuple[FloatArray, FloatArray]:
     """Return two stacks of tests, (count, approach, position, run): of each axis one in each stack.

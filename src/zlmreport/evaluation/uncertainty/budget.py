@@ -147,7 +147,7 @@ def from_range(full_range: float, distribution: Distribution) -> float:
     return full_range / distribution.range_over_standard_uncertainty
 
 
-def misalignment_range(misalignment: float, length: float) -> float:
+def compute_misalignment_range(misalignment: float, length: float) -> float:
     """Return the range of the cosine error, R²/(2L), m.
 
     A measuring line that departs from the axis by R over the length L sees L·cos(R/L) ≈ L − R²/(2L): the
@@ -156,12 +156,12 @@ def misalignment_range(misalignment: float, length: float) -> float:
     return misalignment**2 / (2 * length) if length else 0.0
 
 
-def temperature_range(expansion_coefficient: float, length: float, temperature_range: float) -> float:
+def compute_temperature_range(expansion_coefficient: float, length: float, temperature_range: float) -> float:
     """Return the range α·L·R(θ) of the error from the measured temperature of machine or device, m."""
     return abs(expansion_coefficient) * length * temperature_range
 
 
-def expansion_range(length: float, difference: float, coefficient_range: float) -> float:
+def compute_expansion_range(length: float, difference: float, coefficient_range: float) -> float:
     """Return the range L·ΔT·R(α) of the error from the expansion coefficient of machine or device, m.
 
     `length`: L, m.
@@ -276,7 +276,7 @@ class NoBudget:
         return False
 
 
-def effect_along(target_positions: FloatArray) -> FloatArray:
+def compute_effect_along(target_positions: FloatArray) -> FloatArray:
     """Return what part of an error along the length acts at each target position, shape (m,).
 
     Nothing at the datum, which is the first target position; all of it at the last one.

@@ -34,7 +34,7 @@ _SEED = 2309
 _PERIODS = {Drift.ONE_PERIOD: 1.0, Drift.THREE_PERIODS: 3.0}
 
 
-def drift_kinds(measurements: MeasurementSet) -> tuple[Drift, ...]:
+def choose_drift_kinds(measurements: MeasurementSet) -> tuple[Drift, ...]:
     """Return the kinds of drift that a test may see.
 
     Plain noise is none of them where the machine was read while it moved, many times a second: no environment
@@ -44,12 +44,12 @@ def drift_kinds(measurements: MeasurementSet) -> tuple[Drift, ...]:
     return tuple(kind for kind in Drift if not (is_continuous and kind is Drift.NOISE))
 
 
-def drift_range(contribution: Contribution) -> float:
+def find_drift_range(contribution: Contribution) -> float:
     """Return the full range of what drifts, m or rad."""
     return contribution.standard_uncertainty * Distribution.RECTANGULAR.range_over_standard_uncertainty
 
 
-def reading_times(measurements: MeasurementSet) -> FloatArray:
+def compute_reading_times(measurements: MeasurementSet) -> FloatArray:
     """Return when each reading was taken, from 0 to 1 over the test, shape (approach, position, run).
 
     From the readings' own times where all have one, else from their order, evenly. NaN where there is none.
@@ -61,7 +61,7 @@ def reading_times(measurements: MeasurementSet) -> FloatArray:
     return measurements.arranged((taken - first) / (last - first) if last > first else np.zeros_like(taken))
 
 
-def drawn_drifts(kind: Drift, times: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
+def sample_drifts(kind: Drift, times: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
     """Return simulated drifts of full range 1, shape (count, approach, position, run).
 
     Noise has the range of its distribution, a wave that of its period, the others have it over the test.
@@ -72,11 +72,11 @@ def drawn_drifts(kind: Drift, times: FloatArray, count: int, generator: np.rando
     if kind is Drift.RAMP:
         return np.asarray(np.where(generator.random(each) < 0.5, -1.0, 1.0) * (times - 0.5))
     if kind is Drift.RANDOM_WALK:
-        return _random_walks(times, count, generator)
+        return _sample_random_walks(times, count, generator)
     return np.asarray(0.5 * np.sin(2 * np.pi * (_PERIODS[kind] * times + generator.random(each))))
 
 
-def mean_drift_variance(
+def compute_mean_drift_variance(
     times: FloatArray, kinds: Iterable[Drift] = tuple(Drift)
 ) -> tuple[FloatArray, FloatArray]:
     """Return E(d²) of what a drift of full range 1 adds to x̄_i↑ or x̄_i↓, and to x̄_i, of the worst kind.
@@ -94,7 +94,7 @@ def mean_drift_variance(
     there = np.isfinite(times)
     by_approach, both = np.zeros(times.shape[1]), np.zeros(times.shape[1])
     for kind in kinds:
-        drifts = drawn_drifts(kind, times, _DRIFTS, generator)
+        drifts = sample_drifts(kind, times, _DRIFTS, generator)
         drifts[:, ~there] = 0.0
         means = drifts.sum(axis=-1) / np.maximum(there.sum(axis=-1), 1)
         by_approach = np.maximum(by_approach, np.mean(means**2, axis=0).max(axis=0))
@@ -102,7 +102,7 @@ def mean_drift_variance(
     return by_approach, both
 
 
-def _random_walks(times: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
+def _sample_random_walks(times: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
     flat = times.ravel()
     order = np.argsort(flat)  # readings that are missing come last, and stay NaN
     there = order[: np.count_nonzero(np.isfinite(flat))]

@@ -9,21 +9,27 @@ import numpy as np
 
 from zlmreport.evaluation.evaluation import Evaluation, MeanUncertainty
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.evaluation.uncertainty.axis_interval import PAIRS, axis_intervals
-from zlmreport.evaluation.uncertainty.budget import COVERAGE_FACTOR, Acts, Budget, NoBudget, effect_along
+from zlmreport.evaluation.uncertainty.axis_interval import PAIRS, compute_axis_intervals
+from zlmreport.evaluation.uncertainty.budget import (
+    COVERAGE_FACTOR,
+    Acts,
+    Budget,
+    NoBudget,
+    compute_effect_along,
+)
 from zlmreport.evaluation.uncertainty.drift import (
-    drift_kinds,
-    drift_range,
-    mean_drift_variance,
-    reading_times,
+    choose_drift_kinds,
+    compute_mean_drift_variance,
+    compute_reading_times,
+    find_drift_range,
 )
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS, StandardArithmetic, propagate
-from zlmreport.evaluation.uncertainty.rounding import hiding_resolution, mean_rounding_variance
+from zlmreport.evaluation.uncertainty.rounding import compute_mean_rounding_variance, find_hiding_resolution
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 
 
-def with_uncertainty(
+def add_uncertainty(
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
     budget: Budget | NoBudget,
     trials: int = TRIALS,
@@ -53,14 +59,16 @@ def with_uncertainty(
         )
         for (evaluation, _), of_axis in zip(
             evaluations,
-            axis_intervals(evaluations, min(PAIRS, trials), None if isinstance(budget, NoBudget) else budget),
+            compute_axis_intervals(
+                evaluations, min(PAIRS, trials), None if isinstance(budget, NoBudget) else budget
+            ),
             strict=True,
         )
     )
     if isinstance(budget, NoBudget):
         return bare
     # Of the readings, which all have in common; several lines have theirs one by one.
-    means = None if budget.tests else mean_uncertainty(bare[0], budget)
+    means = None if budget.tests else compute_mean_uncertainty(bare[0], budget)
     return tuple(
         replace(
             evaluation,
@@ -82,7 +90,7 @@ def with_uncertainty(
     )
 
 
-def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
+def compute_mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
     """Return U of x̄_i↑, x̄_i↓ and x̄_i, by the law of propagation (JCGM 100, 5.1).
 
     Notes
@@ -97,7 +105,7 @@ def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
     whole (JCGM 100, F.2.4.5).
     """
     statistics, measurements = evaluation.statistics, evaluation.measurements
-    effect = effect_along(measurements.target_positions)
+    effect = compute_effect_along(measurements.target_positions)
     alike = sum(
         budget.variance(each)
         for each in (Acts.AT_THE_DATUM, Acts.AT_EACH_POSITION, Acts.ROUND_THE_CIRCLE, Acts.OFF_CENTRE)
@@ -105,19 +113,21 @@ def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
     shared = budget.variance(Acts.ALONG_THE_LENGTH) * effect**2 + alike
     faces, parting = budget.variance(Acts.AT_EACH_APPROACH), budget.variance(Acts.BETWEEN_DIRECTIONS)
     of_direction = parting * np.array([each is Approach.NEGATIVE for each in Approach])[:, np.newaxis]
-    hiding = hiding_resolution(budget, measurements.deviations())
+    hiding = find_hiding_resolution(budget, measurements.deviations())
     own = budget.variance(Acts.AT_EACH_READING) - (hiding.standard_uncertainty**2 if hiding else 0.0)
     per_reading = 1 / np.where(statistics.count > 0, statistics.count, np.nan)
     of_both = (per_reading[Approach.POSITIVE.index] + per_reading[Approach.NEGATIVE.index]) / 4
     by_approach = shared + of_direction + faces + own * per_reading
     bidirectional = shared + parting / 4 + faces / 2 + own * of_both
     if hiding is not None:
-        of_approach, of_mean = mean_rounding_variance(hiding, measurements.deviations())
+        of_approach, of_mean = compute_mean_rounding_variance(hiding, measurements.deviations())
         by_approach, bidirectional = by_approach + of_approach, bidirectional + of_mean
     drifting = budget.acting(Acts.IN_TIME)
     if drifting:
-        of_approach, of_mean = mean_drift_variance(reading_times(measurements), drift_kinds(measurements))
-        squares = sum(drift_range(each) ** 2 for each in drifting)
+        of_approach, of_mean = compute_mean_drift_variance(
+            compute_reading_times(measurements), choose_drift_kinds(measurements)
+        )
+        squares = sum(find_drift_range(each) ** 2 for each in drifting)
         by_approach = by_approach + squares * of_approach
         bidirectional = bidirectional + squares * of_mean
     for each in budget.changing:
@@ -125,7 +135,7 @@ def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
         by_approach = by_approach + (each.standard_uncertainty * acting.mean) ** 2
         bidirectional = bidirectional + (each.standard_uncertainty * acting.mean_bidirectional) ** 2
     least = max(budget.least, budget.of_the_instrument)
-    known = _known_of_means(evaluation, budget)
+    known = _compute_known_of_means(evaluation, budget)
 
     def expanded(variance: FloatArray, known: FloatArray | float) -> FloatArray:
         return np.asarray(known + np.maximum(COVERAGE_FACTOR * np.sqrt(variance), least))
@@ -137,7 +147,7 @@ def mean_uncertainty(evaluation: Evaluation, budget: Budget) -> MeanUncertainty:
     )
 
 
-def _known_of_means(
+def _compute_known_of_means(
     evaluation: Evaluation, budget: Budget
 ) -> tuple[FloatArray, FloatArray] | tuple[float, float]:
     """Return the amounts of the known errors of x̄_i↑ and x̄_i↓, and of x̄_i; NaN where there is no reading."""

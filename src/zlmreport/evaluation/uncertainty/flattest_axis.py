@@ -26,13 +26,13 @@ _LIMIT = 1.6449
 _FEWEST = 3
 
 
-def flattest(measurements: MeasurementSet, budget: Budget) -> MeasurementSet | None:
+def make_flattest(measurements: MeasurementSet, budget: Budget) -> MeasurementSet | None:
     """Return the readings as the flattest axis would have them; None where errors matter little.
 
     Of several measured lines each is flattened for itself.
     """
     if measurements.tests:
-        found = {name: flattest(each, budget.tests[name]) for name, each in measurements.tests.items()}
+        found = {name: make_flattest(each, budget.tests[name]) for name, each in measurements.tests.items()}
         tests = {name: found[name] or each for name, each in measurements.tests.items()}
         return replace(measurements, tests=tests) if any(found.values()) else None
     readings = measurements.deviations()
@@ -44,14 +44,14 @@ def flattest(measurements: MeasurementSet, budget: Budget) -> MeasurementSet | N
     observed, brought = float(means.var(ddof=1)), budget.variance(Acts.AT_EACH_POSITION)
     if brought <= _MATTERS**2 * observed:
         return None
-    left = max(0.0, 1 - brought * _most_by_chance(len(means) - 1) / observed) if observed else 0.0
+    left = max(0.0, 1 - brought * _compute_most_by_chance(len(means) - 1) / observed) if observed else 0.0
     change = (math.sqrt(left) - 1) * (means - means.mean())
     return replace(
         measurements, deviation=read_only_floats(measurements.deviation + change[measurements.target])
     )
 
 
-def _most_by_chance(freedom: int) -> float:
+def _compute_most_by_chance(freedom: int) -> float:
     """Return the quantile of χ²/freedom at 95 %, by the approximation of Wilson and Hilferty."""
     spread = 2 / (9 * freedom)
     return float((1 - spread + _LIMIT * math.sqrt(spread)) ** 3)

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.errors import InputError, Problem, quoted
-from zlmreport.evaluation.correction.compensated import compensated_by_instrument, is_blind_to_air
-from zlmreport.evaluation.correction.corrections import condition_at_readings
+from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument, is_blind_to_air
+from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.uncertainty import wording
-from zlmreport.evaluation.uncertainty.air import air_contributions, air_error, is_silent_on_air
+from zlmreport.evaluation.uncertainty.air import find_air_error, is_silent_on_air, list_air_contributions
 from zlmreport.evaluation.uncertainty.budget import (
     Acts,
     Budget,
@@ -24,17 +24,17 @@ from zlmreport.evaluation.uncertainty.budget import (
     Distribution,
     KnownError,
     NoBudget,
-    expansion_range,
+    compute_expansion_range,
+    compute_misalignment_range,
+    compute_temperature_range,
     from_range,
-    misalignment_range,
-    temperature_range,
 )
 from zlmreport.evaluation.uncertainty.reasons import says_something
-from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, of_the_circle
+from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, list_circle_contributions
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
-from zlmreport.measurement.arrays import FloatArray, decimals_of, read_only_floats
+from zlmreport.measurement.arrays import FloatArray, count_decimals_of, read_only_floats
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
 from zlmreport.measurement.units import (
@@ -42,7 +42,7 @@ from zlmreport.measurement.units import (
     MICROMETRE_PER_METRE_KELVIN,
     MILLIMETRE,
     Unit,
-    above_reference,
+    compute_above_reference,
 )
 
 #: Of the uncertainties that a job states as expanded.
@@ -59,7 +59,7 @@ _FAR_FROM_REFERENCE = 1.0
 _IN_NO_HALL = 60.0
 
 
-def budget_of(
+def make_budget_of(
     job: Job, measurements: MeasurementSet, of_the_instrument: tuple[Contribution, ...] = ()
 ) -> Budget | NoBudget:
     """Return the budget of a job's set-up; none where the job gives no number for the instrument.
@@ -71,23 +71,31 @@ def budget_of(
     set_up = SetUp.of(job, measurements)
     keys = job.keys.uncertainty
     negligible = tuple(each for each in keys.negligible.items() if says_something(each[1]))
-    instrument = of_the_instrument or _instrument(job, set_up)
+    instrument = of_the_instrument or _list_instrument_contributions(job, set_up)
     contributions = (
         *(() if isinstance(instrument, Words) else instrument),
-        *_of_the_length(job, measurements, set_up),
-        *of_the_circle(job, measurements),
-        *air_contributions(job, measurements, set_up.length),
-        *_fluctuations(job, measurements),
-        *(each for stated in keys.contributions for each in _other(stated, job.axis.deviation_unit)),
+        *_list_contributions_of_length(job, measurements, set_up),
+        *list_circle_contributions(job, measurements),
+        *list_air_contributions(job, measurements, set_up.length),
+        *_list_fluctuations(job, measurements),
+        *(
+            each
+            for stated in keys.contributions
+            for each in _make_other_contribution(stated, job.axis.deviation_unit)
+        ),
     )
     considered = {each.contributor for each in contributions} | {name for name, _ in negligible}
     if of_the_instrument:
         considered.add(INSTRUMENT)
     of_silence = () if of_the_instrument or not is_silent_on_air(job, measurements) else STATE_OF_AIR
-    missing = tuple(name for name in demanded(job, of_silence) if name not in considered)
+    missing = tuple(name for name in list_demanded(job, of_silence) if name not in considered)
     has_length = (job.axis.has_length or has_radius(job)) and not of_the_instrument
     expansion = set_up.uncorrected_expansion if has_length else 0.0
-    in_readings = (*_expansion_in(measurements, set_up), *air_error(job, measurements)) if has_length else ()
+    in_readings = (
+        (*_list_expansion_in_readings(measurements, set_up), *find_air_error(job, measurements))
+        if has_length
+        else ()
+    )
     if isinstance(instrument, Words):
         return NoBudget(instrument, missing, negligible, expansion)
     problems = sorted(set_up.lacks(job))
@@ -99,14 +107,14 @@ def budget_of(
         missing,
         negligible,
         _COVERAGE_FACTOR * math.fsum(each.standard_uncertainty for each in instrument) if usual else 0.0,
-        _capability(job, set_up),
+        _find_capability(job, set_up),
         expansion,
         in_readings,
         set_up.difference or 0.0,
     )
 
 
-def _capability(job: Job, set_up: SetUp) -> float:
+def _find_capability(job: Job, set_up: SetUp) -> float:
     """Return the smallest U that the laboratory's accreditation lets it state, m or rad."""
     cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
     if cmc is None:
@@ -114,7 +122,7 @@ def _capability(job: Job, set_up: SetUp) -> float:
     return job.axis.deviation_unit.to_si(cmc.constant) + MICROMETRE.to_si(cmc.per_metre) * set_up.length
 
 
-def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
+def _list_instrument_contributions(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
     """Return the contributions of the instrument that the job names, or why there are none."""
     instrument = job.keys.instrument
     if instrument is None:
@@ -123,26 +131,28 @@ def _instrument(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
     if stated is None:
         in_words = isinstance(instrument.expanded_uncertainty, str)
         return wording.INSTRUMENT_IN_WORDS if in_words else wording.NO_INSTRUMENT
-    return tuple(_device(*stated, job, set_up))
+    return tuple(_list_device_contributions(*stated, job, set_up))
 
 
-def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Iterator[Contribution]:
+def _list_device_contributions(
+    constant: float, per_metre: float, job: Job, set_up: SetUp
+) -> Iterator[Contribution]:
     """Yield the constant part of an instrument's error, and the one that grows with the length."""
     unit = job.axis.deviation_unit
     stated_acts = job.keys.uncertainty.instrument_acts
-    source = wording.calibration(job.keys.instrument.certificate if job.keys.instrument else None)
+    source = wording.say_calibration(job.keys.instrument.certificate if job.keys.instrument else None)
     for expanded, name, acts, stated in (
         (
             unit.to_si(constant),
             wording.DEVICE,
             Acts(stated_acts) if stated_acts else set_up.acts_of_device,
-            wording.expanded(constant, unit.symbol, _COVERAGE_FACTOR),
+            wording.say_expanded_uncertainty(constant, unit.symbol, _COVERAGE_FACTOR),
         ),
         (
             MICROMETRE.to_si(per_metre) * set_up.length,
             wording.DEVICE_ALONG,
             set_up.acts_of_length,
-            wording.expanded(per_metre, "µm/m · L", _COVERAGE_FACTOR),
+            wording.say_expanded_uncertainty(per_metre, "µm/m · L", _COVERAGE_FACTOR),
         ),
     ):
         if expanded:
@@ -157,65 +167,69 @@ def _device(constant: float, per_metre: float, job: Job, set_up: SetUp) -> Itera
             )
 
 
-def _of_the_length(job: Job, measurements: MeasurementSet, set_up: SetUp) -> Iterator[Contribution]:
+def _list_contributions_of_length(
+    job: Job, measurements: MeasurementSet, set_up: SetUp
+) -> Iterator[Contribution]:
     """Yield what is in proportion to the measured length: alignment, temperatures, expansion.
 
     Only of a length, or of a calibrated radius: what lies across the motion, turns or rises neither expands
     nor shortens with it, whatever a job that shares its keys with others states. A range of zero states
     nothing: there is no error of which nobody could be wrong.
     """
-    keys, named = job.keys.uncertainty, _of_length(job)
+    keys, named = job.keys.uncertainty, _name_contributors_of_length(job)
     length, acts = set_up.length, set_up.acts_of_length
     if not length:
         return
     if keys.misalignment and "misalignment" in named:
-        full_range = misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
-        stated = wording.full_range("R", keys.misalignment, "mm")
-        source = wording.MISALIGNED.given(length=wording.length(length))
-        yield _contribution("misalignment", full_range, stated, source, distribution=Distribution.ONE_SIDED)
+        full_range = compute_misalignment_range(MILLIMETRE.to_si(keys.misalignment), length)
+        stated = wording.say_full_range("R", keys.misalignment, "mm")
+        source = wording.MISALIGNED.given(length=wording.write_length(length))
+        yield _make_contribution(
+            "misalignment", full_range, stated, source, distribution=Distribution.ONE_SIDED
+        )
     for key, temperature, expansion in (
         ("machine_temperature", keys.machine_temperature, set_up.of_the_sensor),
         ("device_temperature", keys.device_temperature, set_up.device_expansion),
     ):
         if temperature and expansion is not None and key in named:
-            full_range = temperature_range(expansion, length, temperature)
+            full_range = compute_temperature_range(expansion, length, temperature)
             source = wording.TEMPERATURE.given(
-                expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.length(length)
+                expansion=expansion / MICROMETRE_PER_METRE_KELVIN, length=wording.write_length(length)
             )
-            stated = wording.full_range("R(θ)", temperature, "K")
-            yield _contribution(key, full_range, stated, source, acts=acts)
+            stated = wording.say_full_range("R(θ)", temperature, "K")
+            yield _make_contribution(key, full_range, stated, source, acts=acts)
     for key, coefficient in (
         ("expansion_coefficient", keys.expansion_coefficient),
         ("device_expansion_coefficient", keys.device_expansion_coefficient),
     ):
         if coefficient and set_up.difference is not None and key in named:
             alpha = coefficient * MICROMETRE_PER_METRE_KELVIN
-            full_range = expansion_range(length, set_up.difference, alpha)
-            stated = wording.full_range("R(α)", coefficient, "µm/(m·K)")
+            full_range = compute_expansion_range(length, set_up.difference, alpha)
+            stated = wording.say_full_range("R(α)", coefficient, "µm/(m·K)")
             yield replace(
-                _contribution(key, full_range, stated, _of_difference(set_up), acts=acts),
-                effect=_as_it_warms_up(measurements, set_up),
+                _make_contribution(key, full_range, stated, _say_from_which_difference(set_up), acts=acts),
+                effect=_share_while_warming(measurements, set_up),
             )
 
 
-def _of_difference(set_up: SetUp) -> Words:
+def _say_from_which_difference(set_up: SetUp) -> Words:
     """Return from which difference to 20 °C an error of the coefficient becomes one of the length."""
-    length = wording.length(set_up.length)
+    length = wording.write_length(set_up.length)
     if not set_up.warms_up or set_up.differences is None:
         return wording.EXPANSION.given(difference=set_up.difference or 0.0, length=length)
-    low, high = (_shown(float(each)) for each in (set_up.differences.min(), set_up.differences.max()))
+    low, high = (_write_shown(float(each)) for each in (set_up.differences.min(), set_up.differences.max()))
     return wording.EXPANSION_THAT_MOVES.given(low=low, high=high, length=length)
 
 
-def _as_it_warms_up(measurements: MeasurementSet, set_up: SetUp) -> FloatArray | None:
+def _share_while_warming(measurements: MeasurementSet, set_up: SetUp) -> FloatArray | None:
     """Return which part of an error of the coefficient acts on each reading; None where ΔT stands still."""
     if not set_up.warms_up or set_up.differences is None or not set_up.difference:
         return None
-    share = _distances(measurements, set_up) / set_up.length
+    share = _measure_expanding_lengths(measurements, set_up) / set_up.length
     return read_only_floats(share * set_up.differences / set_up.difference)
 
 
-def _distances(measurements: MeasurementSet, set_up: SetUp) -> FloatArray:
+def _measure_expanding_lengths(measurements: MeasurementSet, set_up: SetUp) -> FloatArray:
     """Return the length that expands under each reading, (N,), m: from the datum; of a circle its radius."""
     if set_up.is_circle:
         return np.full(len(measurements.target), set_up.length)
@@ -223,29 +237,29 @@ def _distances(measurements: MeasurementSet, set_up: SetUp) -> FloatArray:
     return np.asarray(targets[measurements.target] - (targets[0] if datum is None else datum))
 
 
-def _expansion_in(measurements: MeasurementSet, set_up: SetUp) -> Iterator[KnownError]:
+def _list_expansion_in_readings(measurements: MeasurementSet, set_up: SetUp) -> Iterator[KnownError]:
     """Yield the expansion that is in the readings, each by its own temperature: the machine may warm up."""
     alpha, expansion = set_up.uncorrected_coefficient, set_up.uncorrected_expansion
     if not (alpha and expansion) or set_up.differences is None:
         return
-    distance = _distances(measurements, set_up)
+    distance = _measure_expanding_lengths(measurements, set_up)
     yield KnownError(
         name=wording.UNCORRECTED,
         correction=read_only_floats(-alpha * set_up.differences * distance),
-        stated=wording.full_range("α·ΔT·L", _shown(MICROMETRE.from_si(expansion)), "µm"),
+        stated=wording.say_full_range("α·ΔT·L", _write_shown(MICROMETRE.from_si(expansion)), "µm"),
         source=wording.UNCORRECTED_SOURCE.given(
-            expansion=_shown(alpha / MICROMETRE_PER_METRE_KELVIN),
-            difference=_shown(set_up.difference or 0.0),
-            length=wording.length(set_up.length),
+            expansion=_write_shown(alpha / MICROMETRE_PER_METRE_KELVIN),
+            difference=_write_shown(set_up.difference or 0.0),
+            length=wording.write_length(set_up.length),
         ),
     )
 
 
-def _shown(value: float) -> float:
+def _write_shown(value: float) -> float:
     return float(f"{value:.4g}")
 
 
-def _fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
+def _list_fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
     """Yield what each reading has of its own: the drift of the environment, and its last digit.
 
     Readings that were corrected have digits that the instrument never showed: their resolution is to be
@@ -264,8 +278,8 @@ def _fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contributi
         ("resolution", step, source, Acts.AT_EACH_READING),
     ):
         if full_range:
-            stated = wording.full_range("R", full_range, unit.symbol)
-            yield _contribution(key, unit.to_si(full_range), stated, origin, acts=acts)
+            stated = wording.say_full_range("R", full_range, unit.symbol)
+            yield _make_contribution(key, unit.to_si(full_range), stated, origin, acts=acts)
 
 
 def _step_given(measurements: MeasurementSet, unit: Unit) -> float | None:
@@ -273,15 +287,15 @@ def _step_given(measurements: MeasurementSet, unit: Unit) -> float | None:
     provenance = measurements.provenance
     if provenance.corrections:
         return None if provenance.step is None else unit.from_si(provenance.step)
-    return _last_digit(unit.from_si(measurements.deviation))
+    return _find_last_digit(unit.from_si(measurements.deviation))
 
 
-def _last_digit(readings: FloatArray) -> float:
+def _find_last_digit(readings: FloatArray) -> float:
     """Return the step of the last decimal in which readings were given; that of the third one at least."""
-    return float(10.0 ** -decimals_of(readings, _MOST_DECIMALS))
+    return float(10.0 ** -count_decimals_of(readings, _MOST_DECIMALS))
 
 
-def _contribution(  # noqa: PLR0913 - a usual contribution, but for what usually holds
+def _make_contribution(  # noqa: PLR0913 - a usual contribution, but for what usually holds
     key: str,
     full_range: float,
     stated: Words,
@@ -301,18 +315,18 @@ def _contribution(  # noqa: PLR0913 - a usual contribution, but for what usually
     )
 
 
-def _other(keys: ContributionKeys, unit: Unit) -> Iterator[Contribution]:
+def _make_other_contribution(keys: ContributionKeys, unit: Unit) -> Iterator[Contribution]:
     """Yield a contribution that has no key of its own; none of no size."""
     distribution = Distribution(keys.distribution or ("normal" if keys.range is None else "rectangular"))
     if keys.range is not None:
-        stated = wording.full_range("R", keys.range, unit.symbol)
+        stated = wording.say_full_range("R", keys.range, unit.symbol)
         standard_uncertainty = from_range(keys.range, distribution)
     elif keys.standard_uncertainty is not None:
-        stated = wording.standard(keys.standard_uncertainty, unit)
+        stated = wording.say_standard_uncertainty(keys.standard_uncertainty, unit)
         standard_uncertainty = keys.standard_uncertainty
     else:
         expanded = keys.expanded_uncertainty or 0.0
-        stated = wording.expanded(expanded, unit.symbol, _COVERAGE_FACTOR)
+        stated = wording.say_expanded_uncertainty(expanded, unit.symbol, _COVERAGE_FACTOR)
         standard_uncertainty = expanded / _COVERAGE_FACTOR
     if standard_uncertainty:
         yield Contribution(
@@ -368,12 +382,12 @@ class SetUp:
         environment, instrument, corrections = job.keys.environment, job.keys.instrument, job.keys.corrections
         material = corrections.material if corrections else None
         stated = environment.expansion_coefficient if environment else None
-        compensated = compensated_by_instrument(job, measurements).material
+        compensated = find_compensated_by_instrument(job, measurements).material
         return cls(
             length=length,
-            expansion=_coefficient((material and material.expansion_coefficient) or stated),
-            device_expansion=_coefficient(instrument.expansion_coefficient if instrument else None),
-            differences=_differences(job, measurements),
+            expansion=_find_coefficient((material and material.expansion_coefficient) or stated),
+            device_expansion=_find_coefficient(instrument.expansion_coefficient if instrument else None),
+            differences=_find_temperature_differences(job, measurements),
             is_corrected=material is not None,
             compensated=compensated,
             is_circle=circle is not None,
@@ -427,7 +441,7 @@ class SetUp:
 
     def lacks(self, job: Job) -> Iterator[Problem]:
         """Yield the keys of the budget whose formula needs what is not known."""
-        keys, named = job.keys.uncertainty, _of_length(job)
+        keys, named = job.keys.uncertainty, _name_contributors_of_length(job)
         temperature = "environment.axis_temperature or environment.material_temperature"
         machine, device = "environment.expansion_coefficient", "instrument.expansion_coefficient"
         for key, known, needed in (
@@ -444,16 +458,16 @@ class SetUp:
                 )
 
 
-def _coefficient(stated: float | str | None) -> float | None:
+def _find_coefficient(stated: float | str | None) -> float | None:
     return stated * MICROMETRE_PER_METRE_KELVIN if isinstance(stated, float) else None
 
 
-def _differences(job: Job, measurements: MeasurementSet) -> FloatArray | None:
+def _find_temperature_differences(job: Job, measurements: MeasurementSet) -> FloatArray | None:
     """Return ΔT at each reading, (N,), of the first temperature that was logged, or is stated as a number."""
     for key in _TEMPERATURES:
-        known = condition_at_readings(key, job, measurements)
+        known = find_condition_at_readings(key, job, measurements)
         if known is not None:
-            return above_reference(known)
+            return compute_above_reference(known)
     return None
 
 
@@ -492,12 +506,12 @@ def has_radius(job: Job) -> bool:
     return job.axis.circle is not None and job.axis.circle.is_calibrated
 
 
-def _of_length(job: Job) -> tuple[str, ...]:
+def _name_contributors_of_length(job: Job) -> tuple[str, ...]:
     """Return the contributors of the length that was measured; none where it was none."""
     return _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
 
 
-def demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
+def list_demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
     """Return the contributors that a job must state, by axis and set-up.
 
     `of_silence`: Those that may act, for all that the job says of its instrument.
@@ -507,10 +521,10 @@ def demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
     of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else of_silence
     is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
     of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
-    return (INSTRUMENT, *_of_length(job), *of_air, *of_all)
+    return (INSTRUMENT, *_name_contributors_of_length(job), *of_air, *of_all)
 
 
-def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
+def find_unstated(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
     """Yield what a calibration certificate must state of its uncertainty and does not.
 
     `job`: The job; a report may leave out what it says that it leaves out.
@@ -523,12 +537,13 @@ def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
             job.place_of(
                 f"uncertainty.negligible.{name}" if name in job.keys.uncertainty.negligible else key
             ),
-            f"a calibration certificate needs {key}{_found(name, job)}: {_HOW[name]}{_silence(name, job)}; "
+            f"a calibration certificate needs {key}{_say_found(name, job)}: "
+            f"{_HOW[name]}{_say_silence(name, job)}; "
             f"or say why it is negligible: uncertainty.negligible: {{{name}: reason}}",
         )
     instrument = job.keys.instrument
     has_compensated = bool(instrument and instrument.compensates and instrument.compensates.material)
-    if isinstance(budget, Budget) and job.axis.has_length and _decides(budget) and not has_compensated:
+    if isinstance(budget, Budget) and job.axis.has_length and _is_deciding(budget) and not has_compensated:
         longer = MICROMETRE.from_si(budget.uncorrected_expansion or 0.0)
         yield Problem(
             job.place_of("corrections"),
@@ -546,7 +561,7 @@ def refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
         )
 
 
-def _silence(name: str, job: Job) -> str:
+def _say_silence(name: str, job: Job) -> str:
     """Return what is to be said first of an instrument of which nobody says in which air it counted."""
     is_told = job.keys.corrections is not None and job.keys.corrections.air is not None
     if name not in STATE_OF_AIR or is_told or is_blind_to_air(job):
@@ -559,7 +574,7 @@ def _silence(name: str, job: Job) -> str:
     )
 
 
-def _found(name: str, job: Job) -> str:
+def _say_found(name: str, job: Job) -> str:
     """Return what stands in the place of a statement and is none."""
     reason = {str(key): said for key, said in job.keys.uncertainty.negligible.items()}.get(name)
     if reason is not None:
@@ -567,7 +582,7 @@ def _found(name: str, job: Job) -> str:
     return " (0 states nothing)" if getattr(job.keys.uncertainty, name, None) == 0 else ""
 
 
-def _decides(budget: Budget) -> bool:
+def _is_deciding(budget: Budget) -> bool:
     """Return whether an expansion that nobody took out of the readings is most of what U states."""
     expansion = abs(budget.uncorrected_expansion or 0.0)
     is_far = _FAR_FROM_REFERENCE < abs(budget.difference) < _IN_NO_HALL

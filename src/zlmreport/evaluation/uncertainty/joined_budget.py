@@ -11,7 +11,7 @@ from zlmreport.language import Words
 _OF_A_LINE = Words("{name}: {reason}")
 
 
-def joined_budget(
+def join_budgets(
     budgets: Mapping[str, Budget | NoBudget],
     brought: Iterable[Mapping[str, Sequence[Contribution]]] = (),
     demanded: Iterable[str] = (),

@@ -42,7 +42,7 @@ class Tails:
         return self.freedom[chosen], self.scale[chosen]
 
 
-def long_tails(residuals: FloatArray) -> Tails | None:
+def find_long_tails(residuals: FloatArray) -> Tails | None:
     """Return what residuals tell of their tails; None where they are rather not long.
 
     `residuals`: (place, run), m or rad, about the mean of each place; NaN where there is none.
@@ -54,8 +54,8 @@ def long_tails(residuals: FloatArray) -> Tails | None:
     if not size:
         return None
     cells = cells / size
-    normal = np.concatenate([_of_places(cells, alike) for alike in _ALIKE])
-    tailed = np.stack([_of_tails(cells, freedom) for freedom in _TAILS])
+    normal = np.concatenate([_weigh_places(cells, alike) for alike in _ALIKE])
+    tailed = np.stack([_weigh_tails(cells, freedom) for freedom in _TAILS])
     most = max(float(normal.max()), float(tailed.max()))
     of_normal = float(np.exp(normal - most).sum()) / len(_ALIKE)
     weights = np.exp(tailed - most).ravel()
@@ -67,7 +67,7 @@ def long_tails(residuals: FloatArray) -> Tails | None:
     return Tails(probability, freedom.ravel(), scale.ravel(), weights / weights.sum())
 
 
-def _of_places(cells: FloatArray, alike: float) -> FloatArray:
+def _weigh_places(cells: FloatArray, alike: float) -> FloatArray:
     """Return ln of the density of normal cells whose variances differ, for each scale that is tried."""
     count = np.isfinite(cells).sum(axis=1)
     freedom, squares = count - 1, np.nansum(cells**2, axis=1)
@@ -81,7 +81,7 @@ def _of_places(cells: FloatArray, alike: float) -> FloatArray:
     return np.asarray((powers + constant - 0.5 * np.log(count)).sum(axis=1))
 
 
-def _of_tails(cells: FloatArray, freedom: float) -> FloatArray:
+def _weigh_tails(cells: FloatArray, freedom: float) -> FloatArray:
     """Return ln of the density of cells like t of one scale, for each scale that is tried."""
     constant = math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2) - math.log(freedom * math.pi) / 2
     there = np.isfinite(cells)

@@ -18,9 +18,9 @@ import numpy as np
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Least
 from zlmreport.evaluation.statistics import (
     PositionStatistics,
-    joined_statistics,
+    compute_statistics_of,
+    join_statistics,
     position_statistics,
-    statistics_of,
 )
 from zlmreport.evaluation.uncertainty.budget import (
     COVERAGE_FACTOR,
@@ -29,18 +29,18 @@ from zlmreport.evaluation.uncertainty.budget import (
     Budget,
     Contribution,
     Distribution,
-    effect_along,
+    compute_effect_along,
 )
 from zlmreport.evaluation.uncertainty.drift import (
     Drift,
-    drawn_drifts,
-    drift_kinds,
-    drift_range,
-    reading_times,
+    choose_drift_kinds,
+    compute_reading_times,
+    find_drift_range,
+    sample_drifts,
 )
-from zlmreport.evaluation.uncertainty.flattest_axis import flattest
+from zlmreport.evaluation.uncertainty.flattest_axis import make_flattest
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
-from zlmreport.evaluation.uncertainty.rounding import drawn_rounding, hiding_resolution
+from zlmreport.evaluation.uncertainty.rounding import find_hiding_resolution, sample_rounding
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -99,45 +99,49 @@ def propagate(
     what the parameter changes by (JCGM 100, F.2.4.5).
     """
     measurements = evaluations[0][0].measurements
-    evaluations, known = _without_known_errors(budget, evaluations)
+    evaluations, known = _remove_known_errors(budget, evaluations)
     measurements = evaluations[0][0].measurements
     if not any(np.isfinite(each.deviation).any() for each in measurements.lines):
         return tuple({} for _ in evaluations)
-    generator = np.random.Generator(np.random.PCG64(seed_of(measurements)))
+    generator = np.random.Generator(np.random.PCG64(make_seed_of(measurements)))
     least = _NOTHING * max(each.standard_uncertainty for each in budget.lines)
     found: list[dict[str, Expanded]] = [{} for _ in evaluations]
     drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
-    kinds: Sequence[Drift | None] = drift_kinds(measurements) if drifts else (None,)
-    axes = _axes_to_ask(budget, evaluations)
+    kinds: Sequence[Drift | None] = choose_drift_kinds(measurements) if drifts else (None,)
+    axes = _list_axes_to_ask(budget, evaluations)
     for kind, axis in product(kinds, axes):
-        distances = _distances(budget, axis, kind, trials // (len(kinds) * len(axes)), generator)
+        distances = _measure_distances(budget, axis, kind, trials // (len(kinds) * len(axes)), generator)
         for so_far, (evaluation, _), values in zip(found, axis, distances, strict=True):
             symbols = (each.quantity.symbol for each in evaluation.parameters)
-            for symbol, expanded in zip(symbols, _expanded(np.abs(values), least), strict=True):
+            for symbol, expanded in zip(symbols, _expand(np.abs(values), least), strict=True):
                 if symbol not in so_far or expanded.uncertainty > so_far[symbol].uncertainty:
                     so_far[symbol] = expanded
     return tuple(
         {
-            symbol: _beside(_bounded(each, budget, of_positions.get(symbol)), changes.get(symbol, 0.0))
+            symbol: _add_known_changes(
+                _raise_to_bounds(each, budget, of_positions.get(symbol)), changes.get(symbol, 0.0)
+            )
             for symbol, each in so_far.items()
         }
-        for so_far, of_positions, changes in zip(found, _compares_positions(evaluations), known, strict=True)
+        for so_far, of_positions, changes in zip(
+            found, _find_comparing_parameters(evaluations), known, strict=True
+        )
     )
 
 
-def _axes_to_ask(
+def _list_axes_to_ask(
     budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
 ) -> list[Sequence[tuple[Evaluation, StandardArithmetic]]]:
     """Return the evaluations of the test, and those of the flattest axis that may be behind it."""
-    flat = flattest(evaluations[0][0].measurements, budget)
-    return [evaluations] if flat is None else [evaluations, _of_readings(flat, evaluations)]
+    flat = make_flattest(evaluations[0][0].measurements, budget)
+    return [evaluations] if flat is None else [evaluations, _evaluate_readings(flat, evaluations)]
 
 
-def _of_readings(
+def _evaluate_readings(
     measurements: MeasurementSet, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
 ) -> Sequence[tuple[Evaluation, StandardArithmetic]]:
     """Return the evaluations with the values that other readings of the same test give."""
-    statistics = statistics_of(measurements)
+    statistics = compute_statistics_of(measurements)
     found = []
     for evaluation, arithmetic in evaluations:
         values = arithmetic(statistics).parameters
@@ -148,16 +152,16 @@ def _of_readings(
     return found
 
 
-def _without_known_errors(
+def _remove_known_errors(
     budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
 ) -> tuple[Sequence[tuple[Evaluation, StandardArithmetic]], Sequence[Mapping[str, float]]]:
     """Return the evaluations of the test without its known errors, and what each parameter changes by."""
     if not any(each.known_errors for each in budget.lines):
         return evaluations, [{} for _ in evaluations]
-    corrected = _of_readings(_right(evaluations[0][0].measurements, budget), evaluations)
+    corrected = _evaluate_readings(_correct_readings(evaluations[0][0].measurements, budget), evaluations)
     changes = [
         {
-            was.quantity.symbol: shortened(now.value - was.value)
+            was.quantity.symbol: shorten(now.value - was.value)
             for was, now in zip(before.parameters, after.parameters, strict=True)
         }
         for (before, _), (after, _) in zip(evaluations, corrected, strict=True)
@@ -165,28 +169,30 @@ def _without_known_errors(
     return corrected, changes
 
 
-def _right(measurements: MeasurementSet, budget: Budget) -> MeasurementSet:
+def _correct_readings(measurements: MeasurementSet, budget: Budget) -> MeasurementSet:
     """Return readings without the known errors of their budget."""
     if measurements.tests:
-        tests = {name: _right(each, budget.tests[name]) for name, each in measurements.tests.items()}
+        tests = {
+            name: _correct_readings(each, budget.tests[name]) for name, each in measurements.tests.items()
+        }
         return replace(measurements, tests=tests)
     if budget.correction is None:
         return measurements
     return replace(measurements, deviation=read_only_floats(measurements.deviation + budget.correction))
 
 
-def _beside(expanded: Expanded, known_error: float) -> Expanded:
+def _add_known_changes(expanded: Expanded, known_error: float) -> Expanded:
     """Add to U, whole, what a parameter changes by if known errors are taken out of the readings."""
     if not known_error:
         return expanded
     return replace(
         expanded,
-        uncertainty=shortened(expanded.uncertainty + abs(known_error)),
+        uncertainty=shorten(expanded.uncertainty + abs(known_error)),
         known_error=known_error,
     )
 
 
-def _distances(
+def _measure_distances(
     budget: Budget,
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
     kind: Drift | None,
@@ -196,7 +202,7 @@ def _distances(
     """Return y* − y in simulated tests with one kind of drift, for each evaluation: (parameter, trial)."""
     distances = [np.empty((len(evaluation.parameters), trials)) for evaluation, _ in evaluations]
     done = 0
-    for statistics, shown, count in _simulated_statistics(
+    for statistics, shown, count in _simulate_statistics(
         budget, evaluations[0][0].measurements, kind, trials, generator
     ):
         chunk = slice(done, done + count)
@@ -210,7 +216,7 @@ def _distances(
     return distances
 
 
-def _simulated_statistics(
+def _simulate_statistics(
     budget: Budget,
     measurements: MeasurementSet,
     kind: Drift | None,
@@ -224,14 +230,14 @@ def _simulated_statistics(
     at_once = max(1, _AT_ONCE // sum(each.deviations().size for each in measurements.lines))
     if not measurements.tests:
         positions = measurements.target_positions
-        for tests, shown in _simulated(budget, measurements, kind, trials, generator, at_once):
+        for tests, shown in _simulate_tests(budget, measurements, kind, trials, generator, at_once):
             of_shown = None if shown is None else position_statistics(shown, positions)
             yield position_statistics(tests, positions), of_shown, len(tests)
         return
     lines = measurements.tests
     for together in zip(
         *(
-            _simulated(budget.tests[name], each, kind, trials, generator, at_once)
+            _simulate_tests(budget.tests[name], each, kind, trials, generator, at_once)
             for name, each in lines.items()
         ),
         strict=True,
@@ -249,10 +255,10 @@ def _simulated_statistics(
             for (name, line), (_, shown) in zip(lines.items(), together, strict=True)
             if any(shown is not None for _, shown in together)
         }
-        yield joined_statistics(of_each), joined_statistics(are_shown) if are_shown else None, count
+        yield join_statistics(of_each), join_statistics(are_shown) if are_shown else None, count
 
 
-def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
+def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
     budget: Budget,
     measurements: MeasurementSet,
     kind: Drift | None,
@@ -266,38 +272,38 @@ def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made 
     of the test itself.
     """
     readings = measurements.deviations()
-    along = stratified_draws(budget.steady(Acts.ALONG_THE_LENGTH), trials, generator)
-    parting = stratified_draws(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
-    alike = stratified_draws(budget.steady(Acts.AT_THE_DATUM), trials, generator)
+    along = sample_stratified(budget.steady(Acts.ALONG_THE_LENGTH), trials, generator)
+    parting = sample_stratified(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
+    alike = sample_stratified(budget.steady(Acts.AT_THE_DATUM), trials, generator)
     changing = [
-        (stratified_draws((each,), trials, generator), measurements.arranged(each.effect))
+        (sample_stratified((each,), trials, generator), measurements.arranged(each.effect))
         for each in budget.changing
         if each.effect is not None
     ]
     drifting = budget.acting(Acts.IN_TIME)
-    hiding = hiding_resolution(budget, readings)
+    hiding = find_hiding_resolution(budget, readings)
     independent = [each for each in budget.acting(Acts.AT_EACH_READING) if each is not hiding]
-    times = reading_times(measurements)
-    effect = effect_along(measurements.target_positions)
+    times = compute_reading_times(measurements)
+    effect = compute_effect_along(measurements.target_positions)
     parted = np.array([float(approach is Approach.NEGATIVE) for approach in Approach])
     for first in range(0, trials, at_once):
         count = min(at_once, trials - first)
         errors = along[first : first + count, np.newaxis] * effect
-        errors += single_draws(budget.acting(Acts.AT_EACH_POSITION), errors.shape, generator)
+        errors += sample_singly(budget.acting(Acts.AT_EACH_POSITION), errors.shape, generator)
         for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
             curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
             errors += each.standard_uncertainty * curves
-        own = single_draws(independent, (count, *readings.shape), generator)
-        rounded = drawn_rounding(hiding, readings, count, generator) if hiding else None
+        own = sample_singly(independent, (count, *readings.shape), generator)
+        rounded = sample_rounding(hiding, readings, count, generator) if hiding else None
         if kind:
             for each in drifting:
-                drifts = drawn_drifts(kind, times, count, generator)
-                drifts *= drift_range(each)
+                drifts = sample_drifts(kind, times, count, generator)
+                drifts *= find_drift_range(each)
                 own += drifts
         trial = slice(first, first + count)
         common = alike[trial, np.newaxis] + np.multiply.outer(parting[trial], parted)
         shared = errors[:, np.newaxis, :] + common[..., np.newaxis]
-        shared += single_draws(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
+        shared += sample_singly(budget.acting(Acts.AT_EACH_APPROACH), shared.shape, generator)
         tests = (rounded.before if rounded else readings) + shared[..., np.newaxis]
         tests += own
         for draws, effects in changing:
@@ -305,7 +311,7 @@ def _simulated(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made 
         yield tests, rounded.shown if rounded else None
 
 
-def _compares_positions(
+def _find_comparing_parameters(
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
 ) -> list[dict[str, bool]]:
     """Return which parameters an error of position can enter: asked of the standard by large errors.
@@ -333,29 +339,29 @@ def _compares_positions(
     ]
 
 
-def seed_of(measurements: MeasurementSet) -> int:
+def make_seed_of(measurements: MeasurementSet) -> int:
     """Return a seed that is the readings' own: the same test gives the same uncertainties."""
     digest = hashlib.sha256()
     for name, each in measurements.tests.items():
-        digest.update(f"{name} {seed_of(each)};".encode())
+        digest.update(f"{name} {make_seed_of(each)};".encode())
     readings = measurements.deviations()
     for values in (measurements.target_positions, np.where(np.isnan(readings), np.inf, readings)):
         digest.update(np.ascontiguousarray(values, dtype="<f8").tobytes())
     return int.from_bytes(digest.digest())
 
 
-def _expanded(distances: FloatArray, least: float) -> list[Expanded]:
+def _expand(distances: FloatArray, least: float) -> list[Expanded]:
     """Return the expanded uncertainty of each parameter by its distances, shape (parameter, trial)."""
     standard = np.sqrt(np.mean(distances**2, axis=-1))
     rank = math.ceil(COVERAGE_PROBABILITY * distances.shape[-1]) - 1
     half_width = np.partition(distances, rank, axis=-1)[:, rank]
     return [
-        Expanded(shortened(half), shortened(half / one)) if one > least else Expanded(0.0, COVERAGE_FACTOR)
+        Expanded(shorten(half), shorten(half / one)) if one > least else Expanded(0.0, COVERAGE_FACTOR)
         for half, one in zip(half_width.tolist(), standard.tolist(), strict=True)
     ]
 
 
-def _bounded(expanded: Expanded, budget: Budget, compares_positions: bool | None) -> Expanded:  # noqa: FBT001 - private
+def _raise_to_bounds(expanded: Expanded, budget: Budget, compares_positions: bool | None) -> Expanded:  # noqa: FBT001 - private
     """Raise U to what it must at least be; the bounds are stated with k = 2.
 
     `compares_positions`: Whether the parameter does; None for one to which no bound applies.
@@ -367,16 +373,16 @@ def _bounded(expanded: Expanded, budget: Budget, compares_positions: bool | None
         (budget.least, Least.LABORATORY),
     ):
         if expanded.uncertainty < bound:
-            expanded = Expanded(shortened(bound), COVERAGE_FACTOR, least)
+            expanded = Expanded(shorten(bound), COVERAGE_FACTOR, least)
     return expanded
 
 
-def shortened(value: float) -> float:
+def shorten(value: float) -> float:
     """Return a value with the digits that are kept."""
     return float(f"{value:.{_DIGITS}g}")
 
 
-def stratified_draws(
+def sample_stratified(
     contributions: Sequence[Contribution], count: int, generator: np.random.Generator
 ) -> FloatArray:
     """Return sums of one error of each contribution, spread evenly over the distributions, shape (count,).
@@ -386,27 +392,27 @@ def stratified_draws(
     """
     middles = (np.arange(count) + 0.5) / count
     total = np.zeros(count)
-    for distribution, standard_uncertainty in _combined(contributions):
-        total += standard_uncertainty * generator.permutation(_quantiles(distribution, middles))
+    for distribution, standard_uncertainty in _combine_distributions(contributions):
+        total += standard_uncertainty * generator.permutation(_compute_quantiles(distribution, middles))
     return total
 
 
-def single_draws(
+def sample_singly(
     contributions: Sequence[Contribution], shape: tuple[int, ...], generator: np.random.Generator
 ) -> FloatArray:
     """Return sums of one error of each contribution, each element drawn for itself, m or rad."""
     total = np.zeros(shape)
-    for distribution, standard_uncertainty in _combined(contributions):
+    for distribution, standard_uncertainty in _combine_distributions(contributions):
         if distribution is Distribution.NORMAL:
             errors = generator.standard_normal(shape)
         else:
-            errors = _quantiles(distribution, generator.random(shape))
+            errors = _compute_quantiles(distribution, generator.random(shape))
         errors *= standard_uncertainty
         total += errors
     return total
 
 
-def _combined(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
+def _combine_distributions(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
     """Yield distributions with their standard uncertainties; the sum of normal ones is normal."""
     normal = [each for each in contributions if each.distribution is Distribution.NORMAL]
     if normal:
@@ -416,7 +422,7 @@ def _combined(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribut
             yield each.distribution, each.standard_uncertainty
 
 
-def _quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:
+def _compute_quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:
     """Return the quantiles of a distribution whose root mean square is 1."""
     full_range = distribution.range_over_standard_uncertainty
     if distribution is Distribution.NORMAL:

@@ -52,7 +52,7 @@ def smooth_curves(acts: Acts, angles: FloatArray, count: int, generator: np.rand
     return np.asarray(drawn @ basis / np.sqrt(len(harmonics)))
 
 
-def of_the_circle(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
+def list_circle_contributions(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
     """Yield what only a circle has: its calibrated length, and what its centre leaves.
 
     The centre of a full turn is found from the readings, but for e²/(2R): a circle whose centre lies off by e
@@ -68,14 +68,16 @@ def of_the_circle(job: Job, measurements: MeasurementSet) -> Iterator[Contributi
             standard_uncertainty=MICROMETRE.to_si(keys.calibrated_length) / _COVERAGE_FACTOR,
             acts=Acts.AT_THE_DATUM,
             distribution=Distribution.NORMAL,
-            stated=wording.expanded(keys.calibrated_length, MICROMETRE.symbol, _COVERAGE_FACTOR),
-            source=wording.calibration(job.keys.instrument.certificate if job.keys.instrument else None),
+            stated=wording.say_expanded_uncertainty(
+                keys.calibrated_length, MICROMETRE.symbol, _COVERAGE_FACTOR
+            ),
+            source=wording.say_calibration(job.keys.instrument.certificate if job.keys.instrument else None),
             contributor="calibrated_length",
         )
     centring = MICROMETRE.to_si(keys.centring) if keys.centring else 0.0
     source, acts = wording.STATED, Acts.OFF_CENTRE
     if not keys.centring and is_round(measurements.target_positions):
-        offset, acts = _offset(measurements), Acts.ROUND_THE_CIRCLE
+        offset, acts = _fit_offset(measurements), Acts.ROUND_THE_CIRCLE
         centring = offset**2 / (2 * circle.radius)
         source = wording.SECOND_ORDER.given(offset=float(f"{MICROMETRE.from_si(offset):.3g}"))
     if centring:
@@ -85,7 +87,7 @@ def of_the_circle(job: Job, measurements: MeasurementSet) -> Iterator[Contributi
             standard_uncertainty=from_range(centring, Distribution.RECTANGULAR),
             acts=acts,
             distribution=Distribution.RECTANGULAR,
-            stated=wording.full_range("R", shown, MICROMETRE.symbol),
+            stated=wording.say_full_range("R", shown, MICROMETRE.symbol),
             source=source,
             contributor="centring",
         )
@@ -96,7 +98,7 @@ def is_round(angles: FloatArray) -> bool:
     return bool(np.diff(angles, append=angles[0] + 2 * np.pi).max() < np.pi / 2)
 
 
-def _offset(measurements: MeasurementSet) -> float:
+def _fit_offset(measurements: MeasurementSet) -> float:
     """Return how far the centre of the readings lies from that of the instrument, m: by least squares."""
     there = np.isfinite(measurements.deviation)
     angles = measurements.target_positions[measurements.target[there]]

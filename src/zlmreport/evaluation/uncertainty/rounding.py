@@ -56,7 +56,7 @@ class Axes:
         return np.asarray(self.step * np.round((readings + between) / self.step) - between)
 
 
-def hiding_resolution(budget: Budget, readings: FloatArray) -> Contribution | None:
+def find_hiding_resolution(budget: Budget, readings: FloatArray) -> Contribution | None:
     """Return the resolution of a budget if it hides the scatter of the readings, else None.
 
     `readings`: (approach, position, run), m or rad.
@@ -76,14 +76,14 @@ def hiding_resolution(budget: Budget, readings: FloatArray) -> Contribution | No
     return found[0] if math.sqrt(squares / freedom) < _LOUD * _step_of(found[0]) else None
 
 
-def drawn_rounding(
+def sample_rounding(
     resolution: Contribution, readings: FloatArray, count: int, generator: np.random.Generator
 ) -> Rounded:
     """Return simulated tests of axes that may be the one that was read, before and after rounding.
 
     `readings`: (approach, position, run), m or rad; NaN where there is none.
     """
-    axes = drawn_axes(resolution, readings, count, generator)
+    axes = sample_axes(resolution, readings, count, generator)
     own = axes.sigma[:, np.newaxis, np.newaxis, np.newaxis] * generator.standard_normal(
         (count, *readings.shape)
     )
@@ -92,7 +92,7 @@ def drawn_rounding(
     return Rounded(before, axes.rounded(before))
 
 
-def drawn_axes(
+def sample_axes(
     resolution: Contribution, readings: FloatArray, count: int, generator: np.random.Generator
 ) -> Axes:
     """Return axes that may be the one that was read.
@@ -101,14 +101,16 @@ def drawn_axes(
     """
     step = _step_of(resolution)
     cells = np.ascontiguousarray(readings.reshape(-1, readings.shape[-1]) / step)
-    quiet = _quiet(cells.tobytes(), cells.shape)
+    quiet = _judge_quietness(cells.tobytes(), cells.shape)
     chosen = generator.choice(len(_SIGMAS), count, p=quiet.of_sigma)
     means = step * quiet.means[chosen].reshape(count, *readings.shape[:-1])
     between = step * generator.random(means.shape)
     return Axes(step, step * _SIGMAS[chosen], means, between)
 
 
-def mean_rounding_variance(resolution: Contribution, readings: FloatArray) -> tuple[FloatArray, FloatArray]:
+def compute_mean_rounding_variance(
+    resolution: Contribution, readings: FloatArray
+) -> tuple[FloatArray, FloatArray]:
     """Return E(e²) of what rounding does to x̄_i↑ and x̄_i↓, and to x̄_i, m² or rad².
 
     Returns
@@ -117,7 +119,7 @@ def mean_rounding_variance(resolution: Contribution, readings: FloatArray) -> tu
     bidirectional : (position,) array
     """
     generator = np.random.Generator(np.random.PCG64(_SEED))
-    before, shown = drawn_rounding(resolution, readings, _DRAWS, generator)
+    before, shown = sample_rounding(resolution, readings, _DRAWS, generator)
     errors = np.nan_to_num(shown - before)
     means = errors.sum(axis=-1) / np.maximum(np.isfinite(readings).sum(axis=-1), 1)
     return np.mean(means**2, axis=0), np.mean(means.mean(axis=1) ** 2, axis=0)
@@ -137,7 +139,7 @@ class _Quiet:
 
 
 @lru_cache(maxsize=8)
-def _quiet(cells: bytes, shape: tuple[int, int]) -> _Quiet:
+def _judge_quietness(cells: bytes, shape: tuple[int, int]) -> _Quiet:
     """Return what readings tell, (cell, run) in steps; kept, for each kind of drift asks for it again."""
     readings = np.frombuffer(cells).reshape(shape)
     there = np.isfinite(readings)
@@ -152,7 +154,7 @@ def _quiet(cells: bytes, shape: tuple[int, int]) -> _Quiet:
         low, high = ends.min(axis=0) - _BEYOND * sigma, ends.max(axis=0) + _BEYOND * sigma
         tried = low[:, np.newaxis] + (high - low)[:, np.newaxis] * shares
         away = (readings[:, np.newaxis, :] - tried[:, :, np.newaxis]) / sigma
-        inside = _cumulative(away + 0.5 / sigma) - _cumulative(away - 0.5 / sigma)
+        inside = _compute_cumulative(away + 0.5 / sigma) - _compute_cumulative(away - 0.5 / sigma)
         logarithms = np.log(np.maximum(np.where(there[:, np.newaxis, :], inside, 1.0), 1e-300)).sum(axis=-1)
         largest = logarithms.max(axis=-1, keepdims=True)
         weights = np.exp(logarithms - largest)
@@ -162,6 +164,6 @@ def _quiet(cells: bytes, shape: tuple[int, int]) -> _Quiet:
     return _Quiet(of_sigma / of_sigma.sum(), means)
 
 
-def _cumulative(values: FloatArray) -> FloatArray:
+def _compute_cumulative(values: FloatArray) -> FloatArray:
     """Return Φ of the standard normal distribution; NaN of NaN."""
     return np.asarray(np.interp(values, _NORMAL, _CUMULATIVE))

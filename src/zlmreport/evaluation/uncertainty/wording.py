@@ -39,7 +39,7 @@ USUAL: Mapping[str, Words] = MappingProxyType(
 )
 
 
-def contributor(name: str) -> Words:
+def name_contributor(name: str) -> Words:
     """Return the name of a usual contributor, by its key."""
     return CONDITION_NAMES[name] if name in CONDITION_NAMES else USUAL[name]
 
@@ -94,31 +94,31 @@ _VALUE = Words("{symbol} = {value}")
 _EXPANDED = Words("U = {value} (k = {factor})")
 
 
-def calibration(certificate: str | None) -> Words:
+def say_calibration(certificate: str | None) -> Words:
     """Return where an instrument's uncertainty is known from."""
     return _CALIBRATION.given(certificate=certificate) if certificate else STATED
 
 
-def length(value: float) -> Words:
+def write_length(value: float) -> Words:
     """Return a length, m, with its unit."""
     return Words("{value} m").given(value=METRE.from_si(value))
 
 
-def full_range(symbol: str, value: float, unit: str) -> Words:
+def say_full_range(symbol: str, value: float, unit: str) -> Words:
     """Return a full range as it is stated."""
-    return _VALUE.given(symbol=symbol, value=_quantity(value, unit))
+    return _VALUE.given(symbol=symbol, value=_write_quantity(value, unit))
 
 
-def standard(value: float, unit: Unit) -> Words:
+def say_standard_uncertainty(value: float, unit: Unit) -> Words:
     """Return a standard uncertainty as it is stated."""
-    return _VALUE.given(symbol="u", value=_quantity(value, unit.symbol))
+    return _VALUE.given(symbol="u", value=_write_quantity(value, unit.symbol))
 
 
-def expanded(value: float, unit: str, factor: float) -> Words:
+def say_expanded_uncertainty(value: float, unit: str, factor: float) -> Words:
     """Return an expanded uncertainty as it is stated."""
-    return _EXPANDED.given(value=_quantity(value, unit), factor=factor)
+    return _EXPANDED.given(value=_write_quantity(value, unit), factor=factor)
 
 
-def _quantity(value: float, unit: str) -> Words:
+def _write_quantity(value: float, unit: str) -> Words:
     phrase = with_unit("{value}", unit)
     return Words(phrase).given(value=value)

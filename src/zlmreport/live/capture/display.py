@@ -67,7 +67,7 @@ class JumpWatch:
 
     def _reach(self, before: LiveReading, reading: LiveReading) -> float:
         """Return how far the axis may go between two readings, m or rad."""
-        elapsed = _elapsed(before, reading)
+        elapsed = _bound_elapsed(before, reading)
         return max(FASTEST * self._settings.feed * elapsed + self._settings.stability, self._settings.motion)
 
     def _unit(self, before: LiveReading, first: LiveReading) -> float | None:
@@ -96,17 +96,17 @@ class JumpWatch:
         factor = self._unit(before, first)
         if factor is not None:
             return Jump(factor)
-        step, elapsed = abs(first.value - before.value), _elapsed(before, first)
+        step, elapsed = abs(first.value - before.value), _bound_elapsed(before, first)
         is_sudden = self._was_at_rest and 4 * step > _ACCELERATION * elapsed**2
         return Jump(None) if is_sudden and step > self._settings.motion else None
 
 
-def _elapsed(before: LiveReading, reading: LiveReading) -> float:
+def _bound_elapsed(before: LiveReading, reading: LiveReading) -> float:
     """Return how long ago a reading was taken at most, s: on a busy computer its answer may have waited."""
     return reading.time - before.time + before.within
 
 
-def misread_by(  # noqa: PLR0913, PLR0917 - what is shown, by which zeros, and what may be meant
+def find_misread_factor(  # noqa: PLR0913, PLR0917 - what is shown, by which zeros, and what may be meant
     value: float,
     zero: float,
     right: float,

@@ -6,7 +6,7 @@ from bisect import bisect
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from zlmreport.live.capture.display import UNITS, JumpWatch, Offsets, misread_by
+from zlmreport.live.capture.display import UNITS, JumpWatch, Offsets, find_misread_factor
 from zlmreport.live.capture.events import (
     HALTING,
     BeamHeld,
@@ -43,7 +43,7 @@ from zlmreport.live.capture.events import (
 from zlmreport.live.capture.motion import Programme, Route
 from zlmreport.live.capture.place import WORTH_SAYING, PlaceInProgram, TargetStandstill
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.standstill import FROM_RUN, Pace, Track, Window, expected_deviation
+from zlmreport.live.capture.standstill import FROM_RUN, Pace, Track, Window, expect_deviation
 from zlmreport.live.capture.visits import FASTEST, ListedVisit, Settings
 from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
@@ -461,12 +461,12 @@ class Follower:
         following = progress.visits[progress.taken :]
         near = self._settings.tolerance
         right = zero if progress.datum is None else progress.datum
-        unit = misread_by(mean.value, zero, right, following, near, UNITS)
+        unit = find_misread_factor(mean.value, zero, right, following, near, UNITS)
         if unit is not None and progress.read:
             return ScaleChanged(unit, self._by_either_unit(zero))
         if self._offsets.is_lost(position, progress.taken):
             return ZeroLost(_SHIFTED, progress.rest_of_part)
-        return Elsewhere(position, misread_by(mean.value, zero, right, following, near))
+        return Elsewhere(position, find_misread_factor(mean.value, zero, right, following, near))
 
     def _by_either_unit(self, zero: float) -> ListedVisit | None:
         """Return the visit before, if its reading would be at its target by another unit, too."""
@@ -543,7 +543,7 @@ class Follower:
     def _is_plausible(self, index: int, stop: TargetStandstill) -> bool:
         """Tell whether a reading is near enough to those before, and to the plan."""
         visit = self.progress.visits[index]
-        expected, limit = expected_deviation(visit, self.progress.read, self._settings)
+        expected, limit = expect_deviation(visit, self.progress.read, self._settings)
         return abs(stop.position - visit.position - expected) <= limit
 
     def _not_taken(self) -> Iterator[Event]:
@@ -566,7 +566,7 @@ class Follower:
         stood = reading.time - stop.mean.time
         is_last = index == len(self.progress.visits) - 1
         if self._is_watched or has_left or (is_last and stood >= 2 * self._settings.stay):
-            expected, _ = expected_deviation(visit, self.progress.read, self._settings)
+            expected, _ = expect_deviation(visit, self.progress.read, self._settings)
             candidates = ((visit, 0.5), (None, 0.5))
             yield Unclear(
                 stop.target, visit.approach, candidates, stop.position, stop.mean, visit.position + expected
@@ -665,7 +665,7 @@ class Follower:
         is_ordered = self.progress.again is not None and index >= self.progress.taken
         if earlier is None or visit.number not in self.progress.filed or is_ordered:
             return False
-        expected, _ = expected_deviation(visit, self.progress.read, self._settings)
+        expected, _ = expect_deviation(visit, self.progress.read, self._settings)
         further = abs(stop.position - visit.position - expected) - abs(earlier.deviation - expected)
         return further > 0 and abs(stop.position - earlier.position) > FROM_RUN * self._settings.stability
 

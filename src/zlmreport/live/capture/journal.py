@@ -16,10 +16,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
 from zlmreport.errors import AccessError, Place
-from zlmreport.files import Closable, JournalFile, read, unreadable
+from zlmreport.files import Closable, JournalFile, make_unreadable, read
 from zlmreport.live.capture.events import Event, Order, Recorded, Unclear
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.records import MOMENTARY, SCHEMA, Header, Record, finite, from_record, to_record
+from zlmreport.live.capture.records import (
+    MOMENTARY,
+    SCHEMA,
+    Header,
+    Record,
+    from_record,
+    require_finite,
+    to_record,
+)
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.text_file import LARGEST
@@ -96,7 +104,7 @@ class History:
         return progress
 
 
-def sealed(record: Record, before: str) -> tuple[bytes, str]:
+def seal(record: Record, before: str) -> tuple[bytes, str]:
     """Return a record as a line of a journal, and its check sum, which covers the one before, too."""
     body = json.dumps(record, ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode()
     own = _sum(body, before)
@@ -124,26 +132,26 @@ def read_history(path: Path) -> History | None:
     AccessError
         If there is no such journal, it cannot be read, it is none, or it is damaged.
     """
-    content = _content(path)
+    content = _read_content(path)
     place = str(path)
     lines = content.split(b"\n")[:-1]
     last_sum = ""
     records: list[Record] = []
-    while len(records) < len(lines) and (found := _unsealed(lines[len(records)], last_sum)):
+    while len(records) < len(lines) and (found := _unseal(lines[len(records)], last_sum)):
         record, last_sum = found
         records.append(record)
     if len(records) < len(lines) - 1 or (len(records) < len(lines) and not records):
-        raise AccessError.at(Place(place, len(records) + 1), _damaged(len(records)))
+        raise AccessError.at(Place(place, len(records) + 1), _say_damaged(len(records)))
     if not records:
         if not _BEGINNING.startswith(content[: len(_BEGINNING)].rstrip(b"\0")):
-            raise AccessError.at(Place(place), _damaged(0))
+            raise AccessError.at(Place(place), _say_damaged(0))
         return None
-    header, entries = _understood(records, place)
+    header, entries = _understand_records(records, place)
     sound = sum(len(line) + 1 for line in lines[: len(records)])
     return History(header, entries, last_sum, sound, SourceFile.of(path, content))
 
 
-def _content(path: Path) -> bytes:
+def _read_content(path: Path) -> bytes:
     place = Place(str(path))
     try:
         if not path.exists():
@@ -153,13 +161,13 @@ def _content(path: Path) -> bytes:
             )
         content = read(path, LARGEST)
     except OSError as error:
-        raise unreadable(path, error) from error
+        raise make_unreadable(path, error) from error
     if len(content) > LARGEST:
         raise AccessError.at(place, f"is larger than {LARGEST} bytes; it is no journal of a test")
     return content
 
 
-def _unsealed(line: bytes, before: str) -> tuple[Record, str] | None:
+def _unseal(line: bytes, before: str) -> tuple[Record, str] | None:
     """Return the record of a line with its check sum; None if it is not as it was written."""
     found = _SUM.search(line, max(0, len(line) - _DIGITS - 10))
     if found is None or found.end() != len(line):
@@ -174,13 +182,15 @@ def _unsealed(line: bytes, before: str) -> tuple[Record, str] | None:
     return (record, own) if isinstance(record, dict) else None
 
 
-def _understood(records: list[Record], place: str) -> tuple[Header, tuple[JournalEntry, ...]]:
+def _understand_records(records: list[Record], place: str) -> tuple[Header, tuple[JournalEntry, ...]]:
     line = 1
     try:
         header = Header.from_record(records[0])
         entries = []
         for line, record in enumerate(records[1:], start=2):
-            entries.append(JournalEntry(line, finite(record["elapsed"]), from_record(record, header.visits)))
+            entries.append(
+                JournalEntry(line, require_finite(record["elapsed"]), from_record(record, header.visits))
+            )
         line = next(
             (later.line for earlier, later in pairwise(entries) if later.elapsed < earlier.elapsed), 0
         )
@@ -193,7 +203,7 @@ def _understood(records: list[Record], place: str) -> tuple[Header, tuple[Journa
     return header, tuple(entries)
 
 
-def _damaged(sound: int) -> str:
+def _say_damaged(sound: int) -> str:
     if not sound:
         return "is no journal of 'zlmreport capture'; name another file in measurement.source.journal"
     return (
@@ -230,7 +240,7 @@ class Journal(Closable):
 
         Raises `AccessError` if there is one of this name that holds a capture, or it cannot be written.
         """
-        with _closed_on_error(_opened(path)) as file:
+        with _close_on_error(_open_journal(path)) as file:
             demand_nothing_captured(path)
             file.cut(0)
             journal = cls(file, header, "")
@@ -244,7 +254,7 @@ class Journal(Closable):
         Raises `AccessError` if there is none, it is damaged or being written, or it cannot be written.
         """
         read_history(path)  # before it is opened, which would make one
-        with _closed_on_error(_opened(path)) as file:
+        with _close_on_error(_open_journal(path)) as file:
             history = read_history(path)
             if history is None:
                 raise AccessError.at(
@@ -282,7 +292,7 @@ class Journal(Closable):
             self.asked = elapsed
 
     def _write(self, record: Record) -> None:
-        line, self._sum = sealed(record, self._sum)
+        line, self._sum = seal(record, self._sum)
         self._file.append(line)
 
 
@@ -299,7 +309,7 @@ def demand_nothing_captured(path: Path) -> None:
 
 
 @contextlib.contextmanager
-def _closed_on_error(file: JournalFile) -> Iterator[JournalFile]:
+def _close_on_error(file: JournalFile) -> Iterator[JournalFile]:
     try:
         yield file
     except BaseException:
@@ -307,7 +317,7 @@ def _closed_on_error(file: JournalFile) -> Iterator[JournalFile]:
         raise
 
 
-def _opened(path: Path) -> JournalFile:
+def _open_journal(path: Path) -> JournalFile:
     return JournalFile(
         path,
         "is being written by another capture; end that first, or name another journal",
@@ -326,7 +336,7 @@ def _is_there(history: History) -> str:
     )
 
 
-def captured(
+def capture(
     readings: Iterable[LiveReading],
     follower: Follower,
     journal: Journal,

@@ -13,7 +13,7 @@ from pydantic import Field
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.job.choices import Choice
 from zlmreport.job.job import Job
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.job.types import Finite, JobPath, LiveInstrumentKeys, Options, Positive
 from zlmreport.live.capture.journal import History
 from zlmreport.live.capture.records import Header
@@ -93,13 +93,13 @@ class Assignment:
         return sum(visit.travelled for visit in rest) / self.plan.feed + self.plan.dwell * len(rest)
 
 
-def options_of(job: Job) -> CaptureOptions | None:
+def find_options_of(job: Job) -> CaptureOptions | None:
     """Return the keys of a job's data source if it is captured live; None if it is not."""
     options = job.source.options
     return options if isinstance(options, CaptureOptions) else None
 
 
-def assignment_of(job: Job, plan: Plan) -> Assignment:
+def make_assignment_of(job: Job, plan: Plan) -> Assignment:
     """Return what a job asks to be captured.
 
     Raises `InputError` if its data source is not captured live, or its limits do not fit the plan.
@@ -109,21 +109,21 @@ def assignment_of(job: Job, plan: Plan) -> Assignment:
         job.place_of("measurement.error"),
         "capture follows the axis by its position, which such an instrument does not read",
     )
-    options = options_of(job)
+    options = find_options_of(job)
     if options is None:
         raise InputError.at(
             job.source.place,
             f"the data source {job.source.identifier} is not captured; name 'plugin: serial-interferometer' "
             "with an instrument and a journal",
         )
-    settings = _settings(options, plan, job.axis, job.keys.capture.settle)
-    problems = list(_problems(job, settings, plan))
+    settings = _make_settings(options, plan, job.axis, job.keys.capture.settle)
+    problems = list(_find_problems(job, settings, plan))
     if problems:
         raise InputError(problems)
-    return Assignment(options, settings, _datum(options, plan, job.axis), plan, visit_list(plan))
+    return Assignment(options, settings, _find_datum(options, plan, job.axis), plan, visit_list(plan))
 
 
-def instrument_of(job: Job) -> Choice:
+def find_instrument_of(job: Job) -> Choice:
     """Return the live instrument that a job names; raise `InputError` if it names none."""
     choice = job.source.instrument
     if choice is None:
@@ -135,9 +135,9 @@ def instrument_of(job: Job) -> Choice:
     return choice
 
 
-def header_of(job: Job, assignment: Assignment, started: dt.datetime) -> Header:
+def make_header_of(job: Job, assignment: Assignment, started: dt.datetime) -> Header:
     """Return what the journal of a job says first."""
-    choice = instrument_of(job)
+    choice = find_instrument_of(job)
     return Header(
         number=job.keys.certificate.number,
         job=job.files[0].sha256,
@@ -159,7 +159,7 @@ def demand_same_test(history: History, job: Job, assignment: Assignment, place: 
     Raises `AccessError` at the journal's place, with what differs.
     """
     header = history.header
-    other = _difference(header, job, assignment)
+    other = _say_difference(header, job, assignment)
     if other:
         raise AccessError.at(
             place,
@@ -168,7 +168,7 @@ def demand_same_test(history: History, job: Job, assignment: Assignment, place: 
         )
 
 
-def _difference(header: Header, job: Job, assignment: Assignment) -> str:
+def _say_difference(header: Header, job: Job, assignment: Assignment) -> str:
     number = job.keys.certificate.number
     if header.number != number:
         return f"is the journal of {header.number}, and the job is {number}"
@@ -176,8 +176,8 @@ def _difference(header: Header, job: Job, assignment: Assignment) -> str:
         return f"is the journal of axis {header.axis}, and the job is on axis {job.axis.name}"
     if header.visits != assignment.visits:
         return (
-            f"holds another plan: {counted(len(header.visits), 'visit')}, {header.method}, and the job's is "
-            f"{len(assignment.visits)}, {assignment.plan.method}, or its targets are others"
+            f"holds another plan: {count_in_words(len(header.visits), 'visit')}, {header.method}, "
+            f"and the job's is {len(assignment.visits)}, {assignment.plan.method}, or its targets are others"
         )
     if header.settings != assignment.settings or header.datum != assignment.datum:
         return (
@@ -187,9 +187,9 @@ def _difference(header: Header, job: Job, assignment: Assignment) -> str:
     return ""
 
 
-def _settings(options: CaptureOptions, plan: Plan, axis: Axis, settle: float | None) -> Settings:
+def _make_settings(options: CaptureOptions, plan: Plan, axis: Axis, settle: float | None) -> Settings:
     unit = axis.position_unit
-    largest = _largest_tolerance(plan)
+    largest = _find_largest_tolerance(plan)
     return Settings(
         tolerance=unit.to_si(options.tolerance)
         if options.tolerance
@@ -203,14 +203,14 @@ def _settings(options: CaptureOptions, plan: Plan, axis: Axis, settle: float | N
     )
 
 
-def _largest_tolerance(plan: Plan) -> float:
+def _find_largest_tolerance(plan: Plan) -> float:
     interval = min(later - earlier for earlier, later in pairwise(plan.targets.tolist()))
     return float(min(SHARE_OF_INTERVAL * interval, SHARE_OF_OVERRUN * plan.overrun))
 
 
-def _problems(job: Job, settings: Settings, plan: Plan) -> Iterator[Problem]:
+def _find_problems(job: Job, settings: Settings, plan: Plan) -> Iterator[Problem]:
     unit, fine = job.axis.position_unit, job.axis.deviation_unit
-    largest = _largest_tolerance(plan)
+    largest = _find_largest_tolerance(plan)
     if settings.tolerance > largest * (1 + 1e-9):
         yield Problem(
             job.place_of(f"{_SOURCE}.tolerance"),
@@ -234,7 +234,7 @@ def _problems(job: Job, settings: Settings, plan: Plan) -> Iterator[Problem]:
         )
 
 
-def _datum(options: CaptureOptions, plan: Plan, axis: Axis) -> float | None:
+def _find_datum(options: CaptureOptions, plan: Plan, axis: Axis) -> float | None:
     if options.datum == "instrument":
         return None
     if options.datum == "start":

@@ -44,14 +44,14 @@ _UNSTATED: Mapping[str, Any] = MappingProxyType(
 def to_record(event: Event) -> Record:
     """Return the keys of an event: visits by their numbers, the mean's values beside the others, SI."""
     record: Record = {"record": _NAMES[type(event)]}
-    for name in fields(type(event)):
+    for name in list_fields(type(event)):
         value = getattr(event, name)
         if isinstance(value, Mean):
-            record |= {each: _plain(getattr(value, each)) for each in fields(Mean)}
+            record |= {each: _make_plain(getattr(value, each)) for each in list_fields(Mean)}
         elif name in _UNSTATED and value == _UNSTATED[name]:
             continue
         else:
-            record[name] = _plain(value)
+            record[name] = _make_plain(value)
     if isinstance(event, Recorded):
         record["deviation"] = event.deviation
     return record
@@ -61,17 +61,17 @@ def from_record(record: Mapping[str, Any], visits: Sequence[ListedVisit]) -> Eve
     """Return the event of a record; raise KeyError, TypeError, ValueError or IndexError for any other."""
     kind = _KINDS[record["record"]]
     unstated = {name for name in _UNSTATED if ("value" if name == "mean" else name) not in record}
-    stated = (name for name in fields(kind) if name not in unstated)
+    stated = (name for name in list_fields(kind) if name not in unstated)
     event: Event = kind(**{name: _READERS[name](record, visits) for name in stated})
     return event
 
 
-def fields(kind: type) -> tuple[str, ...]:
+def list_fields(kind: type) -> tuple[str, ...]:
     """Return the names of a dataclass's fields."""
     return tuple(each.name for each in dataclasses.fields(kind))
 
 
-def finite(value: Any) -> float:
+def require_finite(value: Any) -> float:
     """Return a number; raise TypeError or ValueError for anything else."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise TypeError(f"{value!r} is no number")
@@ -80,11 +80,11 @@ def finite(value: Any) -> float:
     return float(value)
 
 
-def _plain(value: Any) -> Any:
+def _make_plain(value: Any) -> Any:
     if isinstance(value, ListedVisit):
         return value.number
     if isinstance(value, tuple):
-        return [_plain(each) for each in value]
+        return [_make_plain(each) for each in value]
     if isinstance(value, Mapping):
         return {name: each for name, each in value.items() if math.isfinite(each)}
     return int(value) if isinstance(value, Approach) else value
@@ -98,15 +98,15 @@ def _visit(number: Any, visits: Sequence[ListedVisit]) -> ListedVisit | None:
     return visits[int(number) - 1]
 
 
-def _mean(record: Mapping[str, Any]) -> Mean:
-    conditions = {str(name): finite(value) for name, value in dict(record["conditions"]).items()}
+def _read_mean(record: Mapping[str, Any]) -> Mean:
+    conditions = {str(name): require_finite(value) for name, value in dict(record["conditions"]).items()}
     return Mean(
-        value=finite(record["value"]),
-        range=finite(record["range"]),
+        value=require_finite(record["value"]),
+        range=require_finite(record["range"]),
         count=int(record["count"]),
         skipped=int(record["skipped"]),
-        time=finite(record["time"]),
-        duration=finite(record["duration"]),
+        time=require_finite(record["time"]),
+        duration=require_finite(record["duration"]),
         conditions=MappingProxyType(conditions),
     )
 
@@ -115,21 +115,21 @@ _Reader: TypeAlias = Callable[[Mapping[str, Any], Sequence[ListedVisit]], Any]
 
 
 def _number(name: str) -> _Reader:
-    return lambda record, _visits: finite(record[name])
+    return lambda record, _visits: require_finite(record[name])
 
 
-def _listed(name: str) -> _Reader:
+def _read_list_of(name: str) -> _Reader:
     return lambda record, visits: _visit(record[name], visits)
 
 
 _READERS: Mapping[str, _Reader] = MappingProxyType(
     {
-        **{name: _listed(name) for name in ("visit", "first", "last")},
+        **{name: _read_list_of(name) for name in ("visit", "first", "last")},
         "candidates": lambda record, visits: tuple(
-            (_visit(number, visits), finite(odds)) for number, odds in record["candidates"]
+            (_visit(number, visits), require_finite(odds)) for number, odds in record["candidates"]
         ),
         "void": lambda record, visits: tuple(_visit(number, visits) for number in record["void"]),
-        "mean": lambda record, _visits: _mean(record),
+        "mean": lambda record, _visits: _read_mean(record),
         "approach": lambda record, _visits: (
             None if record["approach"] is None else Approach(record["approach"])
         ),
@@ -204,7 +204,7 @@ class Header:
             "axis": {"name": self.axis, "kind": str(self.kind)},
             "instrument": dict(self.instrument),
             "method": self.method,
-            "settings": {name: getattr(self.settings, name) for name in fields(Settings)},
+            "settings": {name: getattr(self.settings, name) for name in list_fields(Settings)},
             "datum": self.datum,
             "visits": [
                 [visit.target, visit.position, int(visit.approach), visit.run, visit.part, visit.travelled]
@@ -227,17 +227,17 @@ class Header:
             tool=str(record["tool"]),
             started=dt.datetime.fromisoformat(record["started"]),
             method=str(record["method"]),
-            settings=Settings(**{name: finite(value) for name, value in record["settings"].items()}),
-            datum=None if datum is None else finite(datum),
+            settings=Settings(**{name: require_finite(value) for name, value in record["settings"].items()}),
+            datum=None if datum is None else require_finite(datum),
             visits=tuple(
                 ListedVisit(
                     number,
                     int(target),
-                    finite(position),
+                    require_finite(position),
                     Approach(approach),
                     int(run),
                     int(part),
-                    finite(travelled),
+                    require_finite(travelled),
                 )
                 for number, (target, position, approach, run, part, travelled) in enumerate(
                     record["visits"], start=1

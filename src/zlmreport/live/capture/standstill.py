@@ -203,7 +203,7 @@ class Window:
 FROM_RUN, _FROM_TARGET = 50, 200
 
 
-def expected_deviation(
+def expect_deviation(
     visit: ListedVisit, read: Mapping[tuple[int, Approach], Recorded], settings: Settings
 ) -> tuple[float, float]:
     """Return what a visit should read, as a deviation, and how far it may be off, m or rad.

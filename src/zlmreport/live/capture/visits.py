@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from zlmreport.measurement.approach import Approach
-from zlmreport.model.planning.methods import Method, path, visits
+from zlmreport.model.planning.methods import Method, list_visits, plan_path
 from zlmreport.model.planning.plan import Plan
 
 #: Methods that go over the whole axis in each run: there a run with a datum of its own adds scatter only.
@@ -29,7 +29,7 @@ class ListedVisit:
 
 def visit_list(plan: Plan) -> tuple[ListedVisit, ...]:
     """Return the visits of a plan in their order."""
-    stops = path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     return tuple(
         ListedVisit(
             number=number,
@@ -40,13 +40,13 @@ def visit_list(plan: Plan) -> tuple[ListedVisit, ...]:
             part=visit.run if plan.method in _RUN_BY_RUN else 1,
             travelled=visit.travelled,
         )
-        for number, visit in enumerate(visits(stops), start=1)
+        for number, visit in enumerate(list_visits(stops), start=1)
     )
 
 
 def start_of(plan: Plan) -> float:
     """Return where the axis stands before the test: the start of the path, m or rad."""
-    return path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)[0].position
+    return plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)[0].position
 
 
 #: What an operator may make of the feed, by the override of the control.

@@ -236,10 +236,10 @@ def serve(
         if troubles.has(Trouble.UNPLUGGED, now):
             return
         sent = emulator.unasked(now) + emulator.answer(channel.receive(), now)
-        channel.send(_garbled(sent, noise) if troubles.has(Trouble.GARBLED, now) else sent)
+        channel.send(_garble(sent, noise) if troubles.has(Trouble.GARBLED, now) else sent)
 
 
-def _garbled(data: bytes, noise: Random) -> bytes:
+def _garble(data: bytes, noise: Random) -> bytes:
     """Return bytes as a bad line delivers them: one in five is another, or none."""
     found = bytearray()
     for byte in data:

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Protocol, TypeVar
 
 from zlmreport.live.ports.clock import ArrivalClock
-from zlmreport.live.ports.port import Port, shown
+from zlmreport.live.ports.port import Port, show_beginning
 from zlmreport.live.ports.reading import Fault, LiveReading
 
 _END = re.compile(rb"[\r\n]+")
@@ -96,7 +96,9 @@ class Patience:
         longest = self._timeout * (_BAD_LINE if self._has_understood else 1)
         if now - self._understood_at < longest:
             return
-        self._port.fail(f"what arrives are no {self._expected}: {shown(self._nonsense)}; {self._advice}")
+        self._port.fail(
+            f"what arrives are no {self._expected}: {show_beginning(self._nonsense)}; {self._advice}"
+        )
 
 
 class WrongDeviceError(Exception):
@@ -115,7 +117,7 @@ class Decoder(Protocol):
         """
 
 
-def streamed(port: Port, decoder: Decoder, patience: Patience, wait: float) -> Iterator[LiveReading]:
+def stream(port: Port, decoder: Decoder, patience: Patience, wait: float) -> Iterator[LiveReading]:
     """Yield readings as they arrive, without end.
 
     A decoder that knows no better gives each reading the time at which its bytes were read; such readings get
@@ -190,7 +192,7 @@ def ask(
         left = until - time.monotonic()
 
 
-def at_rate(rate: float, question: Callable[[], LiveReading]) -> Iterator[LiveReading]:
+def ask_at_rate(rate: float, question: Callable[[], LiveReading]) -> Iterator[LiveReading]:
     """Yield the answers to a question that is put at a rate, without end.
 
     An instrument that is slower, or a caller that is, gets no burst of questions afterwards. A reading was
@@ -212,6 +214,6 @@ def at_rate(rate: float, question: Callable[[], LiveReading]) -> Iterator[LiveRe
         time.sleep(max(0.0, due - time.monotonic()))
 
 
-def unreadable(now: float, message: str) -> LiveReading:
+def make_unreadable(now: float, message: str) -> LiveReading:
     """Return what stands for a reading that was not understood."""
     return LiveReading(float("nan"), now, Fault.UNREADABLE, message=message)

@@ -72,7 +72,7 @@ class Port(Closable):
         self.empty_at = time.monotonic()  #: When it was looked at last and had nothing, s.
         self._lock = threading.Lock()
         self._is_closed = False
-        self._serial = _pyserial(self.place)
+        self._serial = _load_pyserial(self.place)
         try:
             self._port: Any = self._serial.serial_for_url(
                 name,
@@ -83,7 +83,7 @@ class Port(Closable):
                 xonxoff=framing.xon_xoff,
                 timeout=0.0,
                 write_timeout=timeout,
-                **_alone(name),
+                **_ask_to_be_alone(name),
             )
             _let_parity_count(self._port, framing)
         except ValueError as error:
@@ -91,7 +91,7 @@ class Port(Closable):
                 self.place, f"is no port ({error}); write /dev/ttyUSB0, COM3 or socket://host:number"
             ) from error
         except OSError as error:  # pyserial's own errors among them
-            raise AccessError.at(self.place, _why_not_opened(name, error)) from error
+            raise AccessError.at(self.place, _say_why_not_opened(name, error)) from error
 
     def close(self) -> None:
         """Close the port; it may be closed already. Who reads it in another thread is told so."""
@@ -140,7 +140,7 @@ class Port(Closable):
     def _is_gone(self, error: OSError) -> NoReturn:
         raise AccessError.at(
             self.place,
-            f"the instrument is gone ({_in_one_line(error)}); look at its cable and its power, "
+            f"the instrument is gone ({_write_in_one_line(error)}); look at its cable and its power, "
             "then start again",
         ) from error
 
@@ -149,13 +149,13 @@ class Port(Closable):
 _PAUSE = 0.002
 
 
-def shown(data: bytes) -> str:
+def show_beginning(data: bytes) -> str:
     """Return the beginning of what arrived, as a message shows it."""
     dots = "…" if len(data) > _SHOWN_BYTES else ""
     return repr(data[:_SHOWN_BYTES])[1:] + dots
 
 
-def _pyserial(place: Place) -> ModuleType:
+def _load_pyserial(place: Place) -> ModuleType:
     try:
         import serial  # noqa: PLC0415 - only who has an instrument needs it
     except ImportError as error:
@@ -166,7 +166,7 @@ def _pyserial(place: Place) -> ModuleType:
     return module
 
 
-def _alone(name: str) -> dict[str, bool]:
+def _ask_to_be_alone(name: str) -> dict[str, bool]:
     """Return what keeps other programs away from a port while it is open, where there is such a thing."""
     return {"exclusive": True} if os.name == "posix" and "://" not in name else {}
 
@@ -185,16 +185,16 @@ def _let_parity_count(port: Any, framing: Framing) -> None:
         raise OSError(*error.args) from error
 
 
-def _why_not_opened(name: str, error: OSError) -> str:
+def _say_why_not_opened(name: str, error: OSError) -> str:
     """Say why a port does not open, and what the operator can do."""
     number = error.errno
     if number is None and isinstance(error.__cause__ or error.__context__, OSError):
         number = (error.__cause__ or error.__context__).errno  # type: ignore[union-attr]
-    text = _in_one_line(error)
+    text = _write_in_one_line(error)
     if "://" in name:
         return f"cannot be reached ({text}); look at the address, the network and the instrument's power"
     if number == errno.ENOENT or "FileNotFoundError" in text:
-        return f"there is no such port; {_ports_there_are()}"
+        return f"there is no such port; {_list_ports()}"
     if number in {errno.EACCES, errno.EPERM} or "PermissionError" in text:
         return (
             "may not be opened by you, or another program has it open; on Linux the group dialout may: "
@@ -205,7 +205,7 @@ def _why_not_opened(name: str, error: OSError) -> str:
     return f"cannot be opened ({text})"
 
 
-def _ports_there_are() -> str:
+def _list_ports() -> str:
     from serial.tools import list_ports  # noqa: PLC0415 - only for this message
 
     found = sorted(str(port.device) for port in list_ports.comports())
@@ -214,11 +214,11 @@ def _ports_there_are() -> str:
     return f"there are: {', '.join(found)}"
 
 
-def _in_one_line(error: OSError) -> str:
+def _write_in_one_line(error: OSError) -> str:
     return " ".join(str(error).split())[:200]
 
 
-def _port_is_named(value: object) -> object:
+def _check_port_is_named(value: object) -> object:
     if not value:
         raise ValueError("the name of a port is expected: /dev/ttyUSB0, COM3, socket://192.168.1.20:9090")
     return value
@@ -227,7 +227,7 @@ def _port_is_named(value: object) -> object:
 class PortOptions(Options):
     """Where an instrument is, and which way its readings count."""
 
-    port: Annotated[str, BeforeValidator(_port_is_named)] = Field(
+    port: Annotated[str, BeforeValidator(_check_port_is_named)] = Field(
         description="Port, as pyserial names it: /dev/ttyUSB0, COM3, socket://192.168.1.20:9090."
     )
     sign: Literal["+", "-"] = Field(

@@ -9,23 +9,23 @@ import numpy as np
 from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
 from zlmreport.document.figures.figure import Curve, Figure, Panel, Role
 from zlmreport.language import Words, same
-from zlmreport.language.formatting import general_number
+from zlmreport.language.formatting import write_general_number
 from zlmreport.machines.kinematics import ERRORS
-from zlmreport.machines.machine import Machine, unit_of
-from zlmreport.machines.subjects.saying import Sayer, plain_table, right
-from zlmreport.machines.volume import VolumeMap, diagonals, measured_space, volume_map
+from zlmreport.machines.machine import Machine, find_unit_of
+from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
+from zlmreport.machines.volume import VolumeMap, find_measured_space, map_volume, predict_diagonals
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 from zlmreport.model.effects.circle_design import AXES
 
 
-def error_section(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
+def lay_out_errors(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     """Return the errors that are known, and the others: in one table, or the others in a sentence."""
     known: list[tuple[Cell, ...]] = []
     bounded: list[tuple[Cell, ...]] = []
     named: list[str] = []
     unmeasured = {each.name: each for each in machine.unmeasured}
     for name in ERRORS:
-        unit, curve = unit_of(name), machine.curve(name)
+        unit, curve = find_unit_of(name), machine.curve(name)
         if curve is None:
             missing = unmeasured[name]
             bound = say.quantity(missing.bound, unit)
@@ -40,10 +40,10 @@ def error_section(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
         value = say.pair(size, curve.largest_uncertainty, unit)
         known.append((Symbol(name), value, unit.symbol, stretch, places, curve.source))
     columns = (
-        Column(say(_ERROR)), right(say(_SIZE)), Column(say(_UNIT)), Column(say(_RANGE), "mm"),
+        Column(say(_ERROR)), make_right_column(say(_SIZE)), Column(say(_UNIT)), Column(say(_RANGE), "mm"),
         Column(say(_LINE), "mm"), Column(say(_FROM)),
     )  # fmt: skip
-    table = plain_table(say(_ERRORS), columns, (*known, *bounded) if is_full else known)
+    table = make_plain_table(say(_ERRORS), columns, (*known, *bounded) if is_full else known)
     title = say(_KNOWN.given(known=len(known), all=len(ERRORS)))
     blocks: list[Block] = [replace(table, dense=is_full)] if known or is_full else []
     if is_full:
@@ -56,17 +56,17 @@ def error_section(machine: Machine, say: Sayer, *, is_full: bool) -> Section:
     return Section("errors", title, tuple(blocks))
 
 
-def known_in_words(machine: Machine) -> Words:
+def say_known(machine: Machine) -> Words:
     """Return how many of the 21 errors are known."""
     return _OF.given(known=len(machine.curves), all=len(ERRORS))
 
 
-def space_section(machine: Machine, say: Sayer) -> Section:
+def lay_out_space(machine: Machine, say: Sayer) -> Section:
     """Return the largest error of the work space, slices of it, and the body diagonals."""
-    space = measured_space(machine)
+    space = find_measured_space(machine)
     if space is None:
         return Section("work-space", say(_SPACE), (Paragraph(say(_NO_SPACE)),))
-    found = volume_map(machine, space)
+    found = map_volume(machine, space)
     place = found.largest
     at = ", ".join(
         f"{axis} {say.millimetres(float(grid[index]))}"
@@ -84,22 +84,26 @@ def space_section(machine: Machine, say: Sayer) -> Section:
             say.micrometres(each.span),
             say.micrometres(float(each.expanded_uncertainty.max())),
         )
-        for each in diagonals(machine, space)
+        for each in predict_diagonals(machine, space)
     )
-    table = plain_table(say(_DIAGONALS), (Column(say(_DIAGONAL)), right("E", "µm"), right("U", "µm")), rows)
+    table = make_plain_table(
+        say(_DIAGONALS),
+        (Column(say(_DIAGONAL)), make_right_column("E", "µm"), make_right_column("U", "µm")),
+        rows,
+    )
     return Section(
         "work-space",
         say(_SPACE),
         (
             Paragraph(say(_LARGEST.given(box=box, size=size, at=at, more=more))),
-            Graph(_slices(found)),
+            Graph(_draw_slices(found)),
             Paragraph(say(_DIAGONALS_NOTE)),
             table,
         ),
     )
 
 
-def _slices(found: VolumeMap) -> Figure:
+def _draw_slices(found: VolumeMap) -> Figure:
     """Return the length of Δ over X, at the lowest, middle and highest Y, in slices of Z."""
     size = MICROMETRE.from_si(found.length)
     x, y, z = (MILLIMETRE.from_si(grid) for grid in found.grids)
@@ -108,9 +112,9 @@ def _slices(found: VolumeMap) -> Figure:
     roles = (Role.MEAN_POSITIVE, Role.MEAN_BIDIRECTIONAL, Role.MEAN_NEGATIVE)
     panels = tuple(
         Panel(
-            heading=same(f"Z = {general_number(float(z[height]))} mm"),
+            heading=same(f"Z = {write_general_number(float(z[height]))} mm"),
             curves=tuple(
-                Curve(f"Y = {general_number(float(y[row]))}", role, x, size[:, row, height])
+                Curve(f"Y = {write_general_number(float(y[row]))}", role, x, size[:, row, height])
                 for row, role in zip(rows, roles, strict=False)
             ),
         )

@@ -9,11 +9,11 @@ import numpy as np
 from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Symbol
 from zlmreport.language import Words
 from zlmreport.machines.cross_tables import CrossForecast, CrossPlan
-from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.model.compensation.cross import CrossTable
 
 
-def tables_section(
+def lay_out_tables(
     plan: CrossPlan, written: Sequence[CrossTable], notes: Sequence[Words], say: Sayer
 ) -> Section:
     """Return what the tables hold as the control reads them, and what is left out."""
@@ -28,11 +28,11 @@ def tables_section(
         for each in written
     ]
     columns = (
-        Column(say(_MOVES)), Column(say(_ASIDE)), Column(say(_RANGE), "mm"), right(say(_ROWS)),
-        right(say(_SPAN), "µm"),
+        Column(say(_MOVES)), Column(say(_ASIDE)), Column(say(_RANGE), "mm"), make_right_column(say(_ROWS)),
+        make_right_column(say(_SPAN), "µm"),
     )  # fmt: skip
     blocks: list[Block] = [
-        plain_table(say(_TABLES), columns, rows),
+        make_plain_table(say(_TABLES), columns, rows),
         Paragraph(say(_HELD.given(errors=", ".join(plan.taken)))),
     ]
     if plan.within_uncertainty:
@@ -46,7 +46,7 @@ def sign_section(moves: int, say: Sayer) -> Section:
     return Section("sign", say(_SIGN), (Paragraph(say(_STATED[moves])), Paragraph(say(_CHECK))))
 
 
-def trial_section(table: CrossTable, peak: float, say: Sayer) -> Section:
+def lay_out_trial(table: CrossTable, peak: float, say: Sayer) -> Section:
     """Return what to do with the trial file, and what its outcome says."""
     middle = float(table.positions[len(table.positions) // 2])
     said = _TRIAL.given(
@@ -62,8 +62,8 @@ def trial_section(table: CrossTable, peak: float, say: Sayer) -> Section:
 def forecast_section(found: CrossForecast, say: Sayer) -> Section:
     """Return circles, diagonals and the largest error before and after."""
     rows = list(_forecast_rows(found, say))
-    columns = (Column(""), right(say(_NOW), "µm"), right(say(_WITH), "µm"))
-    table = plain_table(say(_FORECAST), columns, rows)
+    columns = (Column(""), make_right_column(say(_NOW), "µm"), make_right_column(say(_WITH), "µm"))
+    table = make_plain_table(say(_FORECAST), columns, rows)
     return Section("forecast", say(_FORECAST), (table, Paragraph(say(_NO_MEASUREMENT))))
 
 

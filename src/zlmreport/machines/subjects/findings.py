@@ -9,13 +9,13 @@ import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Mark, Notice, Paragraph, Section, Table
 from zlmreport.language import Words
-from zlmreport.language.numbers import significant_words
-from zlmreport.machines.choosing import with_form
+from zlmreport.language.numbers import write_significant
+from zlmreport.machines.choosing import add_form
 from zlmreport.machines.diagnosis import MachineDiagnosis
-from zlmreport.machines.forms import plain_form
+from zlmreport.machines.forms import make_plain_form
 from zlmreport.machines.planning import NextRun
-from zlmreport.machines.study import CircleStudy, EstimatedTerm, said_estimates
-from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.machines.study import CircleStudy, EstimatedTerm, list_said_estimates
+from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -24,13 +24,13 @@ _MARKS = {Verdict.ADEQUATE: Mark.MET, Verdict.MISSING: Mark.OPEN, Verdict.UNEXPL
 _MOST_CANDIDATES = 5
 
 
-def statement(diagnosis: MachineDiagnosis) -> Words:
+def say_verdict(diagnosis: MachineDiagnosis) -> Words:
     """Return the verdict in words."""
     if diagnosis.verdict is Verdict.ADEQUATE:
         return _ADEQUATE
     left = diagnosis.remainder
     if diagnosis.verdict is Verdict.UNEXPLAINED and left:
-        return _UNEXPLAINED.given(shape=left.shape, size=_size(left.rms))
+        return _UNEXPLAINED.given(shape=left.shape, size=_write_size(left.rms))
     if not diagnosis.found:
         first = diagnosis.candidates[0]
         equals = [
@@ -41,28 +41,28 @@ def statement(diagnosis: MachineDiagnosis) -> Words:
                 if each.effect.identifier in first.indistinguishable_from
             ),
         ]
-        how = remedy(equals[0].effect, equals[-1].effect, diagnosis.study)
-        return _TIED.given(effects=_joined([each.effect.title for each in equals], _OR), how=how)
+        how = say_remedy(equals[0].effect, equals[-1].effect, diagnosis.study)
+        return _TIED.given(effects=_join_titles([each.effect.title for each in equals], _OR), how=how)
     by_name = {each.effect.identifier: each.effect for each in diagnosis.complete.effects}
-    named = _MISSING.given(effects=_joined([by_name[each].title for each in diagnosis.found], _AND))
+    named = _MISSING.given(effects=_join_titles([by_name[each].title for each in diagnosis.found], _AND))
     if left is None:
         return named
-    beside = _BESIDE.given(shape=left.shape, size=_size(left.rms))
+    beside = _BESIDE.given(shape=left.shape, size=_write_size(left.rms))
     return _TWO.given(one=named, other=beside)
 
 
-def _size(rms: float) -> Words:
-    return significant_words(MICROMETRE.from_si(rms), 2)
+def _write_size(rms: float) -> Words:
+    return write_significant(MICROMETRE.from_si(rms), 2)
 
 
-def _joined(titles: Sequence[Words], words: Words) -> Words:
+def _join_titles(titles: Sequence[Words], words: Words) -> Words:
     found = titles[0]
     for each in titles[1:]:
         found = words.given(one=found, other=each)
     return found
 
 
-def remedy(one: CircleEffect, other: CircleEffect, study: CircleStudy) -> Words:
+def say_remedy(one: CircleEffect, other: CircleEffect, study: CircleStudy) -> Words:
     """Return what tells two effects apart that a plan cannot: a run in which their laws part."""
     design = study.design
     if not design.has_both_senses and one.law.parity is not other.law.parity:
@@ -83,35 +83,35 @@ class Absent:
     sentences: tuple[Words, ...]
 
 
-def absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[Absent]:
+def list_absent(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[Absent]:
     """Return what effects that are asked for and not in a model would be beside it."""
     found = []
     for effect in catalogue:
-        form = plain_form(effect, study.design)
+        form = make_plain_form(effect, study.design)
         if effect.is_asked_for and effect.identifier not in study.names and form.terms:
-            estimates = with_form(study, effect, form).estimates_of(effect.identifier)
+            estimates = add_form(study, effect, form).estimates_of(effect.identifier)
             terms = tuple(each for each in estimates if each.term is not None)
-            found.append(Absent(effect.identifier, terms, tuple(effect.absence(said_estimates(terms)))))
+            found.append(Absent(effect.identifier, terms, tuple(effect.absence(list_said_estimates(terms)))))
     return found
 
 
-def findings(study: CircleStudy) -> list[Words]:
+def list_findings(study: CircleStudy) -> list[Words]:
     """Return what the parameters of a model mean, in sentences of its effects."""
     return [
         sentence
         for each in study.effects
-        for sentence in each.effect.findings(said_estimates(study.estimates_of(each.effect.identifier)))
+        for sentence in each.effect.findings(list_said_estimates(study.estimates_of(each.effect.identifier)))
     ]
 
 
-def verdict_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
+def lay_out_verdict(diagnosis: MachineDiagnosis, say: Sayer) -> Section:
     """Return the verdict, and what was found, in sentences."""
-    blocks: list[Block] = [Paragraph(say(statement(diagnosis)), _MARKS[diagnosis.verdict])]
-    blocks += [Paragraph(_sentence(say(each))) for each in findings(diagnosis.complete)]
+    blocks: list[Block] = [Paragraph(say(say_verdict(diagnosis)), _MARKS[diagnosis.verdict])]
+    blocks += [Paragraph(_write_sentence(say(each))) for each in list_findings(diagnosis.complete)]
     return Section("verdict", say(_VERDICT), tuple(blocks))
 
 
-def absence_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+def lay_out_absence(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     """Return what was looked for and not found, with what of it there might be; None where nothing was.
 
     Beside something that is there and has no name yet, nothing is told: its share stands in every estimate.
@@ -119,8 +119,8 @@ def absence_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     if diagnosis.is_tied:
         return None
     sentences = [
-        _sentence(say(one))
-        for each in absent(diagnosis.complete, diagnosis.catalogue)
+        _write_sentence(say(one))
+        for each in list_absent(diagnosis.complete, diagnosis.catalogue)
         for one in each.sentences
     ]
     if not sentences:
@@ -128,11 +128,11 @@ def absence_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     return Section("absence", say(_NOT_FOUND), (Notice(say(_NOT_FOUND), tuple(sentences)),))
 
 
-def _sentence(text: str) -> str:
+def _write_sentence(text: str) -> str:
     return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
 
 
-def candidate_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+def lay_out_candidates(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     """Return the effects that may be missing, best first; None where there is none."""
     if not diagnosis.candidates:
         return None
@@ -145,24 +145,29 @@ def candidate_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None
             (each.effect.identifier, say.number(each.evidence, 1), say.micrometres(each.rms_after), note)
         )
     columns = (
-        Column(say(_EFFECT)), right(say(_EVIDENCE)), right(say(_RMS_AFTER), "µm"), Column(""),
-    )  # fmt: skip
-    blocks: list[Block] = [plain_table(say(_CANDIDATES), columns, rows)]
+        Column(say(_EFFECT)),
+        make_right_column(say(_EVIDENCE)),
+        make_right_column(say(_RMS_AFTER), "µm"),
+        Column(""),
+    )
+    blocks: list[Block] = [make_plain_table(say(_CANDIDATES), columns, rows)]
     first = diagnosis.candidates[0]
-    blocks.append(parameter_table(first.estimates, say))
+    blocks.append(lay_out_parameters(first.estimates, say))
     if first.indistinguishable_from:
         by_name = {each.effect.identifier: each.effect for each in diagnosis.candidates}
-        how = remedy(first.effect, by_name[first.indistinguishable_from[0]], diagnosis.study)
+        how = say_remedy(first.effect, by_name[first.indistinguishable_from[0]], diagnosis.study)
         blocks.append(Paragraph(say(_TELL_APART.given(how=how))))
     return Section("candidates", say(_CANDIDATES), tuple(blocks))
 
 
-def model_section(study: CircleStudy, say: Sayer) -> Section:
+def lay_out_model(study: CircleStudy, say: Sayer) -> Section:
     """Return the effects of a model with their parameters."""
-    return Section("model", say(_MODEL), (parameter_table(study.estimates, say), Paragraph(say(_COVERAGE))))
+    return Section(
+        "model", say(_MODEL), (lay_out_parameters(study.estimates, say), Paragraph(say(_COVERAGE)))
+    )
 
 
-def parameter_table(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
+def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
     """Return parameters with their uncertainties; one that was only tried at some values has none."""
     rows = []
     for each in estimates:
@@ -171,8 +176,13 @@ def parameter_table(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
             say.general(each.unit.from_si(each.value)) if u is None else say.pair(each.value, u, each.unit)
         )
         rows.append((each.effect, each.name, value, each.unit.symbol))
-    columns = (Column(say(_EFFECT)), Column(say(_PARAMETER)), right(say(_VALUE)), Column(say(_UNIT)))
-    return plain_table(say(_PARAMETERS), columns, rows)
+    columns = (
+        Column(say(_EFFECT)),
+        Column(say(_PARAMETER)),
+        make_right_column(say(_VALUE)),
+        Column(say(_UNIT)),
+    )
+    return make_plain_table(say(_PARAMETERS), columns, rows)
 
 
 def step_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
@@ -181,27 +191,30 @@ def step_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
         (each.effect, *map(say.micrometres, (each.before, each.after, each.noise)))
         for each in diagnosis.steps
     ]
-    columns = (Column(say(_EFFECT)), *(right(say(each), "µm") for each in (_BEFORE, _AFTER, _NOISE)))
-    table = plain_table(say(_STEPS), columns, rows)
+    columns = (
+        Column(say(_EFFECT)),
+        *(make_right_column(say(each), "µm") for each in (_BEFORE, _AFTER, _NOISE)),
+    )
+    table = make_plain_table(say(_STEPS), columns, rows)
     return Section("steps", say(_STEPS), (table,)) if rows else None
 
 
 def change_section(before: CircleStudy, after: CircleStudy, say: Sayer) -> Section:
     """Return the error before and after a change of the model."""
     sizes = [
-        significant_words(MICROMETRE.from_si(each), 2)
-        for each in (_rms(before), _rms(after), after.noise.rms)
+        write_significant(MICROMETRE.from_si(each), 2)
+        for each in (_compute_rms(before), _compute_rms(after), after.noise.rms)
     ]
     names = ", ".join(after.names) or say(_NONE)
     said = _CHANGE.given(effects=names, before=sizes[0], after=sizes[1], noise=sizes[2])
     return Section("change", say(_CHANGED), (Paragraph(say(said)),))
 
 
-def _rms(study: CircleStudy) -> float:
+def _compute_rms(study: CircleStudy) -> float:
     return float(np.sqrt(np.mean(study.residual**2)))
 
 
-def next_words(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
+def say_what_is_next(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
     """Return what to do next: the effect to add, the run that decides, where to look, or the document."""
     if diagnosis.found:
         first = diagnosis.steps[0]
@@ -209,7 +222,7 @@ def next_words(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
             each.effect.title for each in diagnosis.candidates if each.effect.identifier == first.effect
         )
         before, after, noise = (
-            significant_words(MICROMETRE.from_si(each), 2)
+            write_significant(MICROMETRE.from_si(each), 2)
             for each in (first.before, first.after, first.noise)
         )
         return _NEXT_ADD.given(effect=title, before=before, after=after, noise=noise)
@@ -221,10 +234,10 @@ def next_words(diagnosis: MachineDiagnosis, planned: NextRun) -> Words:
     return _NEXT_LOOK
 
 
-def said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
+def lay_out_said_of(diagnosis: MachineDiagnosis, say: Sayer) -> Iterator[Section]:
     """Yield what is said of a diagnosis, but for its tests."""
-    yield verdict_section(diagnosis, say)
-    for section in (candidate_section(diagnosis, say), absence_section(diagnosis, say)):
+    yield lay_out_verdict(diagnosis, say)
+    for section in (lay_out_candidates(diagnosis, say), lay_out_absence(diagnosis, say)):
         if section:
             yield section
 

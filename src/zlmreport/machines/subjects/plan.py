@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from zlmreport.document.blocks import Block, Cell, Column, Paragraph, Section
 from zlmreport.language import Words
-from zlmreport.language.formatting import percentage
+from zlmreport.language.formatting import write_percentage
 from zlmreport.machines.planning import NextRun
-from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 
 
 def plan_section(found: NextRun, say: Sayer) -> Section:
@@ -22,19 +22,24 @@ def plan_section(found: NextRun, say: Sayer) -> Section:
         (
             say(each.what),
             say.number(each.minutes, 0),
-            percentage(each.decides, say.language.decimal_sign) if between else "",
+            write_percentage(each.decides, say.language.decimal_sign) if between else "",
         )
         for each in found.proposals
     ]
     blocks: list[Block] = [Paragraph(say(heading))]
-    columns = (Column(say(_RUN)), right(say(_MINUTES)), right(say(_DECIDES), "%"))
-    blocks.append(plain_table(say(_NEXT), columns, runs))
+    columns = (Column(say(_RUN)), make_right_column(say(_MINUTES)), make_right_column(say(_DECIDES), "%"))
+    blocks.append(make_plain_table(say(_NEXT), columns, runs))
     sizes: list[tuple[Cell, ...]] = [
         (each.effect, each.name, say.general(float(f"{each.unit.from_si(each.size):.2g}")), each.unit.symbol)
         for each in found.visible
     ]
-    headings = (Column(say(_EFFECT)), Column(say(_PARAMETER)), right(say(_SIZE)), Column(say(_UNIT)))
-    blocks += [Paragraph(say(_VISIBLE)), plain_table(say(_VISIBLE), headings, sizes)]
+    headings = (
+        Column(say(_EFFECT)),
+        Column(say(_PARAMETER)),
+        make_right_column(say(_SIZE)),
+        Column(say(_UNIT)),
+    )
+    blocks += [Paragraph(say(_VISIBLE)), make_plain_table(say(_VISIBLE), headings, sizes)]
     return Section("plan", say(_NEXT), tuple(blocks))
 
 

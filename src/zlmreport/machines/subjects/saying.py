@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 from zlmreport.document.blocks import Align, Cell, Column, RowGroup, Table
 from zlmreport.language import Language, Words
-from zlmreport.language.formatting import fixed_number, general_number, rounded_pair
-from zlmreport.measurement.units import MICROMETRE, MILLIMETRE, Unit, behind
+from zlmreport.language.formatting import round_pair, write_fixed_number, write_general_number
+from zlmreport.measurement.units import MICROMETRE, MILLIMETRE, Unit, write_behind
 
 #: Digits behind the sign of lengths in µm.
 _DECIMALS = 2
@@ -26,11 +26,11 @@ class Sayer:
 
     def number(self, value: float, decimals: int = _DECIMALS) -> str:
         """Return a number with fixed decimals."""
-        return fixed_number(value, decimals, self.language.decimal_sign)
+        return write_fixed_number(value, decimals, self.language.decimal_sign)
 
     def general(self, value: float) -> str:
         """Return a number with no needless digits."""
-        return general_number(value, self.language.decimal_sign)
+        return write_general_number(value, self.language.decimal_sign)
 
     def micrometres(self, value: float) -> str:
         """Return a length in m as µm, without the unit."""
@@ -46,18 +46,18 @@ class Sayer:
 
     def pair(self, value: float, u: float, unit: Unit) -> str:
         """Return a value and its uncertainty, SI, in a unit that is not written."""
-        return " ± ".join(rounded_pair(unit.from_si(value), unit.from_si(u), self.language.decimal_sign))
+        return " ± ".join(round_pair(unit.from_si(value), unit.from_si(u), self.language.decimal_sign))
 
     def quantity(self, value: float, unit: Unit) -> str:
         """Return a value, SI, with its unit."""
-        return f"{self.general(float(f'{unit.from_si(value):.3g}'))}{behind(unit.symbol)}"
+        return f"{self.general(float(f'{unit.from_si(value):.3g}'))}{write_behind(unit.symbol)}"
 
 
-def right(heading: str, unit: str = "") -> Column:
+def make_right_column(heading: str, unit: str = "") -> Column:
     """Return a column of numbers."""
     return Column(heading, unit, Align.RIGHT)
 
 
-def plain_table(caption: str, columns: Iterable[Column], rows: Iterable[tuple[Cell, ...]]) -> Table:
+def make_plain_table(caption: str, columns: Iterable[Column], rows: Iterable[tuple[Cell, ...]]) -> Table:
     """Return a table without groups."""
     return Table(caption, tuple(columns), (RowGroup(tuple(rows)),))

@@ -21,8 +21,8 @@ from zlmreport.document.figures.figure import Band, Curve, Figure, Panel, Role
 from zlmreport.language import Words
 from zlmreport.machines.comparison import ComparedTest, StandardNumbers
 from zlmreport.machines.course import CircularTest, StraightTest
-from zlmreport.machines.residual import Stretch, centred
-from zlmreport.machines.subjects.saying import Sayer, plain_table, right
+from zlmreport.machines.residual import Stretch, centre
+from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.measurement.units import MICROMETRE, MILLIMETRE
 
 _MOST_STRETCHES, _MOST_SHARES = 3, 5
@@ -32,7 +32,7 @@ _BANDS = {1: Role.UNCERTAINTY_POSITIVE, -1: Role.UNCERTAINTY_NEGATIVE}
 _ARROWS, _WAYS = {1: "↺", -1: "↻"}, {1: "↑", -1: "↓"}
 
 
-def sizes_table(
+def lay_out_sizes(
     tests: Sequence[ComparedTest], say: Sayer, noise: float | None = None, *, with_numbers: bool = False
 ) -> Table:
     """Return the root mean squares of all tests; with G of both senses, if it is asked for and there."""
@@ -43,16 +43,16 @@ def sizes_table(
         if noise is not None:
             row = (*row, say.micrometres(noise))
         if with_numbers:
-            row = (*row, *_both_senses(each.numbers, say))
+            row = (*row, *_write_both_senses(each.numbers, say))
         rows.append(row)
     headings = [_MEASURED, _PREDICTED, _LEFT, *([_NOISE] if noise is not None else [])]
-    columns = [Column(say(_TEST)), *(right(say(each), "µm") for each in headings)]
+    columns = [Column(say(_TEST)), *(make_right_column(say(each), "µm") for each in headings)]
     if with_numbers:
-        columns += [right(f"G(b), {say(each)}", "µm") for each in (_MEASURED, _LEFT)]
-    return plain_table(say(_SIZES), columns, rows)
+        columns += [make_right_column(f"G(b), {say(each)}", "µm") for each in (_MEASURED, _LEFT)]
+    return make_plain_table(say(_SIZES), columns, rows)
 
 
-def _both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[str, str]:
+def _write_both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[str, str]:
     for each in numbers:
         for parameter in each.measured:
             if parameter.quantity.symbol == "G_b":
@@ -62,26 +62,26 @@ def _both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[str, s
 
 def test_section(found: ComparedTest, say: Sayer) -> Section:
     """Return one test: what it is, sizes and numbers, what explains it, where it fails, its curves."""
-    title = f"{found.name}: {say(title_of(found.test))}"
+    title = f"{found.name}: {say(write_title_of(found.test))}"
     return Section(f"test-{found.name}", title, tuple(_test_blocks(found, say)))
 
 
 def _test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
-    yield numbers_table(found, say)
+    yield lay_out_numbers(found, say)
     for words, shares in ((_OF_AXES, found.of_axes), (_OF_EFFECTS, found.of_effects)):
-        listed = _listed(shares, say)
+        listed = _list_shares(shares, say)
         if listed:
             yield Paragraph(say(words.given(shares=listed)))
     outside = float(np.mean(found.prediction.outside))
     if outside:
         yield Notice(say(_OUTSIDE_TITLE), (say(_OUTSIDE.given(share=round(100 * outside))),))
-    notice = failure_notice([found], say)
+    notice = make_failure_notice([found], say)
     if notice:
         yield notice
-    yield Graph(circle_figure(found) if isinstance(found.test, CircularTest) else line_figure(found))
+    yield Graph(draw_circle(found) if isinstance(found.test, CircularTest) else draw_line(found))
 
 
-def numbers_table(found: ComparedTest, say: Sayer) -> Table:
+def lay_out_numbers(found: ComparedTest, say: Sayer) -> Table:
     """Return a test's root mean square and the numbers of its standards: measured, predicted, left."""
     sizes = (found.rms.measured, found.rms.predicted, found.rms.left)
     rows: list[tuple[Cell, ...]] = [("RMS", *map(say.micrometres, sizes))]
@@ -96,11 +96,11 @@ def numbers_table(found: ComparedTest, say: Sayer) -> Table:
                     *(say.micrometres(value) if np.isfinite(value) else "" for value in values),
                 )
             )
-    columns = [Column(""), *(right(say(each), "µm") for each in (_MEASURED, _PREDICTED, _LEFT))]
-    return plain_table(say(_NUMBERS.given(test=found.name)), columns, rows)
+    columns = [Column(""), *(make_right_column(say(each), "µm") for each in (_MEASURED, _PREDICTED, _LEFT))]
+    return make_plain_table(say(_NUMBERS.given(test=found.name)), columns, rows)
 
 
-def title_of(test: CircularTest | StraightTest) -> Words:
+def write_title_of(test: CircularTest | StraightTest) -> Words:
     """Return what kind of test it is, with its place."""
     if isinstance(test, StraightTest):
         return _LINE.given(count=len(test.at))
@@ -112,30 +112,30 @@ def title_of(test: CircularTest | StraightTest) -> Words:
     )
 
 
-def _listed(shares: Mapping[str, float], say: Sayer) -> str:
+def _list_shares(shares: Mapping[str, float], say: Sayer) -> str:
     largest = sorted(shares.items(), key=lambda item: -item[1])[:_MOST_SHARES]
     return ", ".join(f"{name} {say.micrometres(size)}" for name, size in largest)
 
 
-def failure_notice(tests: Sequence[ComparedTest], say: Sayer) -> Notice | None:
+def make_failure_notice(tests: Sequence[ComparedTest], say: Sayer) -> Notice | None:
     """Return where tests differ from their prediction; None where none does."""
     items = tuple(
-        say(_of_test(each, stretch, is_one=len(tests) == 1))
+        say(_say_of_test(each, stretch, is_one=len(tests) == 1))
         for each in tests
         for stretch in each.fails[:_MOST_STRETCHES]
     )
     return Notice(say(_FAILS), items) if items else None
 
 
-def _of_test(found: ComparedTest, stretch: Stretch, *, is_one: bool) -> Words:
-    said = stretch_in_words(stretch, is_circle=isinstance(found.test, CircularTest))
+def _say_of_test(found: ComparedTest, stretch: Stretch, *, is_one: bool) -> Words:
+    said = describe_stretch(stretch, is_circle=isinstance(found.test, CircularTest))
     return said if is_one else _NAMED.given(test=found.name, said=said)
 
 
-def stretch_in_words(stretch: Stretch, *, is_circle: bool) -> Words:
+def describe_stretch(stretch: Stretch, *, is_circle: bool) -> Words:
     """Return where a residual leaves its band, and by how much it is off there."""
     places = ", ".join(
-        f"{axis} {_millimetres(low)}–{_millimetres(high)}"
+        f"{axis} {_write_millimetres(low)}–{_write_millimetres(high)}"
         for axis, (low, high) in stretch.coordinates.items()
     )
     size = float(f"{MICROMETRE.from_si(stretch.largest):.2g}")
@@ -151,16 +151,16 @@ def stretch_in_words(stretch: Stretch, *, is_circle: bool) -> Words:
     )
 
 
-def _millimetres(value: float) -> str:
+def _write_millimetres(value: float) -> str:
     return f"{MILLIMETRE.from_si(value):.0f}".replace("-", "−")
 
 
-def circle_figure(found: ComparedTest) -> Figure:
+def draw_circle(found: ComparedTest) -> Figure:
     """Return a circle: measured and predicted, and beside it what is left, both senses."""
     circle = found.test
     assert isinstance(circle, CircularTest)  # noqa: S101 - who asks has looked
     measured, predicted, left = (
-        MICROMETRE.from_si(centred(circle, each))
+        MICROMETRE.from_si(centre(circle, each))
         for each in (circle.deviation, found.prediction.values, found.left)
     )
     shown: list[Curve] = []
@@ -190,7 +190,7 @@ def circle_figure(found: ComparedTest) -> Figure:
     }
     return Figure(
         f"circle-{found.name}",
-        _CIRCLE_TITLE.given(test=found.name, what=title_of(circle)),
+        _CIRCLE_TITLE.given(test=found.name, what=write_title_of(circle)),
         _CIRCLE_SEEN.given(**spans), _ANGLE, _RADIAL, "°", "µm",
         (
             Panel(
@@ -202,7 +202,7 @@ def circle_figure(found: ComparedTest) -> Figure:
     )  # fmt: skip
 
 
-def line_figure(found: ComparedTest) -> Figure:
+def draw_line(found: ComparedTest) -> Figure:
     """Return a line: measured, and predicted with its band; below it what is left."""
     line = found.test
     assert isinstance(line, StraightTest)  # noqa: S101 - who asks has looked
@@ -233,7 +233,7 @@ def line_figure(found: ComparedTest) -> Figure:
     }
     return Figure(
         f"line-{found.name}",
-        _CIRCLE_TITLE.given(test=found.name, what=title_of(line)),
+        _CIRCLE_TITLE.given(test=found.name, what=write_title_of(line)),
         _CIRCLE_SEEN.given(**spans), _PLACE, _DEVIATION, "mm", "µm",
         (
             Panel(heading=_BOTH, curves=tuple(shown), bands=tuple(bands)),

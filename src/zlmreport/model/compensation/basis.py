@@ -18,9 +18,9 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.compensation.curve import ErrorCurve
-from zlmreport.model.diagnosis.study import BY_TABLE, corrected
-from zlmreport.model.effects.design import at_positions
-from zlmreport.model.fitting.curve import waves_along
+from zlmreport.model.diagnosis.study import BY_TABLE, correct_by_model
+from zlmreport.model.effects.design import place_at_positions
+from zlmreport.model.fitting.curve import find_waves_along
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.observations import Observations
 
@@ -72,7 +72,7 @@ class TableBasis:
 
     def left_out(self, rows: FloatArray) -> dict[str, float]:
         """Return the waves that a table with these rows cannot carry, by name with their lengths."""
-        return too_fine(self.waves, rows)
+        return find_too_fine(self.waves, rows)
 
     def wanted(self, rows: FloatArray) -> Function:
         """Return what a table with these rows is to take away."""
@@ -109,7 +109,7 @@ class FittedModel:
         ]
 
         def one(positions: FloatArray, approach: Approach) -> FloatArray:
-            design = at_positions(self.fit.design, positions, approach)
+            design = place_at_positions(self.fit.design, positions, approach)
             total = np.zeros(len(positions))
             for effect, theta, gamma in parts:
                 total += effect.columns(design, theta) @ gamma
@@ -122,30 +122,30 @@ class FittedModel:
         return both
 
 
-def waves_of(fit: Fit) -> dict[str, float]:
+def find_waves_of(fit: Fit) -> dict[str, float]:
     """Return the effects of a model that repeat along the axis, each with its shortest wave, m or rad."""
     by_table = {term.effect.identifier for term in fit.model.terms if term.effect.shape in BY_TABLE}
-    waves = waves_along(fit)
+    waves = find_waves_along(fit)
     return {name: wave for name, wave in waves.items() if name in by_table and np.isfinite(wave)}
 
 
-def too_fine(waves: Mapping[str, float], rows: FloatArray) -> dict[str, float]:
+def find_too_fine(waves: Mapping[str, float], rows: FloatArray) -> dict[str, float]:
     """Return those waves that a table cannot follow with rows at these positions, m or rad."""
     step = float(np.diff(rows).max(initial=0.0)) * (1 - _ROUNDING)
     return {name: wave for name, wave in waves.items() if step * ROWS_A_PERIOD > wave}
 
 
-def compensated(fitted: FittedModel) -> MeasurementSet:
+def compensate_readings(fitted: FittedModel) -> MeasurementSet:
     """Return the readings as they would be with a table of the model, its rows at the targets.
 
     What time decides stays in them, and so does a wave that such rows cannot follow.
     """
     measurements, targets = fitted.measurements, fitted.measurements.target_positions
-    table = fitted.carried(frozenset(too_fine(waves_of(fitted.fit), targets)))(targets)
-    return with_table(measurements, table)
+    table = fitted.carried(frozenset(find_too_fine(find_waves_of(fitted.fit), targets)))(targets)
+    return apply_table(measurements, table)
 
 
-def with_table(measurements: MeasurementSet, taken: FloatArray) -> MeasurementSet:
+def apply_table(measurements: MeasurementSet, taken: FloatArray) -> MeasurementSet:
     """Return readings less what a table takes away at the targets, e = actual − nominal, shape (2, m)."""
     row = np.where(measurements.approach == Approach.POSITIVE, 0, 1)
     sign = -1.0 if measurements.is_indication else 1.0
@@ -153,38 +153,39 @@ def with_table(measurements: MeasurementSet, taken: FloatArray) -> MeasurementSe
     return replace(measurements, deviation=read_only_floats(left))
 
 
-def basis_of_means(
+def make_basis_of_means(
     curve: ErrorCurve, measurements: MeasurementSet, fitted: FittedModel | None = None
 ) -> TableBasis:
     """Return the means of a test as they are; a model, if there is one, says what is between them."""
     means = np.stack([curve.forward, curve.reverse])
-    known = alone = _interpolated(curve.positions, means)
+    known = alone = _interpolate(curve.positions, means)
     if fitted is not None:
         model = fitted.carried()
-        known = _sum(model, _interpolated(curve.positions, means - model(curve.positions)))
+        known = _sum(model, _interpolate(curve.positions, means - model(curve.positions)))
     targets = len(curve.positions)
     part = DeviationPart(np.eye(targets), 1.0)
-    scatter = _scatter(measurements.deviations())
+    scatter = _estimate_scatter(measurements.deviations())
     parts = (part,) * (1 + curve.is_bidirectional)
     return TableBasis(curve, known, means, parts, scatter, lambda _: alone)
 
 
-def basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
+def make_basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
     """Return what a model says, and beyond it the means as far as they can be believed."""
     measurements = fitted.measurements
-    left = corrected(measurements, fitted.observed, fitted.fit).deviations()
-    scatter = _scatter(left) or ReadingScatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
+    left = correct_by_model(measurements, fitted.observed, fitted.fit).deviations()
+    scatter = _estimate_scatter(left) or ReadingScatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
     beyond, imitated = (
-        parted(values, is_bidirectional=curve.is_bidirectional)
-        for values in (fitted.sign * _both(_means(left)), _imitated(fitted))
+        part_directions(values, is_bidirectional=curve.is_bidirectional)
+        for values in (fitted.sign * _both(_compute_means(left)), _compute_imitated(fitted))
     )
     own = scatter.single**2 / curve.runs
     parts = tuple(
-        _part(rest, columns, own) for rest, columns in zip(beyond, np.moveaxis(imitated, -2, 0), strict=True)
+        _make_part(rest, columns, own)
+        for rest, columns in zip(beyond, np.moveaxis(imitated, -2, 0), strict=True)
     )
-    explained = _both(_means(measurements.deviations())) - _both(_means(left))
-    rest = joined(np.stack([part.trust * each for part, each in zip(parts, beyond, strict=True)]))
-    kept = _interpolated(curve.positions, rest)
+    explained = _both(_compute_means(measurements.deviations())) - _both(_compute_means(left))
+    rest = join_directions(np.stack([part.trust * each for part, each in zip(parts, beyond, strict=True)]))
+    kept = _interpolate(curve.positions, rest)
     return TableBasis(
         curve,
         _sum(fitted.carried(), kept),
@@ -192,11 +193,11 @@ def basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
         parts,
         scatter,
         lambda left_out: _sum(fitted.carried(left_out), kept),
-        waves_of(fitted.fit),
+        find_waves_of(fitted.fit),
     )
 
 
-def _interpolated(positions: FloatArray, values: FloatArray) -> Function:
+def _interpolate(positions: FloatArray, values: FloatArray) -> Function:
     return lambda at: np.stack([np.interp(at, positions, each) for each in values])
 
 
@@ -204,7 +205,7 @@ def _sum(one: Function, other: Function) -> Function:
     return lambda at: one(at) + other(at)
 
 
-def _means(deviations: FloatArray) -> FloatArray:
+def _compute_means(deviations: FloatArray) -> FloatArray:
     """Return the means over runs, NaN where there is no reading, shape (2, m)."""
     count = np.isfinite(deviations).sum(axis=-1)
     total = np.nansum(deviations, axis=-1)
@@ -216,15 +217,15 @@ def _both(means: FloatArray) -> FloatArray:
     return np.where(np.isfinite(means), means, means[::-1])
 
 
-def _scatter(deviations: FloatArray) -> ReadingScatter | None:
+def _estimate_scatter(deviations: FloatArray) -> ReadingScatter | None:
     """Return the scatter of readings about their means, what a run has in common told apart."""
-    off = deviations - _means(deviations)[..., np.newaxis]
+    off = deviations - _compute_means(deviations)[..., np.newaxis]
     runs = off.shape[-1]
     if runs < 2:
         return None
     common = np.nanmean(off, axis=(0, 1))
     single = off - common
-    degrees = int(np.isfinite(off).sum() - np.isfinite(_means(deviations)).sum() - (runs - 1))
+    degrees = int(np.isfinite(off).sum() - np.isfinite(_compute_means(deviations)).sum() - (runs - 1))
     if degrees < 1:
         return None
     return ReadingScatter(
@@ -234,7 +235,7 @@ def _scatter(deviations: FloatArray) -> ReadingScatter | None:
     )
 
 
-def parted(values: FloatArray, *, is_bidirectional: bool) -> FloatArray:
+def part_directions(values: FloatArray, *, is_bidirectional: bool) -> FloatArray:
     """Return values of shape (…, 2, m) as what both directions share and what parts them, (e↑ ± e↓)/√2.
 
     A test of one direction has the first part only, and that is the values themselves.
@@ -245,14 +246,14 @@ def parted(values: FloatArray, *, is_bidirectional: bool) -> FloatArray:
     return np.asarray(np.stack([forward + reverse, forward - reverse], axis=-2) / np.sqrt(2))
 
 
-def joined(parts: FloatArray) -> FloatArray:
+def join_directions(parts: FloatArray) -> FloatArray:
     """Return parts of shape (…, 1 or 2, m) as values of both directions, shape (…, 2, m)."""
     if parts.shape[-2] == 1:
         return np.repeat(parts, 2, axis=-2)
-    return parted(parts, is_bidirectional=True)  # its own inverse
+    return part_directions(parts, is_bidirectional=True)  # its own inverse
 
 
-def _part(rest: FloatArray, columns: FloatArray, own: float) -> DeviationPart:
+def _make_part(rest: FloatArray, columns: FloatArray, own: float) -> DeviationPart:
     """Return one part of the deviations, and how far its residuals are believed.
 
     What they vary beyond their own scatter is real: var(r) = τ² + u², and r is worth τ²/(τ² + u²) of itself
@@ -264,12 +265,12 @@ def _part(rest: FloatArray, columns: FloatArray, own: float) -> DeviationPart:
     return DeviationPart(directions, max(0.0, 1.0 - own / total) if total else 0.0)
 
 
-def _imitated(fitted: FittedModel) -> FloatArray:
+def _compute_imitated(fitted: FittedModel) -> FloatArray:
     """Return what each parameter of the model does to the means at the targets, shape (p, 2, m)."""
     measurements = fitted.measurements
     columns = []
     for column in fitted.fit.base(fitted.observed.design).T:
         every = np.full(len(measurements.deviation), np.nan)
         every[fitted.observed.reading] = column
-        columns.append(np.nan_to_num(_both(_means(measurements.arranged(every)))))
+        columns.append(np.nan_to_num(_both(_compute_means(measurements.arranged(every)))))
     return np.array(columns).reshape(-1, 2, len(measurements.target_positions))

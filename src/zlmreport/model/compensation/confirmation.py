@@ -59,41 +59,41 @@ def confirm(basis: TableBasis, after: ErrorCurve, table: CompensationTable, plac
     is_now = np.stack([after.forward, after.reverse])[:, inside]
     removed = was - is_now  # but for a constant: each test has its own zero
     ratio = float(np.ptp(is_now) / np.ptp(was)) if np.ptp(was) else 1.0
-    applied = _part(removed, table.at(positions))
-    left = _rms(_centred(removed - table.at(positions)))
-    allowed = _allowed(before, after) + _MAY_BE_LEFT * _rms(was - was.mean())
+    applied = _fit_part(removed, table.at(positions))
+    left = _compute_rms(_centre(removed - table.at(positions)))
+    allowed = _compute_allowed(before, after) + _MAY_BE_LEFT * _compute_rms(was - was.mean())
     if abs(applied - 1) < _NEAR and left <= allowed:
         return Confirmation(ConfirmationVerdict.HELD, ratio, applied)
     for part, verdict in ((-1.0, ConfirmationVerdict.WRONG_SIGN), (0.5, ConfirmationVerdict.HALF)):
         if (
             abs(applied - part) < _NEAR
-            and _rms(_centred(removed - part * table.at(positions))) <= 2 * allowed
+            and _compute_rms(_centre(removed - part * table.at(positions))) <= 2 * allowed
         ):
             return Confirmation(verdict, ratio, applied)
-    shift, rest = _shifted(removed, positions, table)
-    if rest * _FAR_SMALLER < _rms(_centred(removed - table.at(positions))):
+    shift, rest = _fit_shift(removed, positions, table)
+    if rest * _FAR_SMALLER < _compute_rms(_centre(removed - table.at(positions))):
         return Confirmation(ConfirmationVerdict.SHIFTED, ratio, applied, shift)
     return Confirmation(ConfirmationVerdict.OTHER, ratio, applied)
 
 
-def _part(removed: FloatArray, table: FloatArray) -> float:
+def _fit_part(removed: FloatArray, table: FloatArray) -> float:
     """Return what part of a table was removed, by least squares, the zero of each test left open."""
-    x, y = _centred(table).ravel(), _centred(removed).ravel()
+    x, y = _centre(table).ravel(), _centre(removed).ravel()
     return float(x @ y / (x @ x)) if x @ x else 0.0
 
 
-def _shifted(removed: FloatArray, positions: FloatArray, table: CompensationTable) -> tuple[float, float]:
+def _fit_shift(removed: FloatArray, positions: FloatArray, table: CompensationTable) -> tuple[float, float]:
     """Return the shift of the table that explains most, and what it leaves."""
     step = float(np.median(np.diff(table.positions)))
     left = [
-        (_rms(_centred(removed - table.at(positions - part * step))), part * step)
+        (_compute_rms(_centre(removed - table.at(positions - part * step))), part * step)
         for part in _SHIFTS.tolist()
     ]
     rest, shift = min(left)
     return shift, rest
 
 
-def _allowed(before: ErrorCurve, after: ErrorCurve) -> float:
+def _compute_allowed(before: ErrorCurve, after: ErrorCurve) -> float:
     """Return twice the standard deviation of a difference of two means, by the scatter of both tests."""
     parts = [
         float(np.nanmean(each.spread**2)) / max(1, each.runs)
@@ -103,10 +103,10 @@ def _allowed(before: ErrorCurve, after: ErrorCurve) -> float:
     return 2 * float(np.sqrt(sum(parts)))
 
 
-def _centred(values: FloatArray) -> FloatArray:
+def _centre(values: FloatArray) -> FloatArray:
     centred: FloatArray = values - values.mean()
     return centred
 
 
-def _rms(values: FloatArray) -> float:
+def _compute_rms(values: FloatArray) -> float:
     return float(np.sqrt(np.mean(values**2)))

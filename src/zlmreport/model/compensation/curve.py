@@ -60,7 +60,7 @@ class CompensationTable:
         return np.stack([np.interp(positions, self.positions, each) for each in (self.forward, self.reverse)])
 
 
-def curve_of(measurements: MeasurementSet, place: Place) -> ErrorCurve:
+def make_error_curve(measurements: MeasurementSet, place: Place) -> ErrorCurve:
     """Return the curve of a test.
 
     Raises `InputError` at the place, if a target lacks a mean in a direction that was measured.
@@ -90,7 +90,7 @@ def curve_of(measurements: MeasurementSet, place: Place) -> ErrorCurve:
     )
 
 
-def table_of(
+def make_table_of(
     deviations: FloatArray, rows: FloatArray, axis: Axis, number: str, place: Place
 ) -> CompensationTable:
     """Return the table of deviations, with that of a table that was active during the test added.

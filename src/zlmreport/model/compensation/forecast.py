@@ -8,10 +8,10 @@ from itertools import pairwise
 import numpy as np
 
 from zlmreport.evaluation.statistics import position_statistics
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, effect_along
-from zlmreport.evaluation.uncertainty.monte_carlo import single_draws
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, compute_effect_along
+from zlmreport.evaluation.uncertainty.monte_carlo import sample_singly
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.compensation.basis import TableBasis, joined
+from zlmreport.model.compensation.basis import TableBasis, join_directions
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve
 
 #: Places between two rows at which the table is looked at.
@@ -87,7 +87,7 @@ def forecast(
     curve = basis.curve
     means = np.stack([curve.forward, curve.reverse])
     change = decoded.at(curve.positions) - (active.at(curve.positions) if active else 0.0)
-    fine = _fine(meant.positions, curve.positions)
+    fine = _lay_fine_places(meant.positions, curve.positions)
     known, gone = basis.known(fine), active.at(fine) if active else 0.0
     worst_at = np.abs(known + gone - decoded.at(fine)).max(axis=0)
     worst = int(np.argmax(worst_at))
@@ -97,9 +97,9 @@ def forecast(
     off = decoded.at(meant.positions) - target
     constant = float(off.mean())
     return TableForecast(
-        figures(means, curve),
-        figures(means - change, curve),
-        _second_test(basis, basis.estimate - change, budget) if basis.scatter else {},
+        compute_figures(means, curve),
+        compute_figures(means - change, curve),
+        _simulate_second_tests(basis, basis.estimate - change, budget) if basis.scatter else {},
         read_only_floats(means - change),
         float(worst_at[worst]),
         float(fine[worst]),
@@ -113,7 +113,7 @@ def forecast(
     )
 
 
-def _fine(rows: FloatArray, targets: FloatArray) -> FloatArray:
+def _lay_fine_places(rows: FloatArray, targets: FloatArray) -> FloatArray:
     """Return places between the rows, within what was measured."""
     stretches = [np.linspace(a, b, _BETWEEN) for a, b in pairwise(rows.tolist())]
     fine: FloatArray = np.unique(np.concatenate(stretches))
@@ -121,7 +121,9 @@ def _fine(rows: FloatArray, targets: FloatArray) -> FloatArray:
     return inside
 
 
-def _second_test(basis: TableBasis, left: FloatArray, budget: Budget | None) -> dict[str, ExpectedFigure]:
+def _simulate_second_tests(
+    basis: TableBasis, left: FloatArray, budget: Budget | None
+) -> dict[str, ExpectedFigure]:
     """Draw second tests of the same plan, and return what they show.
 
     Each has the axis as one of those that the first test may have seen, and scatter of its own. Both tests
@@ -130,23 +132,23 @@ def _second_test(basis: TableBasis, left: FloatArray, budget: Budget | None) -> 
     scatter, curve = basis.scatter, basis.curve
     assert scatter is not None  # noqa: S101  # its caller asked
     random = np.random.default_rng(_SEED)
-    single = _deviation(scatter.single, scatter.degrees, random)
-    axes = left + _unknown(basis, single / np.sqrt(curve.runs), random)
+    single = _sample_deviation(scatter.single, scatter.degrees, random)
+    axes = left + _sample_unknown(basis, single / np.sqrt(curve.runs), random)
     if budget is not None:
-        axes += _of_set_up(budget, curve, random) - _of_set_up(budget, curve, random)
+        axes += _sample_set_up(budget, curve, random) - _sample_set_up(budget, curve, random)
     shown = axes if curve.is_bidirectional else axes[:, :1]
-    common = _deviation(scatter.run, curve.runs - 1, random)[..., np.newaxis, np.newaxis]
+    common = _sample_deviation(scatter.run, curve.runs - 1, random)[..., np.newaxis, np.newaxis]
     common = common * random.standard_normal((_DRAWS, 1, 1, curve.runs))
     noise = random.standard_normal((*shown.shape, curve.runs)) * single[..., np.newaxis, np.newaxis]
     tests = shown[..., np.newaxis] + common + noise
-    drawn = drawn_figures(tests)
+    drawn = compute_drawn_figures(tests)
     return {
         symbol: ExpectedFigure(float(values.mean()), *map(float, np.quantile(values, [_LOW, _HIGH])))
         for symbol, values in drawn.items()
     }
 
 
-def _unknown(basis: TableBasis, own: FloatArray, random: np.random.Generator) -> FloatArray:
+def _sample_unknown(basis: TableBasis, own: FloatArray, random: np.random.Generator) -> FloatArray:
     """Draw by how much the axis differs from the estimate, shape (N, 2, m), m or rad.
 
     With means of variance u² the posterior of each part is that of universal kriging: along the model's
@@ -161,32 +163,32 @@ def _unknown(basis: TableBasis, own: FloatArray, random: np.random.Generator) ->
         unit = own * random.standard_normal((_DRAWS, len(part.directions)))
         along = unit @ part.directions @ part.directions.T
         drawn.append(along + np.sqrt(part.trust) * (unit - along))
-    return joined(np.stack(drawn, axis=-2))
+    return join_directions(np.stack(drawn, axis=-2))
 
 
-def _of_set_up(budget: Budget, curve: ErrorCurve, random: np.random.Generator) -> FloatArray:
+def _sample_set_up(budget: Budget, curve: ErrorCurve, random: np.random.Generator) -> FloatArray:
     """Draw the errors of a set-up in the mean deviations, shape (N, 2, m), m or rad.
 
     What differs from reading to reading or drifts is left out: it is in the scatter of the readings.
     """
 
     def drawn(acts: Acts, *shape: int) -> FloatArray:
-        return single_draws(budget.acting(acts), (_DRAWS, *shape), random)
+        return sample_singly(budget.acting(acts), (_DRAWS, *shape), random)
 
     targets = len(curve.positions)
-    errors = drawn(Acts.ALONG_THE_LENGTH, 1, 1) * effect_along(curve.positions)
+    errors = drawn(Acts.ALONG_THE_LENGTH, 1, 1) * compute_effect_along(curve.positions)
     errors = errors + drawn(Acts.AT_EACH_POSITION, 1, targets) + drawn(Acts.AT_EACH_APPROACH, 2, targets)
     errors[:, 1:] += drawn(Acts.BETWEEN_DIRECTIONS, 1, 1)
     return errors
 
 
-def _deviation(estimate: float, degrees: int, random: np.random.Generator) -> FloatArray:
+def _sample_deviation(estimate: float, degrees: int, random: np.random.Generator) -> FloatArray:
     """Draw standard deviations, shape (N, 1), from which an estimate of so many degrees of freedom comes."""
     drawn = random.chisquare(max(1, degrees), (_DRAWS, 1))
     return np.asarray(estimate * np.sqrt(max(1, degrees) / drawn))
 
 
-def drawn_figures(tests: FloatArray) -> dict[str, FloatArray]:
+def compute_drawn_figures(tests: FloatArray) -> dict[str, FloatArray]:
     """Return E, M, B and A of a stack of tests, shape (N, directions, targets, runs), m or rad."""
     statistics = position_statistics(tests)
     means, spread = statistics.mean, statistics.standard_deviation
@@ -202,7 +204,7 @@ def drawn_figures(tests: FloatArray) -> dict[str, FloatArray]:
     return found
 
 
-def figures(means: FloatArray, curve: ErrorCurve) -> Figures:
+def compute_figures(means: FloatArray, curve: ErrorCurve) -> Figures:
     """Return E, M, B and A of means of shape (2, m) with the spread of a curve."""
     spread = curve.spread if curve.is_bidirectional else np.fmax(*curve.spread)[np.newaxis]
     shown = means if curve.is_bidirectional else means[:1]

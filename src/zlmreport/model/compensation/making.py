@@ -22,7 +22,7 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.basis import TableBasis
-from zlmreport.model.compensation.curve import CompensationTable, table_of
+from zlmreport.model.compensation.curve import CompensationTable, make_table_of
 from zlmreport.model.compensation.forecast import TableForecast, forecast
 
 #: Places between two rows of the finest grid at which a grid is looked at, and grids that are.
@@ -54,7 +54,7 @@ class Grid:
     allowed: float
 
 
-def grid_of(
+def make_grid_of(
     basis: TableBasis,
     place: Place,
     *,
@@ -149,15 +149,15 @@ def make(  # noqa: PLR0913, PLR0917 - of what, on which grid, for whom
 
     `axis`, `number`, `place`: The axis with the table that was active; the name of the job; where the table
         is asked for.
-    `step`: Distance of the rows, m or rad; None for the grid that `grid_of` chooses.
+    `step`: Distance of the rows, m or rad; None for the grid that `make_grid_of` chooses.
     `budget`: Of the measuring set-up; None where nothing is known of it.
 
     Raises `InputError` if the control would refuse the table, or cut it off.
     """
     most = getattr(controller, "most_rows", None)
-    grid = grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
+    grid = make_grid_of(basis, place, step=step, is_equidistant=controller.is_equidistant, most_rows=most)
     rows, left_out = grid.rows, basis.left_out(grid.rows)
-    meant = table_of(basis.wanted(rows)(rows), rows, axis, number, place)
+    meant = make_table_of(basis.wanted(rows)(rows), rows, axis, number, place)
     files = controller.files(meant, own)
     decoded = controller.read(files, meant, own)
     old = axis.compensation_table

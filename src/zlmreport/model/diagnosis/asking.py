@@ -33,7 +33,7 @@ class AskedLength:
     effects: tuple[str, ...]  #: Identifiers of the effects that can be tried once it is stated.
 
 
-def lengths_asked(
+def list_lengths_asked(
     design: Design, present: Sequence[str], effects: Sequence[Effect]
 ) -> tuple[AskedLength, ...]:
     """Return the lengths that would let more effects be tried, the most effects first.

@@ -10,8 +10,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from zlmreport.model.diagnosis.contest import Told, untold
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, Verdict, error_numbers
+from zlmreport.model.diagnosis.contest import Told, tell_nobody
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, Verdict, compute_error_numbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import fit
@@ -64,7 +64,7 @@ class Built:
         )
 
 
-def build(model: AxisModel, diagnosing: Diagnosing, told: Told = untold) -> Built:
+def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) -> Built:
     """Build a model, from the one that there is.
 
     `diagnosing`: Holds a model against the readings of the test.
@@ -72,11 +72,11 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = untold) -> Buil
     Raises `ModelError` as a diagnosis does.
     """
     own = frozenset(model.identifiers)
-    found = [diagnosing(model, frozenset(), _part(told, 0))]
+    found = [diagnosing(model, frozenset(), _tell_part(told, 0))]
     steps: list[BuildStep] = []
     tried = {frozenset(model.identifiers)}
     while len(found) <= _MOST_ROUNDS and found[-1].verdict is Verdict.MISSING:
-        extended, taken = _extended(model, found[-1])
+        extended, taken = _extend_model(model, found[-1])
         # Two models each of which takes the other for the better one are as good as each other.
         if not taken or frozenset(extended.identifiers) in tried:
             break
@@ -84,17 +84,17 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = untold) -> Buil
         model = extended
         steps += taken
         may_go = frozenset(each.identifier for each in steps) - own
-        found.append(diagnosing(model, may_go, _part(told, len(found))))
+        found.append(diagnosing(model, may_go, _tell_part(told, len(found))))
     return Built(found[0], tuple(steps), found[-1], model)
 
 
-def _part(told: Told, rounds: int) -> Told:
+def _tell_part(told: Told, rounds: int) -> Told:
     """Return what tells the progress of one diagnosis among those of a build: half of what is left."""
     done = 1.0 - 0.5**rounds
     return lambda share: told(done + (1.0 - done) * 0.5 * share)
 
 
-def _extended(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, list[BuildStep]]:
+def _extend_model(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, list[BuildStep]]:
     """Return the model with the set of a diagnosis, and the steps to it; what cannot be fitted ends it."""
     fitted, error = diagnosis.fit, diagnosis.error
     changes = [(each, False) for each in diagnosis.together]
@@ -106,11 +106,11 @@ def _extended(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, list[B
             fitted = fit(changed, fitted.design, fitted.deviation, diagnosis.fit.assumptions)
         except ModelError:
             break
-        model, before, error = changed, error, error_numbers(fitted)
+        model, before, error = changed, error, compute_error_numbers(fitted)
         steps.append(BuildStep(effect, before, error, is_removed))
     return model, steps
 
 
-def names_of(steps: Sequence[BuildStep]) -> tuple[str, ...]:
+def name_steps(steps: Sequence[BuildStep]) -> tuple[str, ...]:
     """Return the effects of steps, those that go out with a minus."""
     return tuple(f"− {each.identifier}" if each.is_removed else f"+ {each.identifier}" for each in steps)

@@ -31,7 +31,7 @@ class EffectsToTry:
     not_testable: tuple[NotTestable, ...]  #: Effects that the test cannot show in any form.
 
 
-def effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) -> EffectsToTry:
+def list_effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) -> EffectsToTry:
     """Return the effects that can be tried beside a model.
 
     An effect that is in the model already enters only with forms that have more parameters: a polynomial
@@ -44,25 +44,25 @@ def effects_to_try(model: AxisModel, design: Design, effects: Iterable[Effect]) 
         least = present.get(effect.identifier, 0)
         further = effect.further_forms() if least else ()
         listed = [form for form in (*effect.forms(), *further) if len(form.linear) > least]
-        reasons = [form.untestable(design) or _collision(model, design, form) for form in listed]
+        reasons = [form.untestable(design) or _say_collision(model, design, form) for form in listed]
         forms.extend(form for form, reason in zip(listed, reasons, strict=True) if reason is None)
         if listed and None not in reasons:
-            not_testable.append(NotTestable(effect.identifier, reasons[0] or _imitated(model, effect)))
+            not_testable.append(NotTestable(effect.identifier, reasons[0] or _say_imitated(model, effect)))
     return EffectsToTry(tuple(forms), tuple(not_testable))
 
 
-def _collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
+def _say_collision(model: AxisModel, design: Design, effect: Effect) -> Words | None:
     """Return that the model would not be determined with the effect in it; None if it is."""
     extended = model.with_effect(effect)
     columns = [term.columns(design, term.grid(design)[0])[0] for term in extended.terms]
     try:
         refuse_collisions(extended, columns)
     except ModelError:
-        return _imitated(model, effect)
+        return _say_imitated(model, effect)
     return None
 
 
-def _imitated(model: AxisModel, effect: Effect) -> Words:
+def _say_imitated(model: AxisModel, effect: Effect) -> Words:
     """Return what imitates an effect entirely, and the measurement that would show it."""
     for term in model.terms:
         if effect.identifier in term.effect.contains:

@@ -20,12 +20,12 @@ import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
-from zlmreport.model.diagnosis.families import Family, families_of, forms_by_effect, is_known
-from zlmreport.model.diagnosis.nameless import CovariancePart, irregular_factors, parts_of
+from zlmreport.model.diagnosis.families import Family, group_forms_by_effect, is_known, list_families_of
+from zlmreport.model.diagnosis.nameless import CovariancePart, list_parts_of, make_irregular_factors
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.fitting.contrasts import Contrasts, contrasts_of, single_readings
-from zlmreport.model.fitting.noise import NoiseSource, noise_parts
+from zlmreport.model.fitting.contrasts import Contrasts, describe_single_readings, make_contrasts_of
+from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
 from zlmreport.model.fitting.priors import PriorExpectation
 
 #: Variances of an effect before any reading, in units of what one reading is worth, and their weights; the
@@ -46,7 +46,7 @@ Told: TypeAlias = Callable[[float], object]
 Amplitudes: TypeAlias = tuple[int, ...]
 
 
-def untold(_share: float) -> None:
+def tell_nobody(_share: float) -> None:
     """Tell nobody."""
 
 
@@ -156,21 +156,21 @@ class Contest:
         with_nameless
             Whether parts without a name are thought of.
         """
-        readings, sources = len(design.position), noise_parts(design)
+        readings, sources = len(design.position), list_noise_parts(design)
         expected = expected or PriorExpectation()
         weights = np.ones(readings) if weights is None else weights
-        space = contrasts_of(base, sources, single_readings(design, weights, memory))
-        columns = Columns(space, irregular_factors(sources))
+        space = make_contrasts_of(base, sources, describe_single_readings(design, weights, memory))
+        columns = Columns(space, make_irregular_factors(sources))
         deviation = np.zeros(readings) if deviation is None else deviation
         contrast = space.of(deviation)
         squares = float(contrast @ contrast)
         response = columns.add(contrast[:, np.newaxis] / (np.sqrt(squares) or 1.0))
-        parts = parts_of(design, columns, sources, expected, with_nameless=with_nameless)
+        parts = list_parts_of(design, columns, sources, expected, with_nameless=with_nameless)
         core = 1 + sum(part.width for part in parts)
         listed = [(each, each.grid(design)) for each in effects]
-        named, invisible = families_of(design, columns, listed, least_visible)
+        named, invisible = list_families_of(design, columns, listed, least_visible)
         rivals = [each for each in forms if not is_known(each, design, columns, named)]
-        unnamed, _ = families_of(
+        unnamed, _ = list_families_of(
             design, columns, [(each, each.grid(design)) for each in rivals], least_visible, is_named=False
         )
         columns.keep(core)
@@ -196,7 +196,7 @@ class Contest:
     @cached_property
     def by_effect(self) -> tuple[tuple[int, ...], ...]:
         """For each installed effect, the places of its forms among the families."""
-        return forms_by_effect(self.families)
+        return group_forms_by_effect(self.families)
 
     @cached_property
     def identifiers(self) -> tuple[str, ...]:
@@ -385,7 +385,7 @@ class Contest:
         coordinates = reduced.coordinates(products)
         left = ((response - taken @ coordinates) * np.sqrt(self.squares)).reshape(count, width)
         inner = coordinates.reshape(-1, count, width)
-        return _solved(own - np.einsum("rgi,rgj->gij", inner, inner), left[:, :, np.newaxis])
+        return _solve_blocks(own - np.einsum("rgi,rgj->gij", inner, inner), left[:, :, np.newaxis])
 
     def squares_beside(self, reduced: Reduced, contrasts: FloatArray) -> FloatArray:
         """Return what V and a set leave of the squares of contrasts (N, B) not in the table, (B,)."""
@@ -442,7 +442,7 @@ class Contest:
             left = np.maximum(left, _ROUNDING * self.squares + self.known)
             gained = self._logarithm(left) - self._logarithm(squares)
             found.append(gained + ranks * np.log1p(prior) - 2.0 * np.log(weight))
-        return _average(np.array(found), 0)
+        return _average_likelihoods(np.array(found), 0)
 
     def worth(self, explained: float, rank: int, square: float) -> float:
         """Return what a block costs that explains so much, in σ², its coefficients averaged over."""
@@ -450,7 +450,7 @@ class Contest:
         for factor, weight in _WORTHS:
             prior = factor * float(self.space.degrees) * (square if factor == 1.0 else 1.0)
             found.append(explained / (1.0 + prior) + rank * np.log1p(prior) - 2.0 * np.log(weight))
-        return float(_average(np.array(found), 0))
+        return float(_average_likelihoods(np.array(found), 0))
 
     def trials(
         self,
@@ -482,7 +482,7 @@ class Contest:
             left = self.columns.products_with(reduced.ratios, flat, contrasts) - coordinates.T @ taken
             inner = coordinates.reshape(-1, *places.shape)
             gram = self.columns.squares(reduced.ratios, places.shape[1], places)
-            explained, ranks = _solved(
+            explained, ranks = _solve_blocks(
                 gram - np.einsum("rgi,rgj->gij", inner, inner), left.reshape(*places.shape, sets)
             )
             added = self._added(squares, explained, ranks[:, np.newaxis], square[:, np.newaxis])
@@ -491,7 +491,7 @@ class Contest:
             for number, first, end in zip(group.families.tolist(), group.starts.tolist(), ends, strict=True):
                 fits[number] = fitted[first:end].min(axis=0)
                 weights = group.log_weights[first:end, np.newaxis]
-                averages[number] = _average(added[first:end] - 2.0 * weights, 0)
+                averages[number] = _average_likelihoods(added[first:end] - 2.0 * weights, 0)
         named = [
             list(forms)
             for name, forms in zip(self.identifiers, self.by_effect, strict=True)
@@ -503,9 +503,9 @@ class Contest:
             shapes += self._of_parts(amplitudes, members, contrasts, squares, known)
         return Trials(
             -np.array([fits[forms].min(axis=0) for forms in named]).reshape(-1, sets),
-            -np.array([_average(averages[forms] + 2.0 * np.log(len(forms)), 0) for forms in named]).reshape(
-                -1, sets
-            ),
+            -np.array(
+                [_average_likelihoods(averages[forms] + 2.0 * np.log(len(forms)), 0) for forms in named]
+            ).reshape(-1, sets),
             np.concatenate(shapes).reshape(-1, sets),
             self._logarithm(squares) + reduced.log_determinant,
         )
@@ -529,17 +529,19 @@ class Contest:
                 added = self._logarithm(left) - self._logarithm(squares)
                 tried.append(added + reduced.log_determinant - before)
             if tried:
-                found.append(-_average(np.array(tried), 0)[np.newaxis] - 2.0 * np.log(len(tried)))
+                found.append(-_average_likelihoods(np.array(tried), 0)[np.newaxis] - 2.0 * np.log(len(tried)))
         return found
 
 
-def averaged(trials: Sequence[Trials]) -> tuple[FloatArray, FloatArray]:
+def average_evidence(trials: Sequence[Trials]) -> tuple[FloatArray, FloatArray]:
     """Return the evidence of effects and of what has no name, averaged over amplitudes all as likely."""
     criteria = np.array([each.criterion for each in trials])
-    nothing = _average(criteria, 0)
+    nothing = _average_likelihoods(criteria, 0)
     return (
-        nothing - _average(criteria[:, np.newaxis] - np.array([each.evidence for each in trials]), 0),
-        nothing - _average(criteria[:, np.newaxis] - np.array([each.nameless for each in trials]), 0),
+        nothing
+        - _average_likelihoods(criteria[:, np.newaxis] - np.array([each.evidence for each in trials]), 0),
+        nothing
+        - _average_likelihoods(criteria[:, np.newaxis] - np.array([each.nameless for each in trials]), 0),
     )
 
 
@@ -556,7 +558,7 @@ def _root_of(gram: FloatArray) -> FloatArray:
     return np.asarray((vectors[:, kept] / np.sqrt(values[kept])).T * (seen / lengths))
 
 
-def _solved(gram: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _solve_blocks(gram: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Return bᵀG⁻¹b and the rank of G for each of many blocks: gram (g, k, k), products (g, k, B)."""
     if gram.shape[1] == 1:
         seen = gram[:, 0, 0] > _IMITATED
@@ -569,7 +571,7 @@ def _solved(gram: FloatArray, products: FloatArray) -> tuple[FloatArray, FloatAr
     return np.einsum("gk,gkb->gb", inverse, turned**2), seen.sum(axis=1).astype(np.float64)
 
 
-def _average(criteria: FloatArray, axis: int | None = None) -> FloatArray:
+def _average_likelihoods(criteria: FloatArray, axis: int | None = None) -> FloatArray:
     """Return −2·ln of the sum of likelihoods along an axis, or over all."""
     least = criteria.min(axis=axis, keepdims=True)
     summed = np.exp(-0.5 * (criteria - least)).sum(axis=axis)

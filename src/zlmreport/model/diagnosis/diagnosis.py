@@ -9,30 +9,30 @@ from enum import StrEnum
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import number_words, significant_words
+from zlmreport.language.numbers import number_words, write_significant
 from zlmreport.measurement.arrays import IntArray
-from zlmreport.measurement.units import behind
-from zlmreport.model.diagnosis.candidates import NotTestable, effects_to_try
-from zlmreport.model.diagnosis.contest import Told, untold
-from zlmreport.model.diagnosis.faults import DataFault, FaultKind, faults_of, gaps
-from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, StandIn, find, with_member
-from zlmreport.model.diagnosis.remainder import Remainder, irregular_remainder, remainder_of_run
-from zlmreport.model.diagnosis.residual_tests import failures, flagged, residual_tests
-from zlmreport.model.diagnosis.residuals import Failure, residuals_of
-from zlmreport.model.diagnosis.single_run import single_run
+from zlmreport.measurement.units import write_behind
+from zlmreport.model.diagnosis.candidates import NotTestable, list_effects_to_try
+from zlmreport.model.diagnosis.contest import Told, tell_nobody
+from zlmreport.model.diagnosis.faults import DataFault, FaultKind, find_faults_of, find_gaps
+from zlmreport.model.diagnosis.finding import ContestFinding, NamedEffect, StandIn, find, fit_with_member
+from zlmreport.model.diagnosis.remainder import Remainder, find_irregular_remainder, make_remainder_of_run
+from zlmreport.model.diagnosis.residual_tests import find_failures, report_flagged, run_residual_tests
+from zlmreport.model.diagnosis.residuals import Failure, find_residuals_of
+from zlmreport.model.diagnosis.single_run import find_single_run
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.axis_model import AxisModel, ModelError
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, is_of_another_axis, unit_of
-from zlmreport.model.effects.sizes import asked_of, usual_range
-from zlmreport.model.fitting.blunders import Outliers, outliers
+from zlmreport.model.effects.effect import Dimension, Effect, find_unit_of, is_of_another_axis
+from zlmreport.model.effects.sizes import ask_of, find_usual_range
+from zlmreport.model.fitting.blunders import Outliers, find_outliers
 from zlmreport.model.fitting.distributions import f_tail
 from zlmreport.model.fitting.estimate import Estimate
-from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validated_rms, fit
-from zlmreport.model.fitting.observations import Observations, thinned
+from zlmreport.model.fitting.fit import Assumptions, Fit, cross_validate, fit
+from zlmreport.model.fitting.observations import Observations, thin
 from zlmreport.model.fitting.priors import PriorExpectation
-from zlmreport.model.fitting.repeats import lasting_floor, noise_floor, repeats
+from zlmreport.model.fitting.repeats import estimate_lasting_floor, estimate_noise_floor, find_repeats
 
 #: Share of the misfit from which on an effect explains it, and does not only contribute.
 EXPLAINS = 0.75
@@ -158,7 +158,7 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
     expected: PriorExpectation | None = None,
     *,
     may_go: frozenset[str] = frozenset(),
-    told: Told = untold,
+    told: Told = tell_nobody,
 ) -> Diagnosis:
     """Hold a model against the readings of a test, and try every effect that might be missing.
 
@@ -166,7 +166,7 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
 
     Raises `ModelError` if the model makes no sense on these readings, or they are too few to tell anything.
     """
-    observed = thinned(observed)
+    observed = thin(observed)
     count = len(observed.deviation)
     if count > _MOST_READINGS:
         sentence = (
@@ -176,14 +176,14 @@ def diagnose(  # noqa: PLR0913 - what is known, what may be, and who is told
         )
         raise ModelError([sentence])
     asked = _Asked(model, observed, effects, assumptions, expected, may_go)
-    aside = outliers(observed.design, observed.deviation)
-    held = _held(asked, aside, lambda share: told(0.5 * share))
+    aside = find_outliers(observed.design, observed.deviation)
+    held = _hold_data(asked, aside, lambda share: told(0.5 * share))
     judged = held.judged()
     if not np.array_equal(judged.readings, aside.readings) and not held.is_quiet:
         # What the leading model explains is no blunder, and what it leaves far off is one.
-        aside, held = judged, _held(asked, judged, lambda share: told(0.5 + 0.5 * share))
+        aside, held = judged, _hold_data(asked, judged, lambda share: told(0.5 + 0.5 * share))
     told(1.0)
-    return _told(asked, aside, held)
+    return _tell_diagnosis(asked, aside, held)
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,10 +218,10 @@ class _Held:
     def judged(self) -> Outliers:
         """Return the readings that stand off from what the complete model says of all of them."""
         design = self.observed.design
-        return outliers(design, self.observed.deviation - self.complete.value_at(design))
+        return find_outliers(design, self.observed.deviation - self.complete.value_at(design))
 
 
-def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
+def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     kept = asked.observed.without(aside.readings)
     fitted = fit(asked.model, kept.design, kept.deviation, asked.assumptions)
     if fitted.degrees < _FEWEST_DEGREES:
@@ -231,68 +231,72 @@ def _held(asked: _Asked, aside: Outliers, told: Told) -> _Held:
             f"a diagnosis needs at least {_FEWEST_DEGREES} readings more than parameters"
         )
         raise ModelError([sentence])
-    error = error_numbers(fitted)
-    run = single_run(fitted.design, fitted.residual, error.noise_rms or 0.0)
-    is_left = run is not None or not _may_be_noise(error, fitted)
+    error = compute_error_numbers(fitted)
+    run = find_single_run(fitted.design, fitted.residual, error.noise_rms or 0.0)
+    is_left = run is not None or not _is_perhaps_noise(error, fitted)
     finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
     left = finding.remainder
     if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
         left = None
     complete = _complete(fitted, finding.named, finding.makeshift)
-    after = error if complete is fitted else error_numbers(complete)
+    after = error if complete is fitted else compute_error_numbers(complete)
     if left is None and not finding.named and run:
-        left = remainder_of_run(fitted, run)
-    elif left is None and not _may_be_noise(after, complete):  # what no curve follows is there all the same
-        left = irregular_remainder(complete, after.noise_rms or 0.0, fitted)
+        left = make_remainder_of_run(fitted, run)
+    elif left is None and not _is_perhaps_noise(
+        after, complete
+    ):  # what no curve follows is there all the same
+        left = find_irregular_remainder(complete, after.noise_rms or 0.0, fitted)
     return _Held(asked.observed, fitted, error, finding, complete, after, left)
 
 
-def _told(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
+def _tell_diagnosis(asked: _Asked, aside: Outliers, held: _Held) -> Diagnosis:
     """Return what a diagnosis says of what was found; faults of the data come first."""
     observed, fitted, finding = asked.observed, held.fit, held.finding
-    complete, candidates = held.complete, tuple(_candidates(finding, held.error))
+    complete, candidates = held.complete, tuple(_list_candidates(finding, held.error))
     # What the readings do not determine beside the job's model is no candidate.
     known = {each.identifier for each in candidates}
     leading = (each.leading.member.effect for each in finding.named)
     together = tuple(each for each in leading if each.identifier in known)
-    faults = faults_of(observed, fitted, complete, asked.effects, is_something_missing=bool(together))
+    faults = find_faults_of(observed, fitted, complete, asked.effects, is_something_missing=bool(together))
     if any(each.comes_first for each in faults):
         together, candidates, complete = (), (), fitted
-    tests = residual_tests(residuals_of(fitted, finding.noise))
-    stand_off = flagged(observed.design, aside)
-    not_testable = effects_to_try(asked.model, fitted.design, asked.effects).not_testable
+    tests = run_residual_tests(find_residuals_of(fitted, finding.noise))
+    stand_off = report_flagged(observed.design, aside)
+    not_testable = list_effects_to_try(asked.model, fitted.design, asked.effects).not_testable
     return Diagnosis(
         fit=fitted,
         error=held.error,
-        verdict=_verdict(held.left, together, faults),
+        verdict=_decide_verdict(held.left, together, faults),
         p_value=finding.p_value.value,
         tests=tests,
-        failures=failures(tests) + ((stand_off,) if stand_off else ()),
+        failures=find_failures(tests) + ((stand_off,) if stand_off else ()),
         candidates=candidates,
         together=together,
         error_after=held.error if complete is fitted else held.error_after,
         makeshift=finding.makeshift if together else (),
         remainder=held.left,
         not_testable=not_testable,
-        not_excluded=_not_excluded(candidates, not_testable),
+        not_excluded=_list_not_excluded(candidates, not_testable),
         visibility=finding.visible,
-        outliers=_of_the_set(observed.reading[aside.readings]),
+        outliers=_select_of_the_set(observed.reading[aside.readings]),
         remarks=(
             *observed.remarks,
-            *gaps(observed.design),
+            *find_gaps(observed.design),
             *(_LOOKS_WRONG.given(statement=each.statement, remedy=each.remedy) for each in faults),
         ),
-        lasting_noise=lasting_floor(fitted.design, fitted.deviation),
+        lasting_noise=estimate_lasting_floor(fitted.design, fitted.deviation),
         faults=faults,
     )
 
 
-def _of_the_set(readings: IntArray) -> IntArray:
+def _select_of_the_set(readings: IntArray) -> IntArray:
     """Return the places of readings without those of other sessions."""
     return readings[readings >= 0]
 
 
-def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterable[DataFault]) -> Verdict:
+def _decide_verdict(
+    left: Remainder | None, together: Sequence[Effect], faults: Iterable[DataFault]
+) -> Verdict:
     if together:
         return Verdict.MISSING
     if left is not None or any(each.comes_first or each.kind is FaultKind.WRONG_UNIT for each in faults):
@@ -300,11 +304,11 @@ def _verdict(left: Remainder | None, together: Sequence[Effect], faults: Iterabl
     return Verdict.ADEQUATE
 
 
-def _may_be_noise(error: ErrorNumbers, fitted: Fit) -> bool:
+def _is_perhaps_noise(error: ErrorNumbers, fitted: Fit) -> bool:
     """Return whether the repeats scatter so much that the error may be their scatter alone."""
-    if _is_noise(error, lasting_floor(fitted.design, fitted.deviation)):
+    if _is_noise(error, estimate_lasting_floor(fitted.design, fitted.deviation)):
         return True
-    ratio, within = error.chi2_per_dof, repeats(fitted.design, fitted.residual)
+    ratio, within = error.chi2_per_dof, find_repeats(fitted.design, fitted.residual)
     return ratio is None or f_tail(ratio, fitted.degrees, within.degrees) > _IMPROBABLE
 
 
@@ -320,7 +324,7 @@ def _complete(fitted: Fit, named: Iterable[NamedEffect], makeshift: Iterable[str
     found = fitted
     for each in named:
         try:
-            found = with_member(found, each.leading.member)
+            found = fit_with_member(found, each.leading.member)
         except ModelError:
             break
     for name in makeshift:
@@ -330,18 +334,18 @@ def _complete(fitted: Fit, named: Iterable[NamedEffect], makeshift: Iterable[str
     return found
 
 
-def error_numbers(fitted: Fit) -> ErrorNumbers:
+def compute_error_numbers(fitted: Fit) -> ErrorNumbers:
     """Return how far a fitted model is from the readings."""
-    floor = noise_floor(fitted.design, fitted.deviation)
+    floor = estimate_noise_floor(fitted.design, fitted.deviation)
     return ErrorNumbers(
         fitted.rms,
         floor,
         (fitted.rms / floor) ** 2 if floor else None,
-        cross_validated_rms(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
+        cross_validate(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
     )
 
 
-def _candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
+def _list_candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candidate]:
     """Yield the effects of a set, each with its equals behind it; where there is no set, the others."""
     seen: set[str] = set()
     for each in finding.named:
@@ -350,28 +354,28 @@ def _candidates(finding: ContestFinding, before: ErrorNumbers) -> Iterator[Candi
             if one.identifier not in seen:
                 seen.add(one.identifier)
                 rest = [other for other in group if other is not one]
-                yield from _candidate(finding.fit, one, rest, before)
+                yield from _make_candidate(finding.fit, one, rest, before)
     for each in finding.named:
         for other in each.behind:
             if other.identifier not in seen:
                 seen.add(other.identifier)
-                yield from _candidate(finding.fit, other, (), before)
+                yield from _make_candidate(finding.fit, other, (), before)
     for other in finding.others:
-        yield from _candidate(finding.fit, other, (), before)
+        yield from _make_candidate(finding.fit, other, (), before)
 
 
-def _candidate(
+def _make_candidate(
     base: Fit, rival: StandIn, equals: Sequence[StandIn], before: ErrorNumbers
 ) -> Iterator[Candidate]:
     """Yield an effect as a candidate, if the readings determine it beside the job's model."""
     try:
-        after = with_member(base, rival.member)
+        after = fit_with_member(base, rival.member)
     except ModelError:
         return
     share = _share(base, after, before.noise_rms)
     estimates = tuple(each for each in after.estimates if each.effect == rival.identifier)
-    question = next(filter(None, (_question(each, base.design) for each in estimates)), None)
-    contradiction = next(filter(None, (_contradiction(each, base.design) for each in estimates)), None)
+    question = next(filter(None, (_say_question(each, base.design) for each in estimates)), None)
+    contradiction = next(filter(None, (_say_contradiction(each, base.design) for each in estimates)), None)
     values = {each.parameter.name: each.value for each in estimates}
     yield Candidate(
         effect=rival.member.effect,
@@ -379,30 +383,30 @@ def _candidate(
         p_value_is_extrapolated=rival.p_value.is_extrapolated,
         probability=rival.probability,
         evidence=rival.evidence,
-        error=error_numbers(after),
+        error=compute_error_numbers(after),
         estimates=estimates,
         share=share,
-        explains=_explains(base, after, share),
+        explains=_say_explains(base, after, share),
         equals=tuple(each.identifier for each in equals),
-        discriminate_by=discriminate_by(rival.member.effect, [each.member.effect for each in equals]),
+        discriminate_by=say_what_discriminates(rival.member.effect, [each.member.effect for each in equals]),
         is_plausible=rival.member.effect.forbids(base.design, values) is None,
         is_large=question is not None,
         question=question or contradiction,
     )
 
 
-def _question(estimate: Estimate, design: Design) -> Words | None:
+def _say_question(estimate: Estimate, design: Design) -> Words | None:
     """Return what is asked of a parameter that is beyond doubt far from usual; None of any other."""
     if design.time_is_counted and estimate.parameter.dimension is Dimension.TIME:
         return None
-    low, high = usual_range(estimate.parameter, design.axis.kind)
+    low, high = find_usual_range(estimate.parameter, design.axis.kind)
     reach = estimate.expanded_uncertainty
     if estimate.value + reach >= low and estimate.value - reach <= high:
         return None
-    return asked_of(estimate.parameter, estimate.value, design.axis)
+    return ask_of(estimate.parameter, estimate.value, design.axis)
 
 
-def _contradiction(estimate: Estimate, design: Design) -> Words | None:
+def _say_contradiction(estimate: Estimate, design: Design) -> Words | None:
     """Return that the readings contradict a value that follows from the job; None if they do not."""
     if estimate.expected is None or estimate.is_given:
         return None
@@ -410,19 +414,19 @@ def _contradiction(estimate: Estimate, design: Design) -> Words | None:
     if off <= max(estimate.expanded_uncertainty, _CONTRADICTS * abs(estimate.expected)):
         return None
     kind = design.axis.kind
-    unit = unit_of(estimate.parameter.dimension, kind, time_is_counted=design.time_is_counted)
+    unit = find_unit_of(estimate.parameter.dimension, kind, time_is_counted=design.time_is_counted)
     fitted, stated = (
-        _IN_UNIT.given(value=significant_words(unit.from_si(value)), unit=behind(unit.symbol))
+        _IN_UNIT.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
         for value in (estimate.value, estimate.expected)
     )
     return _JOB_SAYS.given(fitted=fitted, stated=stated, name=estimate.parameter.description)
 
 
-def discriminate_by(effect: Effect, equals: Sequence[Effect]) -> Words | None:
+def say_what_discriminates(effect: Effect, equals: Sequence[Effect]) -> Words | None:
     """Return the measurements that would tell an effect from its equals, as the effects' pages name them."""
     found: dict[str, Words] = {}
     for other in equals:
-        words = _told_apart(effect, other) or _told_apart(other, effect)
+        words = _say_what_tells_apart(effect, other) or _say_what_tells_apart(other, effect)
         if words is not None:
             found.setdefault(other.identifier, words)
     if not found:
@@ -434,7 +438,7 @@ def discriminate_by(effect: Effect, equals: Sequence[Effect]) -> Words | None:
     return together
 
 
-def _told_apart(one: Effect, other: Effect) -> Words | None:
+def _say_what_tells_apart(one: Effect, other: Effect) -> Words | None:
     return next((each.told_apart_by for each in one.confusions if each.effect == other.identifier), None)
 
 
@@ -447,7 +451,7 @@ def _share(before: Fit, after: Fit, floor: float | None) -> float | None:
     return max(0.0, 1.0 - open_after / open_before) if open_before > 0 else 1.0
 
 
-def _explains(before: Fit, after: Fit, share: float | None) -> Words:
+def _say_explains(before: Fit, after: Fit, share: float | None) -> Words:
     axis = before.design.axis
     if share is None:
         return _NO_FLOOR.given(
@@ -459,7 +463,9 @@ def _explains(before: Fit, after: Fit, share: float | None) -> Words:
     return _CONTRIBUTES.given(share=percent, left=wording.deviation(axis, after.rms))
 
 
-def _not_excluded(candidates: Sequence[Candidate], not_testable: Sequence[NotTestable]) -> tuple[str, ...]:
+def _list_not_excluded(
+    candidates: Sequence[Candidate], not_testable: Sequence[NotTestable]
+) -> tuple[str, ...]:
     """Return effects that could not be tried and would look like the first candidate."""
     if not candidates:
         return ()

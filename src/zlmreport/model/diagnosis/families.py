@@ -18,8 +18,8 @@ from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.fitting.contrasts import Contrasts
-from zlmreport.model.fitting.pauses import pauses
-from zlmreport.model.fitting.repeats import cells
+from zlmreport.model.fitting.pauses import find_pauses
+from zlmreport.model.fitting.repeats import number_cells
 
 #: 2·ln of the odds against each installed effect, if nothing is known: of some thirty, one or two are there.
 PRICE = 6.0
@@ -52,7 +52,7 @@ class Family:
         return self.effect.identifier
 
 
-def families_of(
+def list_families_of(
     design: Design,
     columns: Columns,
     entries: Iterable[Entry],
@@ -71,7 +71,7 @@ def families_of(
         count[effect.identifier] += 1
     found, unseen = [], {}
     for effect, thetas in listed:
-        blocks, ranks, seen = orthonormal(columns.space, design, effect, thetas, least_visible)
+        blocks, ranks, seen = make_orthonormal(columns.space, design, effect, thetas, least_visible)
         if not len(seen):
             unseen[effect.identifier] = effect
             continue
@@ -84,7 +84,7 @@ def families_of(
                 thetas[seen],
                 places.reshape(len(seen), width),
                 ranks,
-                _log_weights(design, effect, thetas[seen]),
+                _compute_log_weights(design, effect, thetas[seen]),
                 price,
                 is_named,
             )
@@ -93,7 +93,7 @@ def families_of(
     return tuple(found), tuple(each for name, each in unseen.items() if name not in known)
 
 
-def orthonormal(
+def make_orthonormal(
     space: Contrasts, design: Design, effect: Effect, thetas: FloatArray, least: float
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Return what of an effect is seen beside the model, for each of some values of its parameters.
@@ -120,7 +120,7 @@ def orthonormal(
     return together, independent.sum(axis=1).astype(np.int64), seen.astype(np.int64)
 
 
-def _log_weights(design: Design, effect: Effect, thetas: FloatArray) -> FloatArray:
+def _compute_log_weights(design: Design, effect: Effect, thetas: FloatArray) -> FloatArray:
     """Return ln of the prior probabilities of values: all alike, but for some in time.
 
     What happens at one moment happens in a long pause rather than between two readings. A wave in time whose
@@ -129,12 +129,12 @@ def _log_weights(design: Design, effect: Effect, thetas: FloatArray) -> FloatArr
     """
     weights = np.ones(len(thetas))
     for column, each in enumerate(effect.searched):
-        if each.dimension is Dimension.TIME and not each.is_refined and pauses(design).any():
+        if each.dimension is Dimension.TIME and not each.is_refined and find_pauses(design).any():
             moments = np.unique(design.time)
             after = np.clip(np.searchsorted(moments, thetas[:, column]), 1, len(moments) - 1)
             weights *= moments[after] - moments[after - 1]
     is_time = [each.name == "period" and each.dimension is Dimension.TIME for each in effect.searched]
-    cell = cells(design)
+    cell = number_cells(design)
     count = np.bincount(cell)
     if any(is_time) and len(thetas) > 1 and count.max() > 1:
         for number, theta in enumerate(thetas):
@@ -149,10 +149,10 @@ def _log_weights(design: Design, effect: Effect, thetas: FloatArray) -> FloatArr
 def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[Family]) -> bool:
     """Return whether installed effects have a form already, at most of its values: it is no rival."""
     thetas, known = form.grid(design), 0
-    searched = _searched(thetas)
-    as_free = [each for each in families if _searched(each.thetas) >= searched]
+    searched = _count_searched(thetas)
+    as_free = [each for each in families if _count_searched(each.thetas) >= searched]
     for number in np.linspace(0, len(thetas) - 1, _SAMPLES).round().astype(int).tolist():
-        blocks, _, seen = orthonormal(columns.space, design, form, thetas[number : number + 1], 1e-6)
+        blocks, _, seen = make_orthonormal(columns.space, design, form, thetas[number : number + 1], 1e-6)
         if not len(seen):
             continue
         imitated = 0.0
@@ -164,12 +164,12 @@ def is_known(form: Effect, design: Design, columns: Columns, families: Sequence[
     return known > _SAMPLES / 2
 
 
-def _searched(thetas: FloatArray) -> int:
+def _count_searched(thetas: FloatArray) -> int:
     """Return how many parameters differ between the values of a grid."""
     return int(np.count_nonzero(np.ptp(thetas, axis=0) > 0))
 
 
-def forms_by_effect(families: Sequence[Family]) -> tuple[tuple[int, ...], ...]:
+def group_forms_by_effect(families: Sequence[Family]) -> tuple[tuple[int, ...], ...]:
     """Return for each installed effect the places of its forms among some families."""
     by_effect: dict[str, list[int]] = {}
     for place, each in enumerate(families):

@@ -15,14 +15,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import Observations, of_readings
-from zlmreport.model.fitting.pauses import pauses
-from zlmreport.model.fitting.repeats import noise_floor, repeats
-from zlmreport.model.fitting.sessions import of_the_job
+from zlmreport.model.fitting.observations import Observations, select_readings
+from zlmreport.model.fitting.pauses import find_pauses
+from zlmreport.model.fitting.repeats import estimate_noise_floor, find_repeats
+from zlmreport.model.fitting.sessions import select_of_the_job
 
 if TYPE_CHECKING:
     from zlmreport.model.effects.effect import Effect
@@ -95,7 +95,7 @@ class DataFault:
         return self.probability >= 1.0
 
 
-def faults_of(
+def find_faults_of(
     observed: Observations,
     before: Fit,
     complete: Fit,
@@ -107,32 +107,32 @@ def faults_of(
 
     `before`, `complete`: The job's model, and the same with all effects that a contest found.
     """
-    own = of_the_job(observed)
-    recorded = recorded_faults(own.design, own.deviation)
+    own = select_of_the_job(observed)
+    recorded = find_recorded_faults(own.design, own.deviation)
     rivals = [complete] if is_something_missing else []
     by_runs = run_faults(before, rivals)
-    lagging = lagging_sensors(before, rivals, effects)
+    lagging = find_lagging_sensors(before, rivals, effects)
     known = {(each.kind, each.run): each for each in recorded}
     found = [known.pop((each.kind, each.run), each) for each in (*by_runs, *lagging)]
     return (*found, *known.values())
 
 
-def gaps(design: Design) -> Iterator[Words]:
+def find_gaps(design: Design) -> Iterator[Words]:
     """Yield what is to be said of long gaps in time: what lies on either side is a session of its own."""
-    for place in np.flatnonzero(pauses(design) & (np.diff(design.cycle) != 0)).tolist():
-        hours = significant_words(float(design.time[place + 1] - design.time[place]) / 3600.0, 2)
+    for place in np.flatnonzero(find_pauses(design) & (np.diff(design.cycle) != 0)).tolist():
+        hours = write_significant(float(design.time[place + 1] - design.time[place]) / 3600.0, 2)
         yield _GAP.given(hours=hours, before=int(design.run[place]), after=int(design.run[place + 1]))
 
 
-def recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFault, ...]:
+def find_recorded_faults(design: Design, deviation: FloatArray) -> tuple[DataFault, ...]:
     """Return what the rows themselves show, without any model."""
     return (
-        *_against_the_order(design),
-        *_duplicated(design, deviation),
-        *_of_wrong_targets(design, deviation),
-        *_of_the_clock(design),
-        *_of_sensors(design),
-        *_of_units(design, deviation),
+        *_find_against_the_order(design),
+        *_find_duplicated(design, deviation),
+        *_find_wrong_targets(design, deviation),
+        *_find_faults_of_the_clock(design),
+        *_find_faults_of_sensors(design),
+        *_find_faults_of_units(design, deviation),
     )
 
 
@@ -151,12 +151,12 @@ def run_faults(
     runs = np.unique(design.cycle)
     if len(runs) < _FEWEST_RUNS:
         return ()
-    spread = repeats(design, deviation).squares
-    by_effects = min((*map(_within, rivals), spread))
+    spread = find_repeats(design, deviation).squares
+    by_effects = min((*map(_sum_squares_within, rivals), spread))
     tried = [
         (kind, run, left, whole, count)
         for run in runs.tolist()
-        for kind, left, whole, count in _slips(design, deviation, design.cycle == run)
+        for kind, left, whole, count in _try_slips(design, deviation, design.cycle == run)
     ]
     found = []
     for kind, run, left, whole, count in tried:
@@ -169,24 +169,26 @@ def run_faults(
         if evidence > _STRONG and ahead > 0:
             statement, remedy = _OF_RUNS[kind]
             fault = DataFault(
-                kind, run, _probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER
+                kind, run, _compute_probability(ahead), statement.given(run=run), remedy, ahead > _FARTHER
             )
             found.append((evidence, fault))
     return tuple(fault for _, fault in sorted(found, key=lambda each: -each[0])[:1])
 
 
-def _within(fitted: Fit) -> float:
+def _sum_squares_within(fitted: Fit) -> float:
     """Return the sum of squares that a model leaves within the repeats."""
-    return repeats(fitted.design, fitted.residual).squares
+    return find_repeats(fitted.design, fitted.residual).squares
 
 
-def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]) -> tuple[DataFault, ...]:
+def find_lagging_sensors(
+    fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect]
+) -> tuple[DataFault, ...]:
     """Return a temperature log that explains as much as any effect, if its sensor lagged behind.
 
     `rivals`: The same with each of the best effects; nothing is said where none is better than nothing.
     """
     design, readings = fitted.design, len(fitted.deviation)
-    floor = noise_floor(design, fitted.deviation)
+    floor = estimate_noise_floor(design, fitted.deviation)
     if not rivals or floor is None or design.time_is_counted or design.duration == 0:
         return ()
     # A lag turns a log into another: only one with which nothing is left is worth a word.
@@ -197,16 +199,16 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
     for name in design.conditions:
         if not name.endswith("temperature") or moments < _FEWEST_STUCK:
             continue
-        log, rate = design.conditions[name], _rate(design, name)
-        for effect in _followers(effects, design, name):
+        log, rate = design.conditions[name], _compute_rate(design, name)
+        for effect in _list_followers(effects, design, name):
             # What follows the log as it stands, as it does one that stands still, tells of no lag.
-            as_logged = _squares_left(
+            as_logged = _compute_squares_left(
                 np.column_stack([base, effect.columns(design, effect.grid(design)[0])]), fitted.open_deviation
             )
             for lag in _LAGS:
                 corrected = replace(design, conditions={**design.conditions, name: log + lag * rate})
                 columns = np.column_stack([base, effect.columns(corrected, effect.grid(corrected)[0])])
-                left = _squares_left(columns, fitted.open_deviation)
+                left = _compute_squares_left(columns, fitted.open_deviation)
                 if left > enough or readings * np.log(as_logged / max(left, 1e-12 * as_logged)) < _LAGGING:
                     continue
                 found.append((readings * float(np.log(least / max(left, 1e-12 * least))), name, lag))
@@ -216,14 +218,16 @@ def lagging_sensors(fitted: Fit, rivals: Sequence[Fit], effects: Iterable[Effect
     # The effect that leads was searched over as many time constants: neither pays more than the other.
     if evidence < _AS_GOOD:
         return ()
-    statement = _LAGS_BEHIND.given(column=name, minutes=significant_words(lag / 60, 1))
+    statement = _LAGS_BEHIND.given(column=name, minutes=write_significant(lag / 60, 1))
     kind = FaultKind.LAGGING_SENSOR
     return (
-        DataFault(kind, None, _probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING),
+        DataFault(
+            kind, None, _compute_probability(evidence), statement, _OTHER_SENSOR, explains=evidence > _LAGGING
+        ),
     )
 
 
-def _rate(design: Design, name: str) -> FloatArray:
+def _compute_rate(design: Design, name: str) -> FloatArray:
     """Return how fast a log changes at each reading, each session by its own clock, shape (N,)."""
     log, found = design.conditions[name], np.zeros(len(design.time))
     for session in np.unique(design.session):
@@ -234,33 +238,33 @@ def _rate(design: Design, name: str) -> FloatArray:
     return found
 
 
-def _probability(ahead: float) -> float:
+def _compute_probability(ahead: float) -> float:
     """Return the probability of a fault by its evidence ahead of the best effect; never quite one."""
     return min(_ALMOST, float(1.0 / (1.0 + np.exp(-min(ahead, _ALMOST_SURE) / 2))))
 
 
-def _slips(
+def _try_slips(
     design: Design, deviation: FloatArray, own: BoolArray
 ) -> Iterator[tuple[FaultKind, float, float, int]]:
     """Yield of each slip what is left within the repeats without it, what as it stands, with what degrees."""
-    as_it_stands = repeats(design, deviation)
+    as_it_stands = find_repeats(design, deviation)
     whole, degrees = as_it_stands.squares, as_it_stands.degrees
     if design.is_bidirectional:
         turned = replace(design, direction=np.where(own, -design.direction, design.direction))
-        yield FaultKind.SWAPPED_DIRECTION, repeats(turned, deviation).squares, whole, degrees
+        yield FaultKind.SWAPPED_DIRECTION, find_repeats(turned, deviation).squares, whole, degrees
     negated = np.where(own, -deviation, deviation)
-    yield FaultKind.WRONG_SIGN, repeats(design, negated).squares, whole, degrees
+    yield FaultKind.WRONG_SIGN, find_repeats(design, negated).squares, whole, degrees
     for step in (1, -1):
-        source = _moved_by(design, own, step)
+        source = _find_moved_by(design, own, step)
         kept = np.flatnonzero(source >= 0)
         if len(kept) > len(deviation) // 2:
-            subset = of_readings(design, kept)
-            stands = repeats(subset, deviation[kept])
-            left = repeats(subset, deviation[source[kept]]).squares
+            subset = select_readings(design, kept)
+            stands = find_repeats(subset, deviation[kept])
+            left = find_repeats(subset, deviation[source[kept]]).squares
             yield FaultKind.SHIFTED_RUN, left, stands.squares, stands.degrees
 
 
-def _moved_by(design: Design, own: BoolArray, step: int) -> IntArray:
+def _find_moved_by(design: Design, own: BoolArray, step: int) -> IntArray:
     """Return for each reading that of the next target in the same run and direction, where it is of a run."""
     places = {
         (run, sign, target): place
@@ -275,7 +279,7 @@ def _moved_by(design: Design, own: BoolArray, step: int) -> IntArray:
     return np.asarray(source, dtype=np.int64)
 
 
-def _followers(effects: Iterable[Effect], design: Design, log: str) -> Iterator[Effect]:
+def _list_followers(effects: Iterable[Effect], design: Design, log: str) -> Iterator[Effect]:
     """Yield forms of effects that follow a log and have nothing to be searched."""
     without = replace(
         design, conditions={name: each for name, each in design.conditions.items() if name != log}
@@ -287,13 +291,13 @@ def _followers(effects: Iterable[Effect], design: Design, log: str) -> Iterator[
                 yield form
 
 
-def _squares_left(columns: FloatArray, deviation: FloatArray) -> float:
+def _compute_squares_left(columns: FloatArray, deviation: FloatArray) -> float:
     lengths = np.linalg.norm(columns, axis=0)
     scaled = columns / np.where(lengths > 0, lengths, 1.0)
     return float(np.sum((deviation - scaled @ np.linalg.lstsq(scaled, deviation, rcond=None)[0]) ** 2))
 
 
-def _against_the_order(design: Design) -> Iterator[DataFault]:
+def _find_against_the_order(design: Design) -> Iterator[DataFault]:
     """Yield runs whose rows lead the other way than their directions say, where others do not."""
     agrees = {}
     for run in np.unique(design.cycle).tolist():
@@ -310,7 +314,7 @@ def _against_the_order(design: Design) -> Iterator[DataFault]:
             yield DataFault(FaultKind.SWAPPED_DIRECTION, run, 1.0, words, remedy)
 
 
-def _duplicated(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+def _find_duplicated(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield runs that repeat another reading for reading, where readings do not repeat as a rule."""
     runs = {
         run: deviation[design.cycle == run][
@@ -330,7 +334,7 @@ def _duplicated(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
             yield DataFault(FaultKind.DUPLICATED_RUN, other, 1.0, statement, _EXCLUDE_RUN.given(run=other))
 
 
-def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+def _find_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield readings that are off by the distance to another target."""
     targets = design.target_positions
     if len(targets) < _FEWEST_RUNS:
@@ -347,7 +351,7 @@ def _of_wrong_targets(design: Design, deviation: FloatArray) -> Iterator[DataFau
             yield DataFault(FaultKind.WRONG_TARGET, int(design.cycle[place]), 1.0, statement, _CORRECT_TARGET)
 
 
-def _of_the_clock(design: Design) -> Iterator[DataFault]:
+def _find_faults_of_the_clock(design: Design) -> Iterator[DataFault]:
     """Yield where the time falls, or jumps within a run."""
     if design.time_is_counted:
         return
@@ -357,7 +361,7 @@ def _of_the_clock(design: Design) -> Iterator[DataFault]:
         yield DataFault(FaultKind.CLOCK_JUMP, int(design.cycle[place + 1]), 1.0, statement, _CORRECT_CLOCK)
 
 
-def _of_sensors(design: Design) -> Iterator[DataFault]:
+def _find_faults_of_sensors(design: Design) -> Iterator[DataFault]:
     """Yield logs that are in each other's columns, and logs that stopped while others went on."""
     outside = {
         name: not bool(np.all((low <= log) & (log <= high)))
@@ -376,7 +380,7 @@ def _of_sensors(design: Design) -> Iterator[DataFault]:
             yield DataFault(FaultKind.STUCK_SENSOR, None, _ALMOST, statement, _EXCLUDE_LOG)
 
 
-def _of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
+def _find_faults_of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
     """Yield runs of another size than all others, and a test that is hardly any deviation at all."""
     sizes = {
         run: float(np.median(np.abs(deviation[design.cycle == run])))
@@ -389,7 +393,7 @@ def _of_units(design: Design, deviation: FloatArray) -> Iterator[DataFault]:
             statement, remedy = _OF_RUNS[FaultKind.WRONG_UNIT]
             yield DataFault(FaultKind.WRONG_UNIT, run, _ALMOST, statement.given(run=run), remedy)
     # A single reading at another target is no scatter.
-    floor = _NORMAL * float(np.median(np.abs(repeats(design, deviation).centred)))
+    floor = _NORMAL * float(np.median(np.abs(find_repeats(design, deviation).centred)))
     largest = float(np.abs(deviation).max())
     if 0 < largest < _TINY:
         statement = _TINY_TEST.given(size=wording.deviation(design.axis, largest))

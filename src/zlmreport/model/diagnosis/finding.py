@@ -13,20 +13,26 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import effects_to_try
-from zlmreport.model.diagnosis.contest import Contest, Told, untold
-from zlmreport.model.diagnosis.forms import unnamed_forms
-from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue, Scores, chances_of, simulate_null
-from zlmreport.model.diagnosis.remainder import Remainder, remainder_of
+from zlmreport.model.diagnosis.candidates import list_effects_to_try
+from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.null_distribution import (
+    LEVEL,
+    PValue,
+    Scores,
+    compute_chances_of,
+    simulate_null,
+)
+from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
 from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch
-from zlmreport.model.diagnosis.visibility import Visibility, visibility
+from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.fitting.fit import Fit, fit
 from zlmreport.model.fitting.noise import Noise
 from zlmreport.model.fitting.priors import PriorExpectation
-from zlmreport.model.fitting.repeats import resolution
+from zlmreport.model.fitting.repeats import find_resolution
 from zlmreport.model.fitting.search import Thetas
 
 # Of evidence, 2·ln of a Bayes factor, less than 2 is "not worth more than a bare mention", 2 to 6 positive, 6
@@ -103,7 +109,7 @@ def find(  # noqa: PLR0913 - what is known, what may be, and who is told
     *,
     may_go: frozenset[str] = frozenset(),
     is_left: bool = False,
-    told: Told = untold,
+    told: Told = tell_nobody,
 ) -> ContestFinding:
     """Return what a contest of all effects beside a fitted model comes to.
 
@@ -112,13 +118,13 @@ def find(  # noqa: PLR0913 - what is known, what may be, and who is told
     `is_left`: Whether something is left in any case, whatever chance says of the contest.
     """
     stated = _Stated.of(fitted, effects, expected, may_go, is_left=is_left)
-    first = _contested(stated, 0.0, lambda share: told(0.8 * share))
+    first = _contest_effects(stated, 0.0, lambda share: told(0.8 * share))
     if first.found is None:
         return first.finding
-    memory = _memory(stated, first.found)
+    memory = _estimate_memory(stated, first.found)
     if memory:
         # Readings that forget slowly look like many a cause: all is held against that once more.
-        again = _contested(stated, memory, told)
+        again = _contest_effects(stated, memory, told)
         if again.found is None or again.found.score < first.found.score:
             return again.finding
     told(1.0)
@@ -149,14 +155,14 @@ class _Stated:
     ) -> _Stated:
         own = tuple(each for each in fitted.model.terms if each.effect.identifier not in may_go)
         effects = tuple(effects)
-        entered = effects_to_try(AxisModel(own), fitted.design, effects).forms
+        entered = list_effects_to_try(AxisModel(own), fitted.design, effects).forms
         # Beside a joint that may go there may be a second, and that stays when the first goes.
         names = {each.identifier for each in (*entered, *(term.effect for term in own))}
         going = [term.effect for term in fitted.model.terms if term.effect.identifier in may_go]
         several = [each for each in effects if each.several]
         further = [
             *(form for each in going if each.several for form in each.forms()),
-            *(effects_to_try(fitted.model, fitted.design, several).forms if going else ()),
+            *(list_effects_to_try(fitted.model, fitted.design, several).forms if going else ()),
         ]
         is_linear = all(len(theta) == 0 for theta in fitted.solution.thetas)
         return cls(
@@ -165,7 +171,7 @@ class _Stated:
             expected.in_units_of(fitted.noise.sigma) if expected else None,
             may_go,
             is_left,
-            known_noise(fitted),
+            find_known_noise(fitted),
             _LEAST_VISIBLE if is_linear else _LEAST_VISIBLE_LATER,
         )
 
@@ -182,7 +188,7 @@ class _Stated:
             self.fitted.open_deviation,
             weights=self.fitted.noise.weights,
             memory=memory,
-            forms=unnamed_forms(self.fitted.design),
+            forms=list_unnamed_forms(self.fitted.design),
             known=self.known,
             least_visible=self.least_visible,
             expected=self.expected,
@@ -211,7 +217,7 @@ class _Contested:
     found: EffectSet | None
 
 
-def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
+def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     fitted, contest = stated.fitted, stated.contest(memory)
     told(0.05)
     search = SetSearch(contest)
@@ -226,17 +232,17 @@ def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
     reduced = contest.reduced(start.amplitudes, start.columns)
     sigma = float(np.sqrt(contest.left(reduced)[0] / contest.space.degrees))
     noise = Noise(sigma, contest.ratios_of(start.amplitudes), fitted.noise.weights)
-    visible = visibility(contest, null, reduced, sigma)
+    visible = judge_visibility(contest, null, reduced, sigma)
     told(0.2)
     most = max(float(each.max(initial=-np.inf)) for each in (observed.evidence, observed.nameless))
     if not stated.is_left and (p_value.value > LEVEL or most < MENTION):
         return _Contested(ContestFinding(fitted, noise, p_value, (), (), (), None, visible), None)
     found = search.found(start.members, lambda share: told(0.2 + 0.6 * share))
-    found = search.renumbered(_believed(search, found))
+    found = search.renumbered(_believe_set(search, found))
     before = {(each.identifier, each.effect.settings) for each in start.members}
     named = tuple(
-        _named(search, found, number)
-        for number in _in_order(contest, found)
+        _name_effect(search, found, number)
+        for number in _put_in_order(contest, found)
         if (found.members[number].identifier, found.members[number].effect.settings) not in before
     )
     finding = ContestFinding(
@@ -244,16 +250,16 @@ def _contested(stated: _Stated, memory: float, told: Told) -> _Contested:
         noise=noise,
         p_value=p_value,
         named=named,
-        others=() if named else tuple(_others(search, found)),
+        others=() if named else tuple(_list_others(search, found)),
         makeshift=tuple(sorted(stated.may_go - {each.identifier for each in found.named})),
-        remainder=remainder_of(search, found, fitted),
+        remainder=find_remainder_of(search, found, fitted),
         visible=visible,
     )
     told(1.0)
     return _Contested(finding, found)
 
 
-def _memory(stated: _Stated, found: EffectSet) -> float:
+def _estimate_memory(stated: _Stated, found: EffectSet) -> float:
     """Return the time over which a reading is forgotten beside a set; 0 where it is alone."""
     design = stated.fitted.design
     steps = np.diff(design.time)[np.diff(design.session) == 0]
@@ -265,7 +271,7 @@ def _memory(stated: _Stated, found: EffectSet) -> float:
     return best if scores[best] < scores[0.0] - _REMEMBERS else 0.0
 
 
-def _believed(search: SetSearch, found: EffectSet) -> EffectSet:
+def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
     """Return a set without those that have no evidence of their own, one after another.
 
     Where several could stand in a place, it is their evidence together that something stands there.
@@ -286,7 +292,7 @@ def _believed(search: SetSearch, found: EffectSet) -> EffectSet:
     return found
 
 
-def _in_order(contest: Contest, found: EffectSet) -> list[int]:
+def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:
     """Return the named members of a set, always the one next that takes most of what is left."""
     values = contest.columns.values
     open_ = [number for number, each in enumerate(found.members) if each.family.is_named]
@@ -305,7 +311,7 @@ def _in_order(contest: Contest, found: EffectSet) -> list[int]:
     return chosen
 
 
-def _named(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
+def _name_effect(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
     """Return an effect of a set with those that could stand in its place."""
     rest = search.without(found, number)
     member = found.members[number]
@@ -314,14 +320,16 @@ def _named(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
     weights = np.exp(-0.5 * (scores - scores.min()))
     members = [member, *(each.members[-1] for each in sets[1:])]
     beside = [each.columns for place, each in enumerate(found.members) if place != number]
-    chances = chances_of(search.contest, found.amplitudes, beside, [each.identifier for each in members])
+    chances = compute_chances_of(
+        search.contest, found.amplitudes, beside, [each.identifier for each in members]
+    )
     rivals = [
         StandIn(each, float(weight / weights.sum()), rest.score - whole.score, chances[each.identifier])
         for each, whole, weight in zip(members, sets, weights[1:], strict=True)
     ]
     design = search.contest.design
     near = [each for each in rivals if each.evidence > rivals[0].evidence - MENTION]
-    leading = min(near, key=lambda each: (_assumptions(each.member.effect, design), -each.evidence))
+    leading = min(near, key=lambda each: (_count_assumptions(each.member.effect, design), -each.evidence))
     others = [each for each in rivals if each is not leading]
     is_equal = [each.evidence > rivals[0].evidence - TOLD_APART for each in others]
     names = {each.identifier for each in found.members}
@@ -336,7 +344,7 @@ def _named(search: SetSearch, found: EffectSet, number: int) -> NamedEffect:
     )
 
 
-def _assumptions(effect: Effect, design: Design) -> int:
+def _count_assumptions(effect: Effect, design: Design) -> int:
     """Return how much an effect takes for granted: a log that it follows, parameters that are searched.
 
     A constant is a constant before it is the dead path of a beam in air that hardly changes.
@@ -346,17 +354,17 @@ def _assumptions(effect: Effect, design: Design) -> int:
     return searched + follows_a_log
 
 
-def _others(search: SetSearch, found: EffectSet) -> Iterator[StandIn]:
+def _list_others(search: SetSearch, found: EffectSet) -> Iterator[StandIn]:
     """Yield the effects that explain most beside what has no name, where none has evidence of its own."""
     tried = search.ahead(found)
     names = [each.members[-1].identifier for each in tried]
-    chances = chances_of(search.contest, found.amplitudes, found.columns, names) if names else {}
+    chances = compute_chances_of(search.contest, found.amplitudes, found.columns, names) if names else {}
     for name, each in zip(names, tried, strict=True):
         odds = float(np.exp(-0.5 * min(max(each.score - found.score, -_CERTAIN), _CERTAIN)))
         yield StandIn(each.members[-1], odds / (1.0 + odds), found.score - each.score, chances[name])
 
 
-def known_noise(fitted: Fit) -> float:
+def find_known_noise(fitted: Fit) -> float:
     """Return the standard deviation of what repeats do not show and no effect is asked to explain, m or rad.
 
     Repeats share the rounding of the instrument, and no equation of a machine is exact: the wave of a screw
@@ -365,12 +373,12 @@ def known_noise(fitted: Fit) -> float:
     may have half the size of all of it (`noise`).
     """
     unit = fitted.design.axis.deviation_unit
-    rounding = unit.to_si(resolution(unit.from_si(fitted.deviation))) / 12**0.5
+    rounding = unit.to_si(find_resolution(unit.from_si(fitted.deviation))) / 12**0.5
     inexact = _INEXACT_MISFIT * float(np.std(fitted.residual)), _INEXACT_MODEL * float(np.std(fitted.fitted))
     return 2.0 * float(np.hypot(rounding, np.hypot(*inexact)))
 
 
-def with_member(fitted: Fit, member: SetMember) -> Fit:
+def fit_with_member(fitted: Fit, member: SetMember) -> Fit:
     """Return the fit of a model with an effect, where a contest found it.
 
     Raises `ModelError` if the readings do not determine it.

@@ -13,7 +13,7 @@ from itertools import product
 
 import numpy as np
 
-from zlmreport.job.formula import names_in, parse_formula
+from zlmreport.job.formula import find_names_in, parse_formula
 from zlmreport.job.formula_keys import FormulaKeys, FormulaParameter
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
@@ -127,7 +127,7 @@ class UnnamedForm(FormulaEffect):
         middle, extent = (first + last) / 2, last - first
         stated = {"c": middle if form is BOW else end, "w": extent / 2}
         ranges = {name: (first, last) if name == "c" else (extent / 8, extent / 4) for name in form.searched}
-        super().__init__(_keys((form, carrier), design.axis.kind, stated, ranges), design.axis.kind)
+        super().__init__(_make_keys((form, carrier), design.axis.kind, stated, ranges), design.axis.kind)
         named = dict(zip(form.searched, starts.T, strict=True))
         constant = np.ones(len(starts))
         self.starts = np.column_stack(
@@ -160,7 +160,7 @@ class UnnamedForm(FormulaEffect):
             for name, value in named.items()
         }
         marked = named.get("c") if self.form in LOCAL else named.get("L", named.get("w"))
-        return _keys(
+        return _make_keys(
             (self.form, self.carrier),
             design.axis.kind,
             self.formula.given,
@@ -180,31 +180,31 @@ class UnnamedForm(FormulaEffect):
         return first, last
 
 
-def unnamed_forms(design: Design) -> Iterator[UnnamedForm]:
+def list_unnamed_forms(design: Design) -> Iterator[UnnamedForm]:
     """Yield every form with every carrier that a design can tell."""
     carriers = ("", *_DIRECTIONS) if design.is_bidirectional else ("",)
     for form in _ALONG_AXIS:
-        starts = _starts(form, design.target_positions)
+        starts = _choose_starts(form, design.target_positions)
         for carrier in carriers if len(starts) else ():
             # A periodic form in one direction is the sum of the like and the opposite: these are enough.
             if not ({"L"} & {*form.searched} and carrier in {"up", "down"}):
-                yield from _laid(form, carrier, design, starts)
+                yield from _lay_forms(form, carrier, design, starts)
     moments = np.unique(design.time)
     if design.duration > 0 and not design.session.any():
         for form in _IN_TIME:
-            starts = _starts(form, moments)
+            starts = _choose_starts(form, moments)
             for carrier in sorted(IN_TIME) if len(starts) else ():
-                yield from _laid(form, carrier, design, starts)
+                yield from _lay_forms(form, carrier, design, starts)
 
 
-def _laid(form: Form, carrier: str, design: Design, starts: FloatArray) -> Iterator[UnnamedForm]:
+def _lay_forms(form: Form, carrier: str, design: Design, starts: FloatArray) -> Iterator[UnnamedForm]:
     """Yield a form; a fading one from either end."""
     ends = design.target_positions[[0, -1]] if form is FADING else design.target_positions[:1]
     for end in ends.tolist():
         yield UnnamedForm(form, carrier, design, starts, end)
 
 
-def _starts(form: Form, along: FloatArray) -> FloatArray:
+def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
     """Return values that are tried along a coordinate, SI, shape (g, s)."""
     first, last = float(along[0]), float(along[-1])
     extent, count = last - first, len(along)
@@ -233,7 +233,7 @@ def _starts(form: Form, along: FloatArray) -> FloatArray:
     return np.array(rows, dtype=np.float64).reshape(len(rows), len(form.searched))
 
 
-def _keys(
+def _make_keys(
     laid: tuple[Form, str],
     kind: AxisKind,
     stated: Mapping[str, float],
@@ -257,19 +257,19 @@ def _keys(
     text = form.text.format(
         x="t" if is_time else "P", a=f"a*{before}".rstrip("*"), b=f"b*{before}".rstrip("*")
     )
-    used = [name for name in names_in(parse_formula(text)) if name in _SEARCHED]
+    used = [name for name in find_names_in(parse_formula(text)) if name in _SEARCHED]
     parameters = {name: FormulaParameter(unit=size) for name in ("a", "b") if f"{name}*" in text}
     for name in used:
         if name in ranges:
-            low, high = (_rounded(end * per_si) for end in ranges[name])
+            low, high = (_round_to(end * per_si) for end in ranges[name])
             parameters[name] = FormulaParameter(unit=unit, range=(low, high))
         else:
-            parameters[name] = FormulaParameter(unit=unit, value=_rounded(stated[name] * per_si, _OF_STATED))
+            parameters[name] = FormulaParameter(unit=unit, value=_round_to(stated[name] * per_si, _OF_STATED))
     words = [form.name, *([carrier.lower()] if carrier else [])]
     if marked is not None:
         words += [f"{abs(marked):.0f}", unit]
     return FormulaKeys(name="-".join(words), formula=text, parameters=parameters)
 
 
-def _rounded(value: float, digits: int = _DIGITS) -> float:
+def _round_to(value: float, digits: int = _DIGITS) -> float:
     return float(f"{value:.{digits}g}")

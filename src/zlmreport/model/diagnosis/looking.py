@@ -95,7 +95,7 @@ def look_for(remainder: Remainder, design: Design) -> Look:
     course = remainder.course
     given: dict[str, Words] = {}
     if course.along is Along.PLACE:
-        first, last, step = _stretch(remainder, design)
+        first, last, step = _choose_stretch(remainder, design)
         axis = design.axis
         given = {
             "first": wording.position(axis, first),
@@ -107,7 +107,7 @@ def look_for(remainder: Remainder, design: Design) -> Look:
     return Look(_WHERE[course].given(where=remainder.where), _MEASURE[course].given(**given))
 
 
-def _stretch(remainder: Remainder, design: Design) -> tuple[float, float, float]:
+def _choose_stretch(remainder: Remainder, design: Design) -> tuple[float, float, float]:
     """Return from where to where to measure closer, and the distance of the targets there, m or rad.
 
     What is irregular is so everywhere: two distances about its largest place are enough.

@@ -19,8 +19,8 @@ from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.columns import Columns
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.noise import NoisePart, NoiseSource, by_session
-from zlmreport.model.fitting.pauses import working_time
+from zlmreport.model.fitting.noise import NoisePart, NoiseSource, split_by_session
+from zlmreport.model.fitting.pauses import compute_working_time
 from zlmreport.model.fitting.priors import PriorExpectation
 
 #: 2·ln of the odds against a nameless part, its amplitude chosen among some: rarer than a known cause.
@@ -90,7 +90,7 @@ class CovariancePart:
         return len(self.columns)
 
 
-def parts_of(
+def list_parts_of(
     design: Design,
     columns: Columns,
     noise: tuple[NoisePart, ...],
@@ -126,7 +126,7 @@ def parts_of(
             )
         )
         irregular += is_irregular
-    for shape, course, features in _features(design) if with_nameless else ():
+    for shape, course, features in _list_features(design) if with_nameless else ():
         contrasts = columns.space.of(features)
         size = float(np.sqrt(np.mean(np.sum(contrasts**2, axis=1))))
         if size > _LEAST_VISIBLE * np.sqrt(np.mean(np.sum(features**2, axis=1))):
@@ -136,13 +136,13 @@ def parts_of(
     return tuple(found)
 
 
-def irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
+def make_irregular_factors(noise: tuple[NoisePart, ...]) -> list[FloatArray]:
     """Return the factors of what is irregular from position to position."""
     return [each.factor for each in noise if each.source in _BY_POSITION]
 
 
-def _features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
-    along, moment = _unit(design.position), _unit(working_time(design))
+def _list_features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
+    along, moment = _normalise(design.position), _normalise(compute_working_time(design))
     lever, direction = (2.0 * along - 1.0)[:, np.newaxis], design.direction[:, np.newaxis]
     runs = np.asarray(design.cycle[:, np.newaxis] == np.unique(design.cycle), dtype=np.float64)
     if runs.shape[1] > 1:
@@ -155,14 +155,14 @@ def _features(design: Design) -> Iterator[tuple[Words, Course, FloatArray]]:
         if design.is_bidirectional:
             yield _DIRECTION_PLACE, Course.REVERSAL, direction * place
         if design.duration > 0:
-            time = by_session(design, _smooth(moment, length))
+            time = split_by_session(design, _smooth(moment, length))
             yield _SMOOTH_TIME, Course.TIME, time
             yield _SLOPE_TIME, Course.SLOPE, lever * time
             if design.is_bidirectional:
                 yield _DIRECTION_TIME, Course.REVERSAL_IN_TIME, direction * time
 
 
-def _unit(values: FloatArray) -> FloatArray:
+def _normalise(values: FloatArray) -> FloatArray:
     extent = float(np.ptp(values))
     return np.asarray((values - values.min()) / (extent or 1.0), dtype=np.float64)
 

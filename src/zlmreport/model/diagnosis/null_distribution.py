@@ -66,11 +66,11 @@ class NullDistribution:
     def p_value(self, scores: Scores) -> PValue:
         """Return the chance of such an excess of any candidate: that of a false alarm."""
         excess = float(self.excess(scores)[0])
-        return _p_value(excess, self.excess(Scores(self.ratios, self.nameless_ratios)))
+        return _compute_p_value(excess, self.excess(Scores(self.ratios, self.nameless_ratios)))
 
     def p_value_of_effect(self, index: int, ratio: float) -> PValue:
         """Return the chance of such a likelihood ratio of one effect, its own search allowed for."""
-        return _p_value(ratio, self.ratios[index])
+        return _compute_p_value(ratio, self.ratios[index])
 
 
 def simulate_null(
@@ -81,7 +81,7 @@ def simulate_null(
     `amplitudes`: Those of all parts; the simulated readings have the same.
     `members`: Columns of the set.
     """
-    trials = contest.trials(amplitudes, members, _simulated(contest, amplitudes))
+    trials = contest.trials(amplitudes, members, _simulate(contest, amplitudes))
     usual = np.quantile(trials.ratios, 1 - LEVEL, axis=1)
     usual_of_nameless = np.quantile(trials.nameless, 1 - LEVEL, axis=1)
     blank = NullDistribution(trials.ratios, trials.nameless, usual, usual_of_nameless, np.inf)
@@ -89,7 +89,7 @@ def simulate_null(
     return NullDistribution(trials.ratios, trials.nameless, usual, usual_of_nameless, threshold)
 
 
-def chances_of(
+def compute_chances_of(
     contest: Contest, amplitudes: Amplitudes, members: Sequence[IntArray], effects: Iterable[str]
 ) -> dict[str, PValue]:
     """Return the chance of the likelihood ratio of each of some effects beside a set, its search allowed for.
@@ -97,13 +97,13 @@ def chances_of(
     `amplitudes`, `members`: As for `simulate_null`.
     """
     only = frozenset(effects)
-    deviations = np.column_stack([contest.deviation, _simulated(contest, amplitudes)])
+    deviations = np.column_stack([contest.deviation, _simulate(contest, amplitudes)])
     ratios = contest.trials(amplitudes, members, deviations, only=only).ratios
     names = [each for each in contest.identifiers if each in only]
-    return {name: _p_value(float(own[0]), own[1:]) for name, own in zip(names, ratios, strict=True)}
+    return {name: _compute_p_value(float(own[0]), own[1:]) for name, own in zip(names, ratios, strict=True)}
 
 
-def _simulated(contest: Contest, amplitudes: Amplitudes) -> FloatArray:
+def _simulate(contest: Contest, amplitudes: Amplitudes) -> FloatArray:
     """Return simulated deviations of unit σ, shape (N, B).
 
     The content of the test alone seeds them: the same test gives the same digits.
@@ -119,7 +119,7 @@ def _simulated(contest: Contest, amplitudes: Amplitudes) -> FloatArray:
     return found
 
 
-def _p_value(value: float, simulated: FloatArray) -> PValue:
+def _compute_p_value(value: float, simulated: FloatArray) -> PValue:
     trials = len(simulated)
     reached = int(np.count_nonzero(simulated >= value))
     if reached:

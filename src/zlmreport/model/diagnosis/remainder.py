@@ -76,7 +76,7 @@ class _Share:
         return float(np.sqrt(np.mean(self.values**2)))
 
 
-def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder | None:
+def find_remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder | None:
     """Return what a set leaves beside noise; None if that is nothing worth saying.
 
     `fitted`: The job's model beside which the set stands.
@@ -87,15 +87,15 @@ def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder 
     if bare.score - found.score < _WORTH_SAYING:
         return None
     design = search.contest.design
-    beside = _beside(fitted, found)
+    beside = _remove_what_is_beside(fitted, found)
     shares = sorted(
-        (replace(each, values=beside(each.values)) for each in _shares(search, found)),
+        (replace(each, values=beside(each.values)) for each in _list_shares(search, found)),
         key=lambda each: -each.rms,
     )
     whole: FloatArray = np.sum([each.values for each in shares], axis=0)
     main, squares = shares[0], float(np.sum(fitted.residual**2))
-    form = main.member or _following(search, bare, whole)
-    proposed = _proposed(form, design) if form else None
+    form = main.member or _find_following(search, bare, whole)
+    proposed = _propose_formula(form, design) if form else None
     where, low, high, unit = _place(main, whole, design)
     return Remainder(
         rms=float(np.linalg.norm(whole)) / len(whole) ** 0.5,
@@ -104,29 +104,29 @@ def remainder_of(search: SetSearch, found: EffectSet, fitted: Fit) -> Remainder 
         low=low,
         high=high,
         unit=unit,
-        shape=_shape_of(form, design) if form and form is main.member else main.shape,
+        shape=_describe_shape(form, design) if form and form is main.member else main.shape,
         size=float(whole[int(np.argmax(np.abs(whole)))]),
         formula=proposed,
         course=main.course,
     )
 
 
-def _beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArray], FloatArray]:
+def _remove_what_is_beside(fitted: Fit, found: EffectSet) -> Callable[[FloatArray], FloatArray]:
     """Return what leaves of a curve only that which neither the model nor a set can do as well."""
     design = fitted.design
     columns = [each.effect.columns(design, each.theta) for each in found.named]
-    basis, strengths, _ = np.linalg.svd(_of_one_length([fitted.base(), *columns]), full_matrices=False)
+    basis, strengths, _ = np.linalg.svd(_scale_to_one_length([fitted.base(), *columns]), full_matrices=False)
     known = basis[:, strengths > _DEPENDENT * strengths.max(initial=0.0)]
     return lambda curve: np.asarray(curve - known @ (known.T @ curve), dtype=np.float64)
 
 
-def _of_one_length(columns: Sequence[FloatArray]) -> FloatArray:
+def _scale_to_one_length(columns: Sequence[FloatArray]) -> FloatArray:
     together = np.concatenate(columns, axis=1)
     lengths = np.linalg.norm(together, axis=0)
     return np.asarray(together / np.where(lengths > 0, lengths, 1.0), dtype=np.float64)
 
 
-def remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
+def make_remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     """Return what one run has that no other has."""
     design, squares = fitted.design, float(np.sum(fitted.residual**2))
     own = design.time[design.cycle == found.run]
@@ -144,7 +144,7 @@ def remainder_of_run(fitted: Fit, found: SingleRun) -> Remainder:
     )
 
 
-def irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
+def find_irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
     """Return what is left where neither a form nor a smooth curve follows it: how large, and where most.
 
     `noise`: What repeats scatter, m or rad; `of`: The job's model, of whose error the share is told.
@@ -168,7 +168,7 @@ def irregular_remainder(fitted: Fit, noise: float, of: Fit) -> Remainder:
     )
 
 
-def _shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
+def _list_shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
     """Yield what each thing without a name explains, on the average over what the readings allow."""
     contest = search.contest
     space, values = contest.space, contest.columns.values
@@ -192,7 +192,7 @@ def _shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             form = member.effect
             assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
             course = _COURSES.get(form.carrier, Course.PLACE)
-            shape = _shape_of(member, contest.design)
+            shape = _describe_shape(member, contest.design)
             yield _Share(space.single.coloured(of_set[:, own] @ solved[own]), course, shape, member)
     active = [(part, level) for part, level in zip(contest.parts, found.amplitudes, strict=True) if level]
     for (part, level), factor in zip(active, factors, strict=True):
@@ -201,7 +201,7 @@ def _shares(search: SetSearch, found: EffectSet) -> Iterator[_Share]:
             yield _Share(explained, part.course, part.shape, None)
 
 
-def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
+def _find_following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMember | None:
     """Return the form that follows a curve best; None if none follows most of it."""
     contest = search.contest
     best = search.best_unnamed(bare)
@@ -214,23 +214,23 @@ def _following(search: SetSearch, bare: EffectSet, whole: FloatArray) -> SetMemb
     return best if left < (1.0 - _FOLLOWS) * float(np.sum(whole**2)) else None
 
 
-def _proposed(form: SetMember, design: Design) -> FormulaKeys:
+def _propose_formula(form: SetMember, design: Design) -> FormulaKeys:
     assert isinstance(form.effect, UnnamedForm)  # noqa: S101 - no other effect has no name
     return form.effect.proposed(form.theta, design)
 
 
-def _shape_of(member: SetMember, design: Design) -> Words:
+def _describe_shape(member: SetMember, design: Design) -> Words:
     """Return a form in words."""
     form = member.effect
     assert isinstance(form, UnnamedForm)  # noqa: S101 - no other effect has no name
-    say, named = _sayer(design, is_time=form.carrier in IN_TIME), form.named(member.theta)
+    say, named = _make_sayer(design, is_time=form.carrier in IN_TIME), form.named(member.theta)
     words = form.form.shape.given(
         **{word: say(named[name]) for word, name in (("width", "w"), ("period", "L")) if name in named}
     )
     return CARRIERS[form.carrier].given(shape=words)
 
 
-def _sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
+def _make_sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
     if is_time:
         return lambda value: wording.span_of_time(design, value)
     return lambda value: wording.length(design.axis, value)
@@ -239,7 +239,7 @@ def _sayer(design: Design, *, is_time: bool) -> Callable[[float], Words]:
 def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, float, float, Unit]:
     """Return where something lies: in words, from where to where, and in which unit."""
     is_time = main.course.along is not Along.PLACE
-    say, unit = _sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
+    say, unit = _make_sayer(design, is_time=is_time), _SECOND if is_time else design.axis.position_unit
     form = main.member.effect if main.member else None
     if isinstance(form, UnnamedForm) and main.member:
         low, high = form.extent(main.member.theta)
@@ -257,13 +257,13 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
     along, group = np.unique(labels, return_inverse=True)
     means = np.sqrt(np.bincount(group, weights=whole**2) / np.bincount(group))
     peak = int(np.argmax(means))
-    low, high = _about(along, means >= _HALF * means[peak], peak)
+    low, high = _find_ends_about(along, means >= _HALF * means[peak], peak)
     if low <= along[0] and high >= along[-1]:
         return _BETWEEN.given(first=say(low), last=say(high)), low, high, unit
     return _ABOUT.given(place=say(float(along[peak]))), low, high, unit
 
 
-def _about(along: FloatArray, is_large: BoolArray, peak: int) -> tuple[float, float]:
+def _find_ends_about(along: FloatArray, is_large: BoolArray, peak: int) -> tuple[float, float]:
     """Return the ends of the stretch about a place in which something is large."""
     first = last = peak
     while first > 0 and is_large[first - 1]:

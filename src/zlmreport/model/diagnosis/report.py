@@ -21,11 +21,11 @@ from zlmreport.model.diagnosis.residuals import Failure
 from zlmreport.model.diagnosis.visibility import Visibility
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Parameter, unit_of
+from zlmreport.model.effects.effect import Parameter, find_unit_of
 from zlmreport.model.fitting.estimate import Estimate
 from zlmreport.model.fitting.fit import Fit
 from zlmreport.model.fitting.noise import Noise
-from zlmreport.model.fitting.profile import intervals
+from zlmreport.model.fitting.profile import find_intervals
 
 SCHEMA = "zlmreport/diagnosis/1"
 #: Probability from which on a candidate is worth a word.
@@ -76,10 +76,10 @@ def report(
         "noise": report_noise(fitted.noise, axis),
         "verdict": diagnosis.verdict.value,
         "p_value": diagnosis.p_value,
-        "failures": [_failure(each, language) for each in diagnosis.failures],
+        "failures": [_collect_failure(each, language) for each in diagnosis.failures],
         "candidates": [
             {
-                **_candidate(each, fitted.design, language),
+                **_collect_candidate(each, fitted.design, language),
                 "experiment": experiment if experiment and each.identifier in experiment["effects"] else None,
             }
             for each in diagnosis.candidates
@@ -93,7 +93,7 @@ def report(
             for each in diagnosis.not_testable
         ],
         "not_excluded": list(diagnosis.not_excluded),
-        "visibility": [_visibility(each, axis) for each in diagnosis.visibility],
+        "visibility": [_collect_visibility(each, axis) for each in diagnosis.visibility],
         "faults": [
             {
                 "fault": each.kind.value,
@@ -125,13 +125,13 @@ def report_remainder(
         "to": remainder.high * remainder.unit.per_si,
         "unit": remainder.unit.ascii,
         "shape": remainder.shape.in_language(language),
-        "formula": None if remainder.formula is None else formula_entry(remainder.formula),
+        "formula": None if remainder.formula is None else write_formula_entry(remainder.formula),
         "look_at": look.at.in_language(language),
         "measure": look.measure.in_language(language),
     }
 
 
-def formula_entry(keys: FormulaKeys) -> str:
+def write_formula_entry(keys: FormulaKeys) -> str:
     """Return a formula as an item of `model.effects` in one line, as `zlmreport model add` takes it."""
     own = keys.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
     return json.dumps(own, ensure_ascii=False)
@@ -152,13 +152,13 @@ def report_precision(fitted: Fit, *, with_residuals: bool = True) -> dict[str, A
 
     Without residuals where single readings are not to be told.
     """
-    residuals = {"residuals": _residuals(fitted.of_the_job)} if with_residuals else {}
-    return {"covariance": _covariance(fitted), "intervals": _intervals(fitted), **residuals}
+    residuals = {"residuals": _collect_residuals(fitted.of_the_job)} if with_residuals else {}
+    return {"covariance": _collect_covariance(fitted), "intervals": _collect_intervals(fitted), **residuals}
 
 
-def _covariance(fitted: Fit) -> dict[str, Any]:
+def _collect_covariance(fitted: Fit) -> dict[str, Any]:
     """Return how the estimated parameters hang together, in the units in which they are reported."""
-    units = [_unit(each, fitted.design) for _, each in fitted.columns]
+    units = [_choose_unit(each, fitted.design) for _, each in fitted.columns]
     covariance = fitted.uncertainties.covariance
     scale = np.array([each.per_si for each in units])
     deviations = np.sqrt(np.diagonal(covariance))
@@ -171,21 +171,21 @@ def _covariance(fitted: Fit) -> dict[str, Any]:
     }
 
 
-def _intervals(fitted: Fit) -> list[dict[str, Any]]:
+def _collect_intervals(fitted: Fit) -> list[dict[str, Any]]:
     """Return from where to where the readings leave each parameter; null where they exclude nothing."""
     return [
         {
             "parameter": f"{each.effect}.{each.parameter.name}",
-            "unit": (unit := _unit(each.parameter, fitted.design)).ascii,
+            "unit": (unit := _choose_unit(each.parameter, fitted.design)).ascii,
             "low": each.low * unit.per_si if isfinite(each.low) else None,
             "high": each.high * unit.per_si if isfinite(each.high) else None,
             "open": [side for side in ("low", "high") if getattr(each, f"{side}_is_open")],
         }
-        for each in intervals(fitted)
+        for each in find_intervals(fitted)
     ]
 
 
-def _residuals(fitted: Fit) -> list[dict[str, Any]]:
+def _collect_residuals(fitted: Fit) -> list[dict[str, Any]]:
     """Return what the model leaves of each reading, in the order in which they were taken."""
     design = fitted.design
     unit = design.axis.deviation_unit
@@ -198,22 +198,22 @@ def _residuals(fitted: Fit) -> list[dict[str, Any]]:
     ]
 
 
-def _unit(parameter: Parameter, design: Design) -> Unit:
-    return unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
+def _choose_unit(parameter: Parameter, design: Design) -> Unit:
+    return find_unit_of(parameter.dimension, design.axis.kind, time_is_counted=design.time_is_counted)
 
 
 def report_error(error: ErrorNumbers, axis: Axis) -> dict[str, Any]:
     """Return how far readings and model are apart."""
     return {
         "rms": axis.deviation_unit.from_si(error.rms),
-        "noise_rms": _in_unit(error.noise_rms, axis),
+        "noise_rms": _convert_to_unit(error.noise_rms, axis),
         "chi2_per_dof": error.chi2_per_dof,
-        "cross_validated_rms": _in_unit(error.cross_validated_rms, axis),
+        "cross_validated_rms": _convert_to_unit(error.cross_validated_rms, axis),
         "unit": axis.deviation_unit.ascii,
     }
 
 
-def _in_unit(value: float | None, axis: Axis) -> float | None:
+def _convert_to_unit(value: float | None, axis: Axis) -> float | None:
     return None if value is None else axis.deviation_unit.from_si(value)
 
 
@@ -230,7 +230,7 @@ def report_noise(noise: Noise, axis: Axis) -> dict[str, Any]:
 
 
 def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
-    unit = _unit(estimate.parameter, design)
+    unit = _choose_unit(estimate.parameter, design)
     found = {
         "name": estimate.parameter.name,
         "value": estimate.value * unit.per_si,
@@ -249,7 +249,7 @@ def _estimate(estimate: Estimate, design: Design) -> dict[str, Any]:
     return found
 
 
-def _failure(failure: Failure, language: Language) -> dict[str, Any]:
+def _collect_failure(failure: Failure, language: Language) -> dict[str, Any]:
     return {
         "test": failure.test.value,
         "p_value": failure.p_value,
@@ -258,7 +258,7 @@ def _failure(failure: Failure, language: Language) -> dict[str, Any]:
     }
 
 
-def _candidate(candidate: Candidate, design: Design, language: Language) -> dict[str, Any]:
+def _collect_candidate(candidate: Candidate, design: Design, language: Language) -> dict[str, Any]:
     after = report_error(candidate.error, design.axis)
     discriminate_by, remedy = candidate.discriminate_by, candidate.effect.remedy
     return {
@@ -282,7 +282,7 @@ def _candidate(candidate: Candidate, design: Design, language: Language) -> dict
     }
 
 
-def _visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
+def _collect_visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
     unit = axis.deviation_unit
     finite = seen.smallest_rms < float("inf")
     return {
@@ -292,32 +292,34 @@ def _visibility(seen: Visibility, axis: Axis) -> dict[str, Any]:
     }
 
 
-def verdict_statement(diagnosis: Diagnosis) -> Words:
+def write_verdict_statement(diagnosis: Diagnosis) -> Words:
     """Return the verdict in sentences: what is surely there, then what the rest looks like."""
     if diagnosis.verdict is Verdict.ADEQUATE:
         return _ADEQUATE
     if diagnosis.verdict is Verdict.UNEXPLAINED:
-        return _unexplained(diagnosis)
+        return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
-    groups = [listed([each.identifier, *by_name[each.identifier].equals], _OR) for each in diagnosis.together]
+    groups = [
+        list_in_words([each.identifier, *by_name[each.identifier].equals], _OR) for each in diagnosis.together
+    ]
     is_many = len(groups) > 1
-    missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=listed(groups, _AND))
-    statement = _so_far(diagnosis, missing, is_many=is_many)
+    missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=list_in_words(groups, _AND))
+    statement = _say_so_far(diagnosis, missing, is_many=is_many)
     if diagnosis.makeshift:
-        statement = _GOES.given(statement=statement, effects=listed(diagnosis.makeshift))
+        statement = _GOES.given(statement=statement, effects=list_in_words(diagnosis.makeshift))
     for each in diagnosis.together:
         question = by_name[each.identifier].question
         if question is not None:
             statement = _QUESTION.given(statement=statement, question=question)
     if diagnosis.remainder is not None:
-        statement = _with_remainder(_BESIDE.given(statement=statement), diagnosis.remainder, diagnosis)
+        statement = _add_remainder(_BESIDE.given(statement=statement), diagnosis.remainder, diagnosis)
     unit = next((each for each in diagnosis.faults if each.kind is FaultKind.WRONG_UNIT), None)
     if unit is None:
         return statement
     return _IN_DOUBT.given(statement=unit.statement, remedy=unit.remedy, verdict=statement)
 
 
-def _so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:
+def _say_so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:
     """Return how far the effects that are missing explain the rest."""
     if diagnosis.leaves_noise:
         return _RESTS[is_many].given(missing=missing)
@@ -330,7 +332,7 @@ def _so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words:
     return given if after.noise_rms is None else given.given(noise=wording.deviation(axis, after.noise_rms))
 
 
-def _unexplained(diagnosis: Diagnosis) -> Words:
+def _say_unexplained(diagnosis: Diagnosis) -> Words:
     fault = next((each for each in diagnosis.faults if each.comes_first), None)
     if fault is None and diagnosis.remainder is None:
         fault = next(iter(diagnosis.faults), None)
@@ -338,15 +340,15 @@ def _unexplained(diagnosis: Diagnosis) -> Words:
         return _FAULTY.given(statement=fault.statement, remedy=fault.remedy)
     if diagnosis.remainder is None:
         return _UNEXPLAINED
-    return _with_remainder(_SHAPE, diagnosis.remainder, diagnosis)
+    return _add_remainder(_SHAPE, diagnosis.remainder, diagnosis)
 
 
-def _with_remainder(words: Words, remainder: Remainder, diagnosis: Diagnosis) -> Words:
+def _add_remainder(words: Words, remainder: Remainder, diagnosis: Diagnosis) -> Words:
     size = wording.deviation(diagnosis.fit.design.axis, remainder.rms)
     return words.given(shape=remainder.shape, where=remainder.where, size=size)
 
 
-def serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
+def select_serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
     """Return the candidates that are worth a word: those of the set, their equals, what is not improbable."""
     named = {each.identifier for each in diagnosis.together}
     return tuple(
@@ -356,7 +358,7 @@ def serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
     )
 
 
-def listed(names: Sequence[str | Words], last: Words = _AND) -> Words:
+def list_in_words(names: Sequence[str | Words], last: Words = _AND) -> Words:
     """Return names in a row: commas between them, and a word before the last."""
     *others, final = names
     if not others:

@@ -15,7 +15,7 @@ from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.blunders import Outliers
 from zlmreport.model.fitting.distributions import f_tail
-from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, repeats, spread_tests
+from zlmreport.model.fitting.repeats import SpreadFactor, SpreadTest, find_repeats, spread_tests
 
 _LACK_OF_FIT = Words(
     "the means of the positions deviate from the model by up to {size}, more than their repeats allow"
@@ -47,10 +47,10 @@ _AT = Words("at {place}")
 _AND_MORE = Words("{first}; others: {more}")
 
 
-def lack_of_fit(residuals: Residuals) -> Failure | None:
+def examine_lack_of_fit(residuals: Residuals) -> Failure | None:
     """Return the F-test of what the model leaves of the means against the pure error of the repeats."""
     fit, design = residuals.fit, residuals.design
-    within = repeats(design, fit.residual)
+    within = find_repeats(design, fit.residual)
     means = len(within.count) - (len(fit.deviation) - fit.degrees)
     if within.degrees < 1 or means < 1 or within.squares == 0:
         return None
@@ -64,28 +64,29 @@ def lack_of_fit(residuals: Residuals) -> Failure | None:
     return Failure(ResidualTest.LACK_OF_FIT, p_value, where, _LACK_OF_FIT.given(size=size), readings)
 
 
-def signs(residuals: Residuals) -> Failure | None:
+def examine_signs(residuals: Residuals) -> Failure | None:
     """Return the test of the changes of sign of the positions' mean residuals along the axis."""
     design = residuals.design
     means = [
-        _means(residuals.fit.residual[side], design.target[side])
+        _compute_means(residuals.fit.residual[side], design.target[side])
         for side in (design.direction > 0, design.direction < 0)
         if np.count_nonzero(side)
     ]
     signs_ = [np.sign(each - np.median(each)) for each in means if len(each) > 2]
     if not signs_:
         return None
-    found = sum(_changes(each[np.newaxis])[0] for each in signs_)
+    found = sum(_count_changes(each[np.newaxis])[0] for each in signs_)
     random = np.random.default_rng(_SEED)
     chance = np.sum(
-        [_changes(random.permuted(np.tile(each, (_PERMUTATIONS, 1)), axis=1)) for each in signs_], axis=0
+        [_count_changes(random.permuted(np.tile(each, (_PERMUTATIONS, 1)), axis=1)) for each in signs_],
+        axis=0,
     )
     p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
     statement = _SIGNS.given(changes=int(found), expected=number_words(float(np.mean(chance)), 1))
     return Failure(ResidualTest.SIGNS, p_value, _WHOLE_AXIS, statement)
 
 
-def direction(residuals: Residuals) -> Failure | None:
+def examine_direction(residuals: Residuals) -> Failure | None:
     """Return the test of a difference between the directions, constant or changing along the axis."""
     design = residuals.design
     if not design.is_bidirectional:
@@ -94,18 +95,18 @@ def direction(residuals: Residuals) -> Failure | None:
     along = 2 * (design.position - design.middle) / (design.length or 1.0)
     gap = residuals.p_value(sign[:, np.newaxis])
     shape = residuals.p_value(sign[:, np.newaxis] * np.vander(along, _ORDERS))
-    statement = _DIRECTION_ALONG if shape < gap else _constant_gap(residuals)
+    statement = _DIRECTION_ALONG if shape < gap else _say_constant_gap(residuals)
     return Failure(ResidualTest.DIRECTION, min(1.0, 2 * min(gap, shape)), _WHOLE_AXIS, statement)
 
 
-def runs(residuals: Residuals) -> Failure | None:
+def examine_runs(residuals: Residuals) -> Failure | None:
     """Return the test of runs that are displaced as a whole."""
     design = residuals.design
     numbers = np.unique(design.cycle)
     if len(numbers) < 2:
         return None
     membership = (design.cycle[:, np.newaxis] == numbers).astype(np.float64)
-    means = _means(residuals.fit.residual, design.cycle)
+    means = _compute_means(residuals.fit.residual, design.cycle)
     worst = int(np.argmax(np.abs(means)))
     run = int(numbers[worst])
     statement = _RUNS.given(size=wording.deviation(design.axis, abs(float(means[worst]))))
@@ -113,24 +114,24 @@ def runs(residuals: Residuals) -> Failure | None:
     return Failure(ResidualTest.RUNS, residuals.p_value(membership), where, statement, readings)
 
 
-def _constant_gap(residuals: Residuals) -> Words:
+def _say_constant_gap(residuals: Residuals) -> Words:
     design, residual = residuals.design, residuals.fit.residual
     gap = float(np.mean(residual[design.direction > 0]) - np.mean(residual[design.direction < 0]))
     statement = _HIGHER_UPWARDS if gap > 0 else _HIGHER_DOWNWARDS
     return statement.given(size=wording.deviation(design.axis, abs(gap)))
 
 
-def _means(values: FloatArray, labels: IntArray) -> FloatArray:
+def _compute_means(values: FloatArray, labels: IntArray) -> FloatArray:
     _, group = np.unique(labels, return_inverse=True)
     return np.asarray(np.bincount(group, weights=values) / np.bincount(group), dtype=np.float64)
 
 
-def _changes(signs_: FloatArray) -> IntArray:
+def _count_changes(signs_: FloatArray) -> IntArray:
     """Return how often the sign changes along each row."""
     return np.asarray(np.count_nonzero(np.diff(signs_, axis=1) != 0, axis=1), dtype=np.int64)
 
 
-def conditions(residuals: Residuals) -> Failure | None:
+def examine_conditions(residuals: Residuals) -> Failure | None:
     """Return the test of the logged condition that the residuals follow most closely."""
     design = residuals.design
     p_values = {}
@@ -152,11 +153,11 @@ def spread(residuals: Residuals) -> Iterator[Failure]:
     design = residuals.design
     for test in spread_tests(design, residuals.fit.deviation):
         statement = _UNEQUAL.given(factor=test.factor.words)
-        where, readings = _widest(design, test)
+        where, readings = _find_widest(design, test)
         yield Failure(ResidualTest.SPREAD, test.p_value, where, statement, readings)
 
 
-def flagged(design: Design, aside: Outliers) -> Failure | None:
+def report_flagged(design: Design, aside: Outliers) -> Failure | None:
     """Return what is to be said of readings that were set aside, on the design that still has them."""
     readings = aside.readings
     if not len(readings):
@@ -167,7 +168,7 @@ def flagged(design: Design, aside: Outliers) -> Failure | None:
     return Failure(ResidualTest.OUTLIERS, aside.p_value, where, _FLAGGED.given(count=len(readings)))
 
 
-def _widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
+def _find_widest(design: Design, test: SpreadTest) -> tuple[Words, IntArray]:
     """Return where readings scatter most, and which these are."""
     if test.factor is SpreadFactor.DIRECTION:
         chosen = np.sign(design.direction) == np.sign(test.widest)
@@ -199,14 +200,14 @@ _FEWEST_TARGETS = 6
 _FINER = 41
 
 
-def time_order(residuals: Residuals) -> Failure | None:
+def examine_time_order(residuals: Residuals) -> Failure | None:
     """Return von Neumann's ratio of the repeats in time order, against repeats exchanged in their cells."""
     fit = residuals.fit
-    within = repeats(residuals.design, fit.residual)
+    within = find_repeats(residuals.design, fit.residual)
     if within.degrees < 1 or within.squares == 0:
         return None
-    found = _ratio(within.centred[np.newaxis])[0]
-    chance = _ratio(_exchanged(within.centred, within.cell))
+    found = _compute_ratio(within.centred[np.newaxis])[0]
+    chance = _compute_ratio(_exchange_repeats(within.centred, within.cell))
     p_value = (1 + int(np.count_nonzero(chance <= found))) / (_PERMUTATIONS + 1)
     third = max(1, len(within.centred) // 3)
     moved = float(within.centred[-third:].mean() - within.centred[:third].mean())
@@ -214,7 +215,7 @@ def time_order(residuals: Residuals) -> Failure | None:
     return Failure(ResidualTest.TIME_ORDER, p_value, _WHOLE_TEST, statement)
 
 
-def period_in_position(residuals: Residuals) -> Failure | None:
+def examine_period_in_position(residuals: Residuals) -> Failure | None:
     """Return the strongest wave along the axis; periods that the job states are tried beside all others."""
     design = residuals.design
     targets = len(design.target_positions)
@@ -222,23 +223,23 @@ def period_in_position(residuals: Residuals) -> Failure | None:
         return None
     stated = [each for each in (design.axis.screw_pitch, design.axis.signal_period) if each is not None]
     known = [each / harmonic for each in stated for harmonic in _HARMONICS if each <= design.length]
-    period, p_value, size = _strongest_wave(residuals, design.position, targets / 2, known)
+    period, p_value, size = _find_strongest_wave(residuals, design.position, targets / 2, known)
     statement = _REPEATS.given(period=wording.length(design.axis, period))
     return Failure(ResidualTest.PERIOD_IN_POSITION, p_value, _ALONG_THE_AXIS.given(size=size), statement)
 
 
-def period_in_time(residuals: Residuals) -> Failure | None:
+def examine_period_in_time(residuals: Residuals) -> Failure | None:
     """Return the strongest wave in time."""
     design = residuals.design
     most = len(design.time) / _READINGS_PER_PERIOD
     if design.duration == 0 or most <= _FEWEST_PERIODS:
         return None
-    period, p_value, size = _strongest_wave(residuals, design.time, most, [])
+    period, p_value, size = _find_strongest_wave(residuals, design.time, most, [])
     statement = _REPEATS.given(period=wording.span_of_time(design, period))
     return Failure(ResidualTest.PERIOD_IN_TIME, p_value, _DURING_THE_TEST.given(size=size), statement)
 
 
-def _strongest_wave(
+def _find_strongest_wave(
     residuals: Residuals, where: FloatArray, most: float, known: Sequence[float]
 ) -> tuple[float, float, Words]:
     """Return the period that explains most, the chance of it, and the amplitude in words.
@@ -249,33 +250,33 @@ def _strongest_wave(
     extent = float(np.ptp(where))
     counts = np.arange(_FEWEST_PERIODS, min(most, _MOST_PERIODS), 1 / _STEPS_PER_PERIOD)
     periods = np.concatenate([known, extent / counts])
-    best, p_value = residuals.best_block(_waves(where, periods))
+    best, p_value = residuals.best_block(_make_waves(where, periods))
     period = float(periods[best])
     if best >= len(known):
         finer = extent / (extent / period + np.linspace(-1.0, 1.0, _FINER) / _STEPS_PER_PERIOD)
-        best, _ = residuals.best_block(_waves(where, finer))
+        best, _ = residuals.best_block(_make_waves(where, finer))
         period = float(finer[best])
-    amplitude = np.hypot(*_coefficients(residuals, _waves(where, np.array([period]))[0]))
+    amplitude = np.hypot(*_fit_coefficients(residuals, _make_waves(where, np.array([period]))[0]))
     return period, p_value, wording.deviation(residuals.design.axis, float(amplitude))
 
 
-def _waves(where: FloatArray, periods: FloatArray) -> FloatArray:
+def _make_waves(where: FloatArray, periods: FloatArray) -> FloatArray:
     """Return sine and cosine of each period, shape (periods, N, 2)."""
     angles = 2 * np.pi * where / periods[:, np.newaxis]
     return np.stack([np.sin(angles), np.cos(angles)], axis=2)
 
 
-def _coefficients(residuals: Residuals, wave: FloatArray) -> FloatArray:
+def _fit_coefficients(residuals: Residuals, wave: FloatArray) -> FloatArray:
     return np.asarray(np.linalg.lstsq(wave, residuals.fit.residual, rcond=None)[0], dtype=np.float64)
 
 
-def _ratio(centred: FloatArray) -> FloatArray:
+def _compute_ratio(centred: FloatArray) -> FloatArray:
     """Return von Neumann's ratio of each row."""
     squares = np.sum(np.diff(centred, axis=1) ** 2, axis=1) / np.sum(centred**2, axis=1)
     return np.asarray(squares, dtype=np.float64)
 
 
-def _exchanged(centred: FloatArray, cell: IntArray) -> FloatArray:
+def _exchange_repeats(centred: FloatArray, cell: IntArray) -> FloatArray:
     """Return repeats exchanged at random within their cells, shape (permutations, N)."""
     keys = np.random.default_rng(_SEED).random((_PERMUTATIONS, len(cell)))
     places = np.argsort(cell, kind="stable")
@@ -284,18 +285,18 @@ def _exchanged(centred: FloatArray, cell: IntArray) -> FloatArray:
     return found
 
 
-def residual_tests(residuals: Residuals) -> tuple[Failure, ...]:
+def run_residual_tests(residuals: Residuals) -> tuple[Failure, ...]:
     """Return every test that the design allows, passed or not."""
-    return tuple(_tests(residuals))
+    return tuple(_run_tests(residuals))
 
 
-def failures(tests: tuple[Failure, ...]) -> tuple[Failure, ...]:
+def find_failures(tests: tuple[Failure, ...]) -> tuple[Failure, ...]:
     """Return the tests that were not passed, the clearest first; each pays for the number of them."""
     limit = LEVEL / max(1, len(tests))
     return tuple(sorted((test for test in tests if test.p_value < limit), key=lambda test: test.p_value))
 
 
-def _tests(residuals: Residuals) -> Iterator[Failure]:
+def _run_tests(residuals: Residuals) -> Iterator[Failure]:
     for single in _SINGLE:
         found = single(residuals)
         if found is not None:
@@ -304,12 +305,12 @@ def _tests(residuals: Residuals) -> Iterator[Failure]:
 
 
 _SINGLE = (
-    lack_of_fit,
-    signs,
-    direction,
-    runs,
-    time_order,
-    period_in_position,
-    period_in_time,
-    conditions,
+    examine_lack_of_fit,
+    examine_signs,
+    examine_direction,
+    examine_runs,
+    examine_time_order,
+    examine_period_in_position,
+    examine_period_in_time,
+    examine_conditions,
 )

@@ -10,10 +10,10 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_integers
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.contrasts import Whitener, whitener
+from zlmreport.model.fitting.contrasts import Whitener, make_whitener
 from zlmreport.model.fitting.distributions import f_tail
 from zlmreport.model.fitting.fit import Fit
-from zlmreport.model.fitting.noise import Noise, noise_parts
+from zlmreport.model.fitting.noise import Noise, list_noise_parts
 
 _DEPENDENT = 1e-11
 #: Sum of squares of a residual that is no residual at all, m² or rad².
@@ -129,9 +129,9 @@ class Residuals:
         return int(np.argmax(shares[:, 0])), (1 + reached) / (_TRIALS + 1)
 
 
-def residuals_of(fit: Fit, noise: Noise) -> Residuals:
+def find_residuals_of(fit: Fit, noise: Noise) -> Residuals:
     """Return the residuals of a fit under a noise: one that holds no more than noise may."""
-    whiten = whitener(noise_parts(fit.design), noise)
+    whiten = make_whitener(list_noise_parts(fit.design), noise)
     columns = whiten(fit.base())
     lengths = np.linalg.norm(columns, axis=0)
     vectors, singular, _ = np.linalg.svd(columns / np.where(lengths > 0, lengths, 1.0), full_matrices=False)

@@ -16,13 +16,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from zlmreport.job.choices import numbered, parted
+from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, untold
-from zlmreport.model.diagnosis.families import Family, orthonormal
+from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.families import Family, make_orthonormal
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter
-from zlmreport.model.effects.sizes import name_of, times_usual, usual_range
+from zlmreport.model.effects.sizes import compute_times_usual, find_usual_range, name_of
 
 #: Effects of a set at most, and moves of a search.
 _MOST_MEMBERS, _MOST_MOVES = 10, 24
@@ -115,7 +115,7 @@ class SetSearch:
         self._free = self._all  # the parts that may be more than noise
         self._ends: dict[_State, EffectSet] = {}  # where a climb ends that comes by a set
 
-    def found(self, start: Sequence[SetMember] = (), told: Told = untold) -> EffectSet:
+    def found(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
         """Return the set with the most evidence.
 
         `start`: Effects that are in it at first, and may go out.
@@ -132,7 +132,7 @@ class SetSearch:
         best, other = sorted((released, beside), key=lambda each: each.score)
         members = best.members
         for each in other.members:
-            if len(_beside(members, each.effect)) == len(members):
+            if len(_list_beside(members, each.effect)) == len(members):
                 members = (*members, each)
         if len(members) > len(best.members):
             best = min(best, self._climb(self._with(members, best.amplitudes)), key=lambda each: each.score)
@@ -183,7 +183,7 @@ class SetSearch:
             if each.identifier == effect.identifier and each.effect.settings == effect.settings
         )
         contest = self.contest
-        blocks, ranks, _ = orthonormal(
+        blocks, ranks, _ = make_orthonormal(
             contest.space, contest.design, effect, theta[np.newaxis], contest.least_visible
         )
         return SetMember(family, theta, contest.columns.add(blocks[:, 0]), int(ranks[0]))
@@ -192,11 +192,11 @@ class SetSearch:
         """Return a set in which no effect stands for the second time that does not stand there once."""
         members = list(found.members)
         for place, each in enumerate(members):
-            name, number = installed(each.effect), parted(each.identifier)[1]
+            name, number = find_installed_name(each.effect), part_number(each.identifier)[1]
             if not each.effect.several or number == 1:
                 continue
             taken = {other.identifier for other in members}
-            for lower in (numbered(name, other) for other in range(1, number)):
+            for lower in (number_effect(name, other) for other in range(1, number)):
                 family = next(
                     (
                         family
@@ -216,10 +216,10 @@ class SetSearch:
         `rest`: The set without it.
         `within`: What evidence they may lack.
         """
-        known = {installed(each.effect) for each in found.members}
+        known = {find_installed_name(each.effect) for each in found.members}
 
         def is_another(family: Family) -> bool:
-            return family.is_named and installed(family.effect) not in known
+            return family.is_named and find_installed_name(family.effect) not in known
 
         beside = replace(rest, amplitudes=found.amplitudes)
         tried = {
@@ -302,7 +302,7 @@ class SetSearch:
         """Return what it costs that values lie beyond what is usual."""
         effect, design = member.effect, self.contest.design
         cost = sum(
-            size_costs(effect, design, each, value, _SHARE_OF_SEARCHED * abs(value))
+            weigh_size(effect, design, each, value, _SHARE_OF_SEARCHED * abs(value))
             for each, value in zip(effect.searched, member.theta.tolist(), strict=True)
             if not (each.dimension is Dimension.TIME and design.time_is_counted)
         )
@@ -312,7 +312,7 @@ class SetSearch:
         turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
         gamma, spread = turn @ solved, np.sqrt(np.maximum(np.diagonal(turn @ covariance @ turn.T), 0.0))
         return cost + sum(
-            size_costs(effect, design, each, float(value), float(own))
+            weigh_size(effect, design, each, float(value), float(own))
             for each, value, own in zip(effect.linear, gamma, spread, strict=True)
         )
 
@@ -337,15 +337,15 @@ class SetSearch:
                 leading = min(range(len(numbers)), key=lambda place: float(tried[place].min()))
                 if tried[leading].min() < best - _NOTHING:
                     best = float(tried[leading].min())
-                    now = _moved(now, numbers[leading], int(np.argmin(tried[leading])))
+                    now = _move_amplitude(now, numbers[leading], int(np.argmin(tried[leading])))
             for number in irregular:
                 level, noise = now[number], contest.parts[number].noise_levels
                 others = {0, level - 1, level + 1} if level or turn else {1, noise - 1, noise, noise + 2}
                 for other in sorted(others - {level}):
                     if 0 <= other < self._levels(number):
-                        criterion = contest.criterion(_moved(now, number, other), columns)
+                        criterion = contest.criterion(_move_amplitude(now, number, other), columns)
                         if criterion < best - _NOTHING:
-                            best, now = criterion, _moved(now, number, other)
+                            best, now = criterion, _move_amplitude(now, number, other)
             if best > before - _SETTLED:
                 break
         return now
@@ -471,7 +471,7 @@ class SetSearch:
             member = SetMember(
                 family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread
             )
-            members = (*_beside(now.members, member.effect), member)
+            members = (*_list_beside(now.members, member.effect), member)
             glanced.append(self._glanced(members, now.amplitudes))
         glanced.sort(key=lambda each: each.score)
         if limit is None and glanced:
@@ -507,7 +507,9 @@ class SetSearch:
             tried = [quiet]
             for number, part in enumerate(contest.parts):
                 if amplitudes[number] >= part.noise_levels:
-                    tried += [_moved(amplitudes, number, level) for level in (0, amplitudes[number] - 1)]
+                    tried += [
+                        _move_amplitude(amplitudes, number, level) for level in (0, amplitudes[number] - 1)
+                    ]
             for each in tried:
                 criterion = contest.criterion(each, columns)
                 if criterion < best:
@@ -590,7 +592,7 @@ class SetSearch:
                 tried = np.repeat(theta[np.newaxis], _BETWEEN, axis=0)
                 tried[:, column] += step * np.linspace(-_REACH, _REACH, _BETWEEN)
                 tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
-                blocks, ranks, seen = orthonormal(
+                blocks, ranks, seen = make_orthonormal(
                     contest.space, contest.design, effect, tried, contest.least_visible
                 )
                 if not len(seen):
@@ -634,16 +636,16 @@ class SetSearch:
         return contest.columns.add(np.concatenate(found, axis=1)) if found else None
 
 
-def installed(effect: Effect) -> str:
+def find_installed_name(effect: Effect) -> str:
     """Return the name of an effect by which it is installed, whichever time it stands in a model."""
-    return parted(effect.identifier)[0] if effect.several else effect.identifier
+    return part_number(effect.identifier)[0] if effect.several else effect.identifier
 
 
-def _moved(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
+def _move_amplitude(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
     return (*amplitudes[:number], level, *amplitudes[number + 1 :])
 
 
-def _beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:
+def _list_beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:
     """Return the members that can stand beside an effect: none that it contains or takes the place of."""
     replaced = {effect.identifier, *effect.contains}
     return tuple(
@@ -653,7 +655,7 @@ def _beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ..
     )
 
 
-def size_costs(
+def weigh_size(
     effect: Effect, design: Design, parameter: Parameter, value: float, uncertainty: float
 ) -> float:
     """Return what the size of a parameter costs, as far as it is beyond doubt; physics alone forbids one.
@@ -664,9 +666,9 @@ def size_costs(
     reach = _DOUBT * uncertainty
     if all(effect.forbids(design, {parameter.name: value + each}) for each in (-reach, 0.0, reach)):
         return FORBIDDEN
-    low, high = usual_range(parameter, design.axis.kind)
+    low, high = find_usual_range(parameter, design.axis.kind)
     sure = min(max(value, min(low, value + reach)), max(high, value - reach))
-    times = times_usual(parameter, sure, design.axis.kind)
+    times = compute_times_usual(parameter, sure, design.axis.kind)
     if times == 1.0 or name_of(parameter, value) is not None:
         return 0.0
     if np.isfinite(times):

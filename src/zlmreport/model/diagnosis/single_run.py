@@ -52,7 +52,7 @@ class SingleRun:
 _BY = Words("run {run}, by up to {size}")
 
 
-def single_run(design: Design, residual: FloatArray, sigma: float) -> SingleRun | None:
+def find_single_run(design: Design, residual: FloatArray, sigma: float) -> SingleRun | None:
     """Return the run that plainly differs from all others; None if none does.
 
     `residual`, (N,): What a model leaves, m or rad.

@@ -9,32 +9,32 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.job.choices import EffectChoice, next_number, numbered
-from zlmreport.job.edit import CANDIDATES, NamedEffect, listed_items, named_effect
-from zlmreport.job.formula import names_in, parse_formula
+from zlmreport.job.choices import EffectChoice, find_next_number, number_effect
+from zlmreport.job.edit import CANDIDATES, NamedEffect, list_items_written, read_named_effect
+from zlmreport.job.formula import find_names_in, parse_formula
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import is_for
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MICROMETRE, with_unit
 from zlmreport.model.diagnosis.building import Built, build
-from zlmreport.model.diagnosis.contest import Told, untold
-from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, diagnose, error_numbers
-from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, chosen_effect, chosen_terms
-from zlmreport.model.effects.design import of_position
+from zlmreport.model.diagnosis.contest import Told, tell_nobody
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, compute_error_numbers, diagnose
+from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term, choose_effect, choose_terms
+from zlmreport.model.effects.design import transform_to_position
 from zlmreport.model.effects.effect import Effect, Shape
-from zlmreport.model.effects.harmonic import Harmonic, harmonics
-from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.effects.harmonic import Harmonic, find_harmonics
+from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import Estimate, InstrumentError
 from zlmreport.model.fitting.fit import Assumptions, Fit, fit
-from zlmreport.model.fitting.observations import Observations, observations_of, of_readings, thinned
+from zlmreport.model.fitting.observations import Observations, make_observations_of, select_readings, thin
 from zlmreport.model.fitting.priors import PriorExpectation
-from zlmreport.model.fitting.sessions import held_together, of_the_job, with_zeros
+from zlmreport.model.fitting.sessions import add_zeros, hold_together, select_of_the_job
 
 #: The effect that is a full polynomial over the position.
 _POLYNOMIAL = "polynomial"
@@ -102,22 +102,22 @@ class Study:
         """
         demand_effects_for(job, effects)
         find = {effect.identifier: effect for effect in effects}.__getitem__
-        own = _with_feed(observations_of(measurements), job)
+        own = _add_feed(make_observations_of(measurements), job)
         names = [each.files[0].name for each in job.sessions]
         others = [
-            _with_feed(observations_of(each), other)
+            _add_feed(make_observations_of(each), other)
             for each, other in zip(sessions, job.sessions, strict=True)
         ]
         try:
-            together = held_together(own, list(zip(names, others, strict=True)))
+            together = hold_together(own, list(zip(names, others, strict=True)))
         except ModelError as error:
             raise InputError(Problem(job.place_of(_SESSIONS), each) for each in error.sentences) from error
         return cls(
             job,
             measurements,
-            with_zeros(AxisModel(chosen_terms(job.effects, find, job.axis.kind)), together.design),
-            of_the_job(together),
-            Assumptions(instrument=instrument_error(job, float(np.ptp(measurements.target_positions)))),
+            add_zeros(AxisModel(choose_terms(job.effects, find, job.axis.kind)), together.design),
+            select_of_the_job(together),
+            Assumptions(instrument=find_instrument_error(job, float(np.ptp(measurements.target_positions)))),
             tuple(sessions),
             together,
         )
@@ -126,7 +126,7 @@ class Study:
         """Return the model fitted to the readings, those that stand off set aside."""
         return self._fitted(self.model)
 
-    def diagnosis(self, effects: Sequence[Effect], told: Told = untold) -> Diagnosis:
+    def diagnosis(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Diagnosis:
         """Return the diagnosis: every installed effect is tried, and every formula that the job lists."""
         try:
             tried = self.tried(effects)
@@ -134,7 +134,7 @@ class Study:
         except ModelError as error:
             raise InputError(self._problems(error)) from error
 
-    def built(self, effects: Sequence[Effect], told: Told = untold) -> Built:
+    def built(self, effects: Sequence[Effect], told: Told = tell_nobody) -> Built:
         """Return the model that comes of adding, step by step, what has evidence of its own."""
         tried = self.tried(effects)
 
@@ -160,7 +160,7 @@ class Study:
         """Return the effects that are tried: those for what was measured, and the formulas of the job."""
         by_identifier: dict[str, Effect] = {}
         kind = self.job.axis.kind
-        formulas = (chosen_effect(each, by_identifier.__getitem__, kind) for each in self.job.candidates)
+        formulas = (choose_effect(each, by_identifier.__getitem__, kind) for each in self.job.candidates)
         return [*(each for each in effects if is_for(each, self.job.axis.measurand)), *formulas]
 
     def history(self, whole: Fitted | None = None) -> tuple[Fitted, ...]:
@@ -178,13 +178,13 @@ class Study:
         return (*parts, last)
 
     def _fitted(self, model: AxisModel, assumptions: Assumptions | None = None) -> Fitted:
-        every = thinned(self.together)
-        kept = every.without(outliers(every.design, every.deviation).readings)
+        every = thin(self.together)
+        kept = every.without(find_outliers(every.design, every.deviation).readings)
         try:
             found = fit(model, kept.design, kept.deviation, assumptions or self.assumptions)
         except ModelError as error:
             raise InputError(self._problems(error)) from error
-        return Fitted(found, error_numbers(found))
+        return Fitted(found, compute_error_numbers(found))
 
     def _problems(self, error: ModelError) -> Iterator[Problem]:
         for sentence in error.sentences:
@@ -198,11 +198,11 @@ class Study:
         return self.job.place_of(_KEY)
 
 
-def _with_feed(observed: Observations, job: Job) -> Observations:
+def _add_feed(observed: Observations, job: Job) -> Observations:
     """Return observations with the feed of the job beside them, where a formula has it and no log does."""
     feed = job.keys.measurement.feed
     used = any(
-        isinstance(each.settings, FormulaKeys) and "v" in names_in(parse_formula(each.settings.formula))
+        isinstance(each.settings, FormulaKeys) and "v" in find_names_in(parse_formula(each.settings.formula))
         for each in (*job.effects, *job.candidates)
     )
     if not used or feed is None or "v" in observed.design.conditions:
@@ -212,7 +212,7 @@ def _with_feed(observed: Observations, job: Job) -> Observations:
     return replace(observed, design=replace(observed.design, conditions=conditions))
 
 
-def instrument_error(job: Job, length: float) -> InstrumentError:
+def find_instrument_error(job: Job, length: float) -> InstrumentError:
     """Return the error of the instrument as the budget takes it; none if it is not stated as a number.
 
     What acts in time or at each reading differs within the test: the noise that the readings show has it
@@ -231,7 +231,7 @@ def instrument_error(job: Job, length: float) -> InstrumentError:
     )
 
 
-def addition(
+def read_addition(
     text: str, job: Job, registry: Installed, effects: Sequence[Effect], place: Place
 ) -> tuple[NamedEffect, tuple[str, ...]]:
     """Return an effect that a person names, and the effects of the model that it takes the place of.
@@ -242,25 +242,25 @@ def addition(
     Raises `InputError` if there is no such effect, or it stands in the model already; of those that may be
     several, the next is meant.
     """
-    named = _listed(text.strip(), job) or named_effect(text, registry, place)
+    named = _find_listed(text.strip(), job) or read_named_effect(text, registry, place)
     identifier = named.choice.identifier
     if any(each.identifier == identifier for each in job.effects) and not named.choice.is_formula:
-        again = next_number(named.choice.installed, job.effects)
+        again = find_next_number(named.choice.installed, job.effects)
         if registry.effect(named.choice.installed).several and text.strip().startswith(identifier):
-            text = text.replace(identifier, numbered(named.choice.installed, again), 1)
-            named = named_effect(text, registry, place)
+            text = text.replace(identifier, number_effect(named.choice.installed, again), 1)
+            named = read_named_effect(text, registry, place)
             identifier = named.choice.identifier
     for choice in job.effects:
-        if _meaning(choice) == _meaning(named.choice):
+        if _state_meaning(choice) == _state_meaning(named.choice):
             raise InputError.at(choice.place, f"{identifier} stands in the model already")
     contains = next((each.contains for each in effects if each.identifier == identifier), ())
     replaced = {identifier, *contains}
     return named, tuple(each.identifier for each in job.effects if each.identifier in replaced)
 
 
-def _listed(name: str, job: Job) -> NamedEffect | None:
+def _find_listed(name: str, job: Job) -> NamedEffect | None:
     """Return a formula of a job's candidates by its name."""
-    nodes = listed_items(job, CANDIDATES)
+    nodes = list_items_written(job, CANDIDATES)
     pairs = zip(nodes, job.candidates, strict=True)
     return next((NamedEffect(node, choice) for node, choice in pairs if choice.identifier == name), None)
 
@@ -273,23 +273,23 @@ def refuse_useless(added: str, before: Fitted, after: Fitted, job: Job) -> None:
     if after.error.rms >= before.error.rms:
         raise InputError.at(
             job.place_of(_KEY),
-            f"{added} explains nothing here: the error would be {_rms(after)} with it and is "
-            f"{_rms(before)} without; the job was left as it is",
+            f"{added} explains nothing here: the error would be {_write_rms(after)} with it and is "
+            f"{_write_rms(before)} without; the job was left as it is",
         )
 
 
-def _rms(fitted: Fitted) -> str:
+def _write_rms(fitted: Fitted) -> str:
     """Write an error with so many digits that a slight change shows."""
     unit = fitted.fit.design.axis.deviation_unit
-    digits = significant_words(unit.from_si(fitted.error.rms), 4)
+    digits = write_significant(unit.from_si(fitted.error.rms), 4)
     return with_unit(digits.in_language(Language.ENGLISH), unit.symbol)
 
 
-def _meaning(choice: EffectChoice) -> tuple[object, ...]:
+def _state_meaning(choice: EffectChoice) -> tuple[object, ...]:
     return choice.identifier, choice.settings, dict(choice.values)
 
 
-def corrected(measurements: MeasurementSet, observed: Observations, fitted: Fit) -> MeasurementSet:
+def correct_by_model(measurements: MeasurementSet, observed: Observations, fitted: Fit) -> MeasurementSet:
     """Return the readings less what a model explains of them; none is left out, flagged ones neither.
 
     `observed`: The same as the model sees them, none set aside.
@@ -311,12 +311,12 @@ def corrected(measurements: MeasurementSet, observed: Observations, fitted: Fit)
     )
 
 
-def moves_with_time(fitted: Fit) -> tuple[str, ...]:
+def list_what_moves_with_time(fitted: Fit) -> tuple[str, ...]:
     """Return the effects of a model that no table of positions takes away."""
     return tuple(term.effect.identifier for term in fitted.model.terms if term.effect.shape not in BY_TABLE)
 
 
-def one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
+def list_one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
     """Yield the polynomial of each direction in powers of the position itself, with its covariance.
 
     M. Halaj, E. Kureková, R. Palenčár and T. Loebl, The positional deviation in two axes, equation (2): a, b,
@@ -327,7 +327,7 @@ def one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
     for term in fitted.model.terms:
         for approach in Approach if term.effect.identifier == _POLYNOMIAL else ():
             chosen = np.flatnonzero(own.design.direction == approach)
-            design = of_readings(own.design, chosen)
+            design = select_readings(own.design, chosen)
             if not len(chosen) or term.effect.untestable(design):
                 continue
             alone = fit(
@@ -338,7 +338,7 @@ def one_way(fitted: Fit) -> Iterator[tuple[Approach, FloatArray, FloatArray]]:
             )
             powers = np.arange(len(term.effect.linear))
             scale = design.axis.position_unit.per_si ** (1.0 - powers)
-            turn = scale[:, np.newaxis] * of_position(len(powers) - 1, design.span)
+            turn = scale[:, np.newaxis] * transform_to_position(len(powers) - 1, design.span)
             yield (
                 approach,
                 turn @ alone.solution.coefficients[0],
@@ -355,12 +355,12 @@ class Wave:
     coverage_factor: float  #: k for 95 %, of both.
 
 
-def waves(fitted: Fit) -> tuple[Wave, ...]:
+def list_waves(fitted: Fit) -> tuple[Wave, ...]:
     """Return the harmonics of all periodic effects of a model; one with a given parameter is left out."""
-    return tuple(_waves(fitted))
+    return tuple(_find_waves(fitted))
 
 
-def _waves(fitted: Fit) -> Iterator[Wave]:
+def _find_waves(fitted: Fit) -> Iterator[Wave]:
     covariance = fitted.uncertainties.covariance
     first = 0
     for term in fitted.model.terms:
@@ -375,5 +375,5 @@ def _waves(fitted: Fit) -> Iterator[Wave]:
             if each.effect == term.effect.identifier and each.parameter in term.effect.linear
         ]
         values = np.array([each.value for each in own])
-        for harmonic in harmonics(term.effect.linear, values, covariance[columns, columns]):
+        for harmonic in find_harmonics(term.effect.linear, values, covariance[columns, columns]):
             yield Wave(term.effect.identifier, harmonic, own[0].coverage_factor)

@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.candidates import effects_to_try
+from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest, Reduced
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.diagnosis.null_distribution import NullDistribution, simulate_null
@@ -53,16 +53,16 @@ def plan_visibility(
     `design`: The plan: a visit list with times and conditions as they are expected.
     `sigma`: Repeatability of a single reading, m or rad.
     """
-    columns = [_known_columns(term, design) for term in model.terms]
+    columns = [_make_known_columns(term, design) for term in model.terms]
     base = np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
-    entered = effects_to_try(model, design, effects)
+    entered = list_effects_to_try(model, design, effects)
     contest = Contest.of(design, base, entered.forms)
     null = simulate_null(contest, contest.quiet)
     missing = tuple(Visibility(each.effect, 0.0, np.inf, None, each.reason) for each in entered.not_testable)
-    return (*visibility(contest, null, contest.reduced(contest.quiet, []), sigma), *missing)
+    return (*judge_visibility(contest, null, contest.reduced(contest.quiet, []), sigma), *missing)
 
 
-def visibility(
+def judge_visibility(
     contest: Contest, null: NullDistribution, reduced: Reduced, sigma: float
 ) -> tuple[Visibility, ...]:
     """Return what a test can see, in the order of the contest; what it cannot see at all comes last.
@@ -74,8 +74,8 @@ def visibility(
     for index, forms in enumerate(contest.by_effect):
         needed = float(null.usual[index]) + null.threshold
         family = contest.families[forms[0]]
-        lengths = [_lengths(contest, reduced, family, theta) for theta in _some(family.thetas)]
-        found.append(_of_family(family, lengths, sigma * float(np.sqrt(needed))))
+        lengths = [_compute_lengths(contest, reduced, family, theta) for theta in _try_some(family.thetas)]
+        found.append(_judge_family(family, lengths, sigma * float(np.sqrt(needed))))
     return (*found, *(Visibility(effect.identifier, 0.0, np.inf) for effect in contest.invisible))
 
 
@@ -88,11 +88,11 @@ class _Lengths:
     whitened: float
 
 
-def _some(thetas: FloatArray) -> FloatArray:
+def _try_some(thetas: FloatArray) -> FloatArray:
     return thetas[:: 1 + len(thetas) // _VALUES]
 
 
-def _lengths(contest: Contest, reduced: Reduced, family: Family, theta: FloatArray) -> _Lengths:
+def _compute_lengths(contest: Contest, reduced: Reduced, family: Family, theta: FloatArray) -> _Lengths:
     columns = family.effect.columns(contest.design, theta)
     contrasts = contest.space.of(columns)
     seen = contest.space.single.coloured(contrasts)
@@ -104,7 +104,7 @@ def _lengths(contest: Contest, reduced: Reduced, family: Family, theta: FloatArr
     )
 
 
-def _of_family(family: Family, lengths: Sequence[_Lengths], needed: float) -> Visibility:
+def _judge_family(family: Family, lengths: Sequence[_Lengths], needed: float) -> Visibility:
     """Return the visibility of a form; `needed` is the length that its whitened contrast must have."""
     amplitudes = [needed / each.whitened if each.whitened else np.inf for each in lengths]
     sizes = [amplitude * each.size for amplitude, each in zip(amplitudes, lengths, strict=True)]
@@ -114,5 +114,5 @@ def _of_family(family: Family, lengths: Sequence[_Lengths], needed: float) -> Vi
     return Visibility(family.effect.identifier, share, float(np.median(sizes)), smallest)
 
 
-def _known_columns(term: Term, design: Design) -> FloatArray:
+def _make_known_columns(term: Term, design: Design) -> FloatArray:
     return term.columns(design, term.grid(design)[0])[0]

@@ -9,14 +9,14 @@ from itertools import count
 import numpy as np
 
 from zlmreport.errors import InputError, did_you_mean
-from zlmreport.job.choices import EffectChoice, numbered
+from zlmreport.job.choices import EffectChoice, number_effect
 from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, Parameter, unit_of
+from zlmreport.model.effects.effect import Dimension, Effect, Parameter, find_unit_of
 from zlmreport.model.effects.formula import FormulaEffect
 
 #: A combination of columns this much shorter than its longest member is zero but for rounding.
@@ -120,7 +120,7 @@ class AxisModel:
         if not effect.several:
             return effect
         numbers = (
-            number for number in count(1) if numbered(effect.identifier, number) not in self.identifiers
+            number for number in count(1) if number_effect(effect.identifier, number) not in self.identifiers
         )
         return effect.repeated(next(numbers))
 
@@ -232,8 +232,8 @@ class AxisModel:
                     yield f"{said}: {other} is no other effect of the model"
                     continue
                 target = by_identifier[other].effect
-                known = _kinds(target)
-                own, found = _kinds(term.effect).get(name), known.get(parameter)
+                known = _list_kinds(target)
+                own, found = _list_kinds(term.effect).get(name), known.get(parameter)
                 if found is None:
                     yield f"{said}: {other} has no such parameter; {did_you_mean(parameter, list(known))}"
                 elif found != own:
@@ -251,7 +251,7 @@ class AxisModel:
                 )
 
 
-def _kinds(effect: Effect) -> dict[str, tuple[Dimension, bool]]:
+def _list_kinds(effect: Effect) -> dict[str, tuple[Dimension, bool]]:
     """Return of each parameter what quantity it is, and whether it is searched."""
     return {
         each.name: (each.dimension, each in effect.searched) for each in (*effect.linear, *effect.searched)
@@ -290,7 +290,7 @@ def refuse_collisions(model: AxisModel, columns: Sequence[FloatArray]) -> None:
         raise ModelError(list(dict.fromkeys(sentences)))
 
 
-def chosen_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Effect:
+def choose_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Effect:
     """Return an effect that a file names or writes as a formula, in the form that it asks for.
 
     Raises `InputError` if a formula is not meant for an axis of this kind.
@@ -303,16 +303,16 @@ def chosen_effect(choice: EffectChoice, find: Callable[[str], Effect], kind: Axi
         raise InputError.at(choice.place, f"{choice.identifier}: {error}") from error
 
 
-def chosen_terms(
+def choose_terms(
     choices: Iterable[EffectChoice], find: Callable[[str], Effect], kind: AxisKind
 ) -> tuple[Term, ...]:
     """Return the effects that a file names, in the forms that it asks for."""
-    return tuple(_term(choice, find, kind) for choice in choices)
+    return tuple(_make_term(choice, find, kind) for choice in choices)
 
 
-def _term(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Term:
-    effect = chosen_effect(choice, find, kind)
-    units = {each.name: unit_of(each.dimension, kind) for each in (*effect.linear, *effect.searched)}
+def _make_term(choice: EffectChoice, find: Callable[[str], Effect], kind: AxisKind) -> Term:
+    effect = choose_effect(choice, find, kind)
+    units = {each.name: find_unit_of(each.dimension, kind) for each in (*effect.linear, *effect.searched)}
     bounds, links = {}, {}
     for name, limits in choice.limits.items():
         if limits.equals is not None:

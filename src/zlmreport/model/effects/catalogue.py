@@ -13,7 +13,7 @@ from zlmreport.model.effects.effect import Effect
 from zlmreport.model.effects.formula import FormulaEffect
 
 
-def effects_of_catalogue(module: str, file: str) -> tuple[Effect, ...]:
+def read_effects_of_catalogue(module: str, file: str) -> tuple[Effect, ...]:
     """Return the effects of a catalogue that lies beside a module.
 
     The hook of a plugin that is a catalogue returns them::
@@ -36,24 +36,24 @@ def effects_of_catalogue(module: str, file: str) -> tuple[Effect, ...]:
     InputError
         With every mistake in it, each at its line and column.
     """
-    return effects_in(Path(module).parent / file)
+    return read_effects_in(Path(module).parent / file)
 
 
-def measurements_of_catalogue(module: str, file: str) -> Mapping[str, Words]:
+def read_measurements_of_catalogue(module: str, file: str) -> Mapping[str, Words]:
     """Return the measurements that tell effects apart, by the names that entries of a catalogue use.
 
-    `module` and `file` as of `effects_of_catalogue`, which says what is raised as well.
+    `module` and `file` as of `read_effects_of_catalogue`, which says what is raised as well.
     """
     path = Path(module).parent / file
-    return _measurements(path, _content(path))
+    return _read_measurements(path, _read_content(path))
 
 
-def effects_in(path: Path) -> tuple[Effect, ...]:
-    """Return the effects of a catalogue, as `effects_of_catalogue` does."""
-    return _effects(path, _content(path))
+def read_effects_in(path: Path) -> tuple[Effect, ...]:
+    """Return the effects of a catalogue, as `read_effects_of_catalogue` does."""
+    return _read_effects(path, _read_content(path))
 
 
-def _content(path: Path) -> bytes:
+def _read_content(path: Path) -> bytes:
     """Return what a file of a plugin holds: like a module, it may lie anywhere."""
     try:
         return path.read_bytes()
@@ -62,15 +62,15 @@ def _content(path: Path) -> bytes:
 
 
 @cache
-def _effects(path: Path, content: bytes) -> tuple[Effect, ...]:
+def _read_effects(path: Path, content: bytes) -> tuple[Effect, ...]:
     """Return them from what the file holds: every entry point of its effects asks for all of them."""
-    return tuple(map(FormulaEffect, read_catalogue(content, str(path), _beside(path))))
+    return tuple(map(FormulaEffect, read_catalogue(content, str(path), _open_beside(path))))
 
 
 @cache
-def _measurements(path: Path, content: bytes) -> Mapping[str, Words]:
-    return read_measurements(content, str(path), _beside(path))
+def _read_measurements(path: Path, content: bytes) -> Mapping[str, Words]:
+    return read_measurements(content, str(path), _open_beside(path))
 
 
-def _beside(path: Path) -> Callable[[str], bytes]:
+def _open_beside(path: Path) -> Callable[[str], bytes]:
     return lambda name: (path.parent / name).read_bytes()

@@ -23,10 +23,10 @@ class CircleTest:
     @property
     def axes(self) -> tuple[int, int]:
         """The numbers of the plane's first and second axis."""
-        return axes_of(self.nominal.plane)
+        return find_axes_of(self.nominal.plane)
 
 
-def axes_of(plane: str) -> tuple[int, int]:
+def find_axes_of(plane: str) -> tuple[int, int]:
     """Return the numbers of a plane's first and second axis."""
     first, second = PLANES[plane]
     return AXES.index(first), AXES.index(second)
@@ -105,7 +105,7 @@ class CircleDesign:
 
     def is_plane(self, plane: str) -> FloatArray:
         """Return 1 for readings in a plane, 0 for others."""
-        first, second = axes_of(plane)
+        first, second = find_axes_of(plane)
         return np.asarray((self.first == first) & (self.second == second), dtype=np.float64)
 
     def wave(self, axis: int) -> FloatArray:

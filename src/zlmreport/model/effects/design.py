@@ -82,7 +82,9 @@ class Design:
         if self.span is _OF_THE_READINGS:
             object.__setattr__(self, "span", (float(self.position.min()), float(self.position.max())))
         if any(len(self.rates.get(name, ())) != len(self.position) for name in self.conditions):
-            rates = {name: _rate(log, self.time, self.session) for name, log in self.conditions.items()}
+            rates = {
+                name: _compute_rate(log, self.time, self.session) for name, log in self.conditions.items()
+            }
             object.__setattr__(self, "rates", rates)
 
     @property
@@ -119,7 +121,7 @@ class Design:
         return bool(self.direction.min() < 0 < self.direction.max())
 
 
-def _rate(log: FloatArray, time: FloatArray, session: IntArray) -> FloatArray:
+def _compute_rate(log: FloatArray, time: FloatArray, session: IntArray) -> FloatArray:
     """Return what a log changes by in time, within each session; zero where no time passes."""
     found = np.zeros(len(log))
     for each in np.unique(session):
@@ -131,7 +133,7 @@ def _rate(log: FloatArray, time: FloatArray, session: IntArray) -> FloatArray:
     return read_only_floats(found)
 
 
-def at_positions(design: Design, positions: FloatArray, approach: Approach) -> Design:
+def place_at_positions(design: Design, positions: FloatArray, approach: Approach) -> Design:
     """Return the design of one approach to positions, all else being as it was in the mean of the job's test.
 
     `positions`, (M,): Within its travel, m or rad.
@@ -160,7 +162,9 @@ def at_positions(design: Design, positions: FloatArray, approach: Approach) -> D
     )
 
 
-def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tuple[float, float]) -> list[str]:
+def list_outside_of_measured(
+    name: str, unit: Unit, positions: FloatArray, span: tuple[float, float]
+) -> list[str]:
     """Return a sentence on each position at which nothing may be said: a model knows nothing beyond its data.
 
     `positions`, (M,): m or rad.
@@ -177,7 +181,7 @@ def outside_of_measured(name: str, unit: Unit, positions: FloatArray, span: tupl
     ]
 
 
-def of_position(order: int, span: tuple[float, float]) -> FloatArray:
+def transform_to_position(order: int, span: tuple[float, float]) -> FloatArray:
     """Return T with T·c = coefficients of 1, P, P² …, where c are those of p, which is −1 … 1 over the span.
 
     `span`: First and last position, m or rad.

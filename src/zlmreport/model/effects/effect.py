@@ -79,7 +79,7 @@ _ROTARY = _LINEAR | {
 _READINGS = Unit("readings", "readings", 1.0)
 
 
-def unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> Unit:
+def find_unit_of(dimension: Dimension, kind: AxisKind, *, time_is_counted: bool = False) -> Unit:
     """Return the unit in which a parameter is read and printed.
 
     `time_is_counted`: Whether the design counts readings instead of seconds.
@@ -323,10 +323,10 @@ def needs_passing_time(design: Design) -> Words | None:
 
 def needs_pause(design: Design) -> Words | None:
     """Demand a pause between readings that is long against the time between others."""
-    return None if len(pauses(design)) else _NO_PAUSE
+    return None if len(find_pauses(design)) else _NO_PAUSE
 
 
-def pauses(design: Design) -> FloatArray:
+def find_pauses(design: Design) -> FloatArray:
     """Return the moments of the first readings after the three longest pauses, the longest first, s."""
     moments = np.unique(design.time)
     gaps = np.diff(moments)

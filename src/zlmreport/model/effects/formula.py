@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.job.formula import Call, Number, Tree, calls_in, computed, names_in, parse_formula
+from zlmreport.job.formula import Call, Number, Tree, compute, find_calls_in, find_names_in, parse_formula
 from zlmreport.job.formula_keys import UNITS_OF_PARAMETERS, FormulaKeys, FormulaParameter, Search
-from zlmreport.job.formula_parts import AXIS_KEYS, TABLES, UNITS, Formula, kinds_of
+from zlmreport.job.formula_parts import AXIS_KEYS, TABLES, UNITS, Formula, find_kinds_of
 from zlmreport.job.types import Options
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray
@@ -25,6 +25,7 @@ from zlmreport.model.effects.effect import (
     NamedValue,
     Parameter,
     Shape,
+    find_unit_of,
     needs_both_directions,
     needs_linear_axis,
     needs_logged,
@@ -36,12 +37,11 @@ from zlmreport.model.effects.effect import (
     needs_stated,
     needs_targets,
     needs_whole_period,
-    unit_of,
 )
-from zlmreport.model.effects.formula_settings import OTHER, options_of, tried_settings
-from zlmreport.model.effects.harmonic import harmonic_parameters
-from zlmreport.model.effects.readings import logged_rise, readings_of
-from zlmreport.model.effects.searching import NOT_REFINED, search_grid, values_of
+from zlmreport.model.effects.formula_settings import OTHER, list_tried_settings, make_options_of
+from zlmreport.model.effects.harmonic import make_harmonic_parameters
+from zlmreport.model.effects.readings import collect_readings_of, find_logged_rise
+from zlmreport.model.effects.searching import NOT_REFINED, choose_values_of, search_grid
 
 #: Steps that find a joint between two positions, each to half the distance.
 _HALVINGS = 40
@@ -89,11 +89,11 @@ class FormulaEffect(Effect):
         number: int = 1,
     ) -> None:
         self.keys = keys  #: As the file says it.
-        self.options = options_of(keys)
+        self.options = make_options_of(keys)
         self.settings = settings or self.options()
         self._kind, self._number = kind, number
         #: In SI, and parted into what is solved and what is searched.
-        self.formula = Formula.of(keys, kind or (kinds_of(keys) or list(AxisKind))[0], *self._form())
+        self.formula = Formula.of(keys, kind or (find_kinds_of(keys) or list(AxisKind))[0], *self._form())
         title = keys.title or same(keys.name)
         self.identifier = keys.name if number == 1 else f"{keys.name}-{number}"
         self.title = title if number == 1 else _AGAIN.given(title=title, number=number)
@@ -102,7 +102,7 @@ class FormulaEffect(Effect):
         self.remedy = keys.remedy
         self.look = keys.look or _LOOK.given(formula=keys.formula)
         self.ranges_from = keys.ranges_from or (CHOSEN_RANGES if keys.look else _STATED)
-        self.source = _source(keys)
+        self.source = _say_source(keys)
         self.confusions = tuple(Confusion(*each) for each in keys.taken_for.items())
         self.contains = keys.contains
         self.measurands = keys.acts_on
@@ -148,18 +148,20 @@ class FormulaEffect(Effect):
             there = UNITS[AxisKind.ROTARY][UNITS_OF_PARAMETERS.get(own.spelled, own.spelled)].per_si
             on_rotary = (on_rotary[0] / there, on_rotary[1] / there)
         if parts:
-            sizes = harmonic_parameters(self._form()[0] or (1,), high or np.inf)
+            sizes = make_harmonic_parameters(self._form()[0] or (1,), high or np.inf)
             return tuple(
                 replace(each, usual=usual, usual_on_rotary=on_rotary, question=own.question) for each in sizes
             )
-        kind = self._kind or (AxisKind.LINEAR if AxisKind.LINEAR in kinds_of(self.keys) else AxisKind.ROTARY)
+        kind = self._kind or (
+            AxisKind.LINEAR if AxisKind.LINEAR in find_kinds_of(self.keys) else AxisKind.ROTARY
+        )
         way = self._ways.get(name)
         of_list = way is not None and not isinstance(way, Search)
         return (
             Parameter(
                 name,
                 own.notation or name,
-                next(each for each in Dimension if unit_of(each, kind).ascii == own.spelled),
+                next(each for each in Dimension if find_unit_of(each, kind).ascii == own.spelled),
                 own.meaning or _MEANING.given(formula=self.keys.formula),
                 low,
                 high,
@@ -197,7 +199,7 @@ class FormulaEffect(Effect):
 
     def forms(self) -> tuple[Effect, ...]:
         """Return a form for each choice, for each set of harmonics that is tried, and for other periods."""
-        return tuple(map(self.with_settings, tried_settings(self.keys, self.options)))
+        return tuple(map(self.with_settings, list_tried_settings(self.keys, self.options)))
 
     def further_forms(self) -> tuple[Effect, ...]:
         """Return the forms with more harmonics."""
@@ -236,7 +238,7 @@ class FormulaEffect(Effect):
         for parameter in self.searched:
             own = self.keys.parameters[parameter.name]
             if own.stated and (parameter.name not in self._ways or self._is_other(own)):
-                keys.extend(name for name in names_in(parse_formula(own.stated)) if name in AXIS_KEYS)
+                keys.extend(name for name in find_names_in(parse_formula(own.stated)) if name in AXIS_KEYS)
         return next((why for key in keys if (why := needs_stated(getattr(axis, key), f"axis.{key}"))), None)
 
     def _without_period(self, design: Design) -> Words | None:
@@ -248,7 +250,7 @@ class FormulaEffect(Effect):
 
     def forbids(self, design: Design, values: Mapping[str, float]) -> Words | None:
         """Return why physics and the log of a test forbid values of parameters, SI."""
-        rise = logged_rise(design)
+        rise = find_logged_rise(design)
         for name, value in values.items():
             low, high = self.formula.possible(name, rise)
             possible = self.keys.parameters[name].possible if name in self.keys.parameters else None
@@ -271,9 +273,9 @@ class FormulaEffect(Effect):
                 continue
             usual = np.array(own.instead.values) / self.formula.units[name].per_si
             if self._is_other(own):
-                ways[name] = _but_for(usual, known.pop(name), is_count=own.spelled == "1")
+                ways[name] = _drop_harmonics(usual, known.pop(name), is_count=own.spelled == "1")
             elif name not in known:
-                ways[name] = np.union1d(values_of(ways[name], design), usual)
+                ways[name] = np.union1d(choose_values_of(ways[name], design), usual)
         found = search_grid(design, self.searched, known, ways)
         skipped = self._number - 1  # which of several is which says their order
         return found[skipped:] if skipped < len(found) else found
@@ -304,20 +306,20 @@ class FormulaEffect(Effect):
 
     def shortest_wave(self, along: Design, theta: FloatArray) -> float:
         """Return the length of the shortest wave at rising positions, m or rad; infinite without any."""
-        calls = calls_in(self.formula.tree, _WAVES)
+        calls = find_calls_in(self.formula.tree, _WAVES)
         phases = [self._over_position(call.arguments[0], along, theta)(along.position) for call in calls]
-        return 2 * np.pi * _shortest(along, phases)
+        return 2 * np.pi * _find_shortest(along, phases)
 
     def shortest_fading(self, along: Design, theta: FloatArray) -> float:
         """Return the shortest length over which a part of it comes or goes, m or rad; infinite without."""
-        calls = calls_in(self.formula.tree, _FADING)
+        calls = find_calls_in(self.formula.tree, _FADING)
         values = [self._over_position(call, along, theta)(along.position) for call in calls]
-        return _shortest(along, [value / np.abs(value).max() for value in values if value.any()])
+        return _find_shortest(along, [value / np.abs(value).max() for value in values if value.any()])
 
     def joints(self, along: Design, theta: FloatArray) -> list[float]:
         """Return where it jumps or bends between rising positions, m or rad."""
         found: list[float] = []
-        for call in calls_in(self.formula.tree, _JOINTS):
+        for call in find_calls_in(self.formula.tree, _JOINTS):
             zero = Call("-", call.arguments) if len(call.arguments) > 1 else call.arguments[0]
             if call.operation == "floor":  # it jumps at every whole number
                 zero = Call("sin", (Call("*", (Number(np.pi), zero)),))
@@ -340,7 +342,7 @@ class FormulaEffect(Effect):
         """Return a part of the formula as a function of the position, all else being as in a design."""
         readings = {name: np.ravel(values)[0] for name, values in self._readings(along).items()}
         known = readings | self._named(theta)
-        return lambda places: np.broadcast_to(computed(part, {**known, "P": places}), places.shape)
+        return lambda places: np.broadcast_to(compute(part, {**known, "P": places}), places.shape)
 
     def _named(self, theta: FloatArray) -> dict[str, float]:
         names = [parameter.name for parameter in self.searched]
@@ -350,10 +352,10 @@ class FormulaEffect(Effect):
         """Return what stands in the formula, but for its parameters; positions in any case."""
         own = {*self.formula.linear, *self.formula.searched}
         names = (name for name in self.formula.names if name not in own)
-        return readings_of(design, names, self.formula.units)
+        return collect_readings_of(design, names, self.formula.units)
 
 
-def _source(keys: FormulaKeys) -> Words | None:
+def _say_source(keys: FormulaKeys) -> Words | None:
     """Return how the form of an effect is known; nothing of a formula that a job tries."""
     if keys.look is None and keys.source is None:
         return None
@@ -361,14 +363,14 @@ def _source(keys: FormulaKeys) -> Words | None:
     return known if keys.source is None else _FROM.given(known=known, source=keys.source)
 
 
-def _but_for(values: FloatArray, stated: float, *, is_count: bool) -> FloatArray:
+def _drop_harmonics(values: FloatArray, stated: float, *, is_count: bool) -> FloatArray:
     """Return values that are not the stated one, nor one of its harmonics."""
     order = values / stated if is_count else stated / values
     is_same = np.any(np.abs(order[:, np.newaxis] - _HARMONICS) < _SAME * _HARMONICS, axis=1)
     return values[~is_same] if not np.all(is_same) else values
 
 
-def _shortest(along: Design, values: list[FloatArray]) -> float:
+def _find_shortest(along: Design, values: list[FloatArray]) -> float:
     """Return the shortest length in which one of some values changes by 1; infinite if none does."""
     with np.errstate(all="ignore"):
         slopes = np.abs(np.diff(np.array(values)) / np.diff(along.position)) if values else np.zeros(1)

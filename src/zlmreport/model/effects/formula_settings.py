@@ -15,13 +15,13 @@ from zlmreport.job.types import Options
 STATED, OTHER = "stated", "other"
 
 
-def _distinct(orders: tuple[int, ...]) -> tuple[int, ...]:
+def _require_distinct(orders: tuple[int, ...]) -> tuple[int, ...]:
     if len(set(orders)) < len(orders):
         raise ValueError("a harmonic stands there twice; each is named once, as in [1, 2]")
     return orders
 
 
-_ORDERS: Any = Annotated[tuple[Annotated[int, Field(ge=1, le=4)], ...], AfterValidator(_distinct)]
+_ORDERS: Any = Annotated[tuple[Annotated[int, Field(ge=1, le=4)], ...], AfterValidator(_require_distinct)]
 
 
 @cache
@@ -38,10 +38,10 @@ def _made(
     return create_model("FormOptions", __base__=Options, **fields) if fields else Options
 
 
-def options_of(keys: FormulaKeys) -> type[Options]:
+def make_options_of(keys: FormulaKeys) -> type[Options]:
     """Return the job keys of an effect beside its parameters, the usual form being that which names none."""
     chosen: list[tuple[str, str, tuple[str | int, ...]]] = [
-        (each.name, each.description, tuple(map(_value, each.choices))) for each in keys.keys
+        (each.name, each.description, tuple(map(_read_value, each.choices))) for each in keys.keys
     ]
     chosen.extend(
         (each.instead.key, each.instead.description, (STATED, OTHER))
@@ -51,7 +51,7 @@ def options_of(keys: FormulaKeys) -> type[Options]:
     return _made(keys.harmonics.usual if keys.harmonics else (), tuple(chosen))
 
 
-def tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[Options]:
+def list_tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[Options]:
     """Yield the settings of the forms that a diagnosis tries: one key at a time, the others being usual."""
     if keys.harmonics:
         for orders in keys.harmonics.tried:
@@ -60,13 +60,13 @@ def tried_settings(keys: FormulaKeys, options: type[Options]) -> Iterator[Option
         yield options()
     for key in keys.keys:
         for choice in list(key.choices)[1:]:  # the first is the usual form
-            yield options.model_validate({key.name: _value(choice)})
+            yield options.model_validate({key.name: _read_value(choice)})
     for each in keys.parameters.values():
         if each.instead:
             plainest = {"harmonics": (1,)} if keys.harmonics else {}
             yield options.model_validate({**plainest, each.instead.key: OTHER})
 
 
-def _value(text: str) -> str | int:
+def _read_value(text: str) -> str | int:
     """Return the value of a key as a job has it: a whole number where it is written like one."""
     return int(text) if text.removeprefix("-").isdecimal() else text

@@ -38,7 +38,7 @@ class Harmonic:
     phase_uncertainty: float
 
 
-def harmonic_parameters(orders: Sequence[int], largest: float) -> tuple[Parameter, ...]:
+def make_harmonic_parameters(orders: Sequence[int], largest: float) -> tuple[Parameter, ...]:
     """Return the linear parameters of harmonics, in the order of their columns.
 
     Parameters
@@ -62,7 +62,7 @@ def harmonic_parameters(orders: Sequence[int], largest: float) -> tuple[Paramete
     )
 
 
-def harmonic_columns(angle: FloatArray, orders: Sequence[int]) -> FloatArray:
+def make_harmonic_columns(angle: FloatArray, orders: Sequence[int]) -> FloatArray:
     """Return sine and cosine of each harmonic, shape (N, 2·len(orders)).
 
     Parameters
@@ -75,7 +75,7 @@ def harmonic_columns(angle: FloatArray, orders: Sequence[int]) -> FloatArray:
     return np.column_stack([wave(order * angle) for order in orders for wave in (np.sin, np.cos)])
 
 
-def harmonics(
+def find_harmonics(
     parameters: Sequence[Parameter], values: FloatArray, covariance: FloatArray
 ) -> tuple[Harmonic, ...]:
     """Return the harmonics among estimated parameters; empty for an effect that is not periodic.
@@ -90,11 +90,11 @@ def harmonics(
         cosine = index.get(name.replace(_SINE, _COSINE, 1))
         if kind == _SINE and cosine is not None:
             pair = [sine, cosine]
-            found.append(_harmonic(int(order or 1), values[pair], covariance[np.ix_(pair, pair)]))
+            found.append(_make_harmonic(int(order or 1), values[pair], covariance[np.ix_(pair, pair)]))
     return tuple(found)
 
 
-def _harmonic(order: int, pair: FloatArray, covariance: FloatArray) -> Harmonic:
+def _make_harmonic(order: int, pair: FloatArray, covariance: FloatArray) -> Harmonic:
     amplitude = float(np.hypot(*pair))
     along = pair / amplitude if amplitude else np.array([1.0, 0.0])
     across = np.array([-along[1], along[0]])

@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 
-from zlmreport.job.formula import UnitOf, column_of
+from zlmreport.job.formula import UnitOf, find_column_of
 from zlmreport.job.formula_parts import AXIS_KEYS
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import PositionTable
@@ -20,7 +20,7 @@ from zlmreport.model.effects.design import Design
 _TEMPERATURES = ("axis_temperature", "screw_temperature", "material_temperature")
 
 
-def readings_of(
+def collect_readings_of(
     design: Design, names: Iterable[str], units: Mapping[str, UnitOf]
 ) -> dict[str, FloatArray | float]:
     """Return the values of names, SI but temperatures in °C; positions in any case.
@@ -35,7 +35,7 @@ def readings_of(
             found[name] = float(getattr(design.axis, name))
         elif name == "v":
             found[name] = design.conditions[name] / units[name].per_si
-        elif column := column_of(name):
+        elif column := find_column_of(name):
             kind = CONDITIONS.get(column)
             found[name] = design.rates[column] / (1.0 if kind is None else kind.unit.si)
         else:
@@ -44,13 +44,13 @@ def readings_of(
     return found
 
 
-def logged_rise(design: Design) -> float | None:
+def find_logged_rise(design: Design) -> float | None:
     """Return the largest rise or fall of a logged temperature of the axis, K; None where none was logged."""
     rises = [float(np.ptp(design.conditions[name])) for name in _TEMPERATURES if name in design.conditions]
     return max(rises, default=None)
 
 
-def _compensation(design: Design, rows: int) -> FloatArray:
+def _read_compensation(design: Design, rows: int) -> FloatArray:
     """Return what the table says at each reading, or some rows beside it."""
     table = cast("PositionTable", design.axis.compensation_table)
     places = design.position + rows * table.interval if rows else design.position
@@ -70,9 +70,9 @@ _OF_DESIGN: Mapping[str, Callable[[Design], FloatArray | float]] = MappingProxyT
         "travel_last": lambda design: (design.axis.travel or design.span)[1],
         "turn": lambda _: 2 * np.pi,
         "air_index": lambda design: index_change(*(design.conditions[name] for name in STATE_OF_AIR)),
-        "compensation": lambda design: _compensation(design, 0),
-        "compensation_next": lambda design: _compensation(design, 1),
-        "compensation_before": lambda design: _compensation(design, -1),
+        "compensation": lambda design: _read_compensation(design, 0),
+        "compensation_next": lambda design: _read_compensation(design, 1),
+        "compensation_before": lambda design: _read_compensation(design, -1),
         "angular_error": lambda design: cast("PositionTable", design.axis.angular_errors).at(design.position),
     }
 )

@@ -12,7 +12,7 @@ import numpy as np
 from zlmreport.job.formula_keys import Search
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Parameter, pauses
+from zlmreport.model.effects.effect import Dimension, Parameter, find_pauses
 
 #: Values of searched parameters that are tried: at most all together, of one alone, in each of its periods.
 _MOST, _FEWEST, _PER_PERIOD = 400, 12, 4
@@ -61,7 +61,9 @@ def search_grid(
         by name.
     """
     each = [
-        np.array([known[parameter.name]]) if parameter.name in known else _starts(parameter, design, ways)
+        np.array([known[parameter.name]])
+        if parameter.name in known
+        else _choose_starts(parameter, design, ways)
         for parameter in searched
     ]
     several = sum(len(one) > 1 for one in each)
@@ -72,9 +74,11 @@ def search_grid(
     return np.array(rows, dtype=np.float64).reshape(len(rows), len(each))
 
 
-def _starts(parameter: Parameter, design: Design, ways: Mapping[str, Search | FloatArray]) -> FloatArray:
+def _choose_starts(
+    parameter: Parameter, design: Design, ways: Mapping[str, Search | FloatArray]
+) -> FloatArray:
     if parameter.name in ways:
-        return values_of(ways[parameter.name], design)
+        return choose_values_of(ways[parameter.name], design)
     low, high = parameter.smallest or 0.0, parameter.largest or 0.0
     if low <= 0:
         return np.linspace(low, high, 2 * _FEWEST)
@@ -83,24 +87,24 @@ def _starts(parameter: Parameter, design: Design, ways: Mapping[str, Search | Fl
     return 1.0 / np.linspace(1.0 / high, 1.0 / low, int(min(wanted, _MOST)))
 
 
-def values_of(way: Search | FloatArray, design: Design) -> FloatArray:
+def choose_values_of(way: Search | FloatArray, design: Design) -> FloatArray:
     """Return the values with which a search begins, SI: those that follow from the test, or those given."""
     return _WAYS[way](design) if isinstance(way, Search) else way
 
 
-def _waves_along(design: Design) -> FloatArray:
+def _list_waves_along(design: Design) -> FloatArray:
     """Return periods, even in their inverse, up to half as many as there are targets."""
     most = len(design.target_positions) / 2
     return design.length / np.arange(_FEWEST_WAVES, most + 1e-9, 1 / _STEPS_PER_WAVE)
 
 
-def _gaps(design: Design) -> FloatArray:
+def _list_gaps(design: Design) -> FloatArray:
     """Return the middle of every gap between targets but the outer ones."""
     targets = design.target_positions
     return (targets[1:-2] + targets[2:-1]) / 2
 
 
-def _moments(design: Design) -> FloatArray:
+def _list_moments(design: Design) -> FloatArray:
     """Return moments between readings, spread evenly over them, but for the first and the last gap."""
     moments = np.unique(design.time)
     between = (moments[1:-2] + moments[2:-1]) / 2
@@ -108,7 +112,7 @@ def _moments(design: Design) -> FloatArray:
     return np.asarray(between[chosen], dtype=np.float64)
 
 
-def _teeth(design: Design) -> FloatArray:
+def _list_teeth(design: Design) -> FloatArray:
     """Return whole numbers of waves a turn that the targets can tell."""
     turns = design.length / _TURN
     fewest = max(_FEWEST_TEETH, math.ceil(_FEWEST_WAVES / turns))
@@ -116,7 +120,7 @@ def _teeth(design: Design) -> FloatArray:
     return np.arange(fewest, most + 1, dtype=np.float64)
 
 
-def _fixed_points(design: Design) -> FloatArray:
+def _list_fixed_points(design: Design) -> FloatArray:
     """Return places in the travel but the zero of the axis, from which another effect grows."""
     places = design.middle + _FIXED_POINTS * design.length
     return np.asarray(places[np.abs(places) > _AT_ZERO * design.length], dtype=np.float64)
@@ -126,20 +130,20 @@ _WAYS: Mapping[Search, Callable[[Design], FloatArray]] = MappingProxyType(
     {
         Search.FADING_LENGTH: lambda design: design.length * _FADING,
         Search.TIME_CONSTANT: lambda design: design.duration * _WARMING,
-        Search.WAVE_LENGTH: _waves_along,
+        Search.WAVE_LENGTH: _list_waves_along,
         Search.WAVE_TIME: lambda design: design.duration / _WAVES_IN_TIME,
-        Search.JOINT: _gaps,
-        Search.MOMENT: _moments,
+        Search.JOINT: _list_gaps,
+        Search.MOMENT: _list_moments,
         Search.KINK: lambda design: design.middle + _KINKS * design.length,
-        Search.WHOLE_NUMBER: _teeth,
+        Search.WHOLE_NUMBER: _list_teeth,
         Search.RUN: lambda design: np.unique(design.run)[1:].astype(np.float64),
-        Search.PAUSE: pauses,
+        Search.PAUSE: find_pauses,
         Search.PLACE: lambda design: design.middle + _PLACES * design.length,
         Search.WIDTH: lambda design: design.length * _WIDTHS,
         Search.PEAK: lambda design: float(design.time.min()) + (_PLACES + 0.5) * design.duration,
         Search.SPELL: lambda design: design.duration * _SPELLS,
         Search.LAG: lambda design: design.duration * _LAGS,
-        Search.FIXED_POINT: _fixed_points,
+        Search.FIXED_POINT: _list_fixed_points,
     }
 )
 #: Between whose values a search finds nothing: only these make sense, or nothing changes between them.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.measurement.units import behind
-from zlmreport.model.effects.effect import Parameter, unit_of
+from zlmreport.measurement.units import write_behind
+from zlmreport.model.effects.effect import Parameter, find_unit_of
 
 #: So many times beyond what is usual a value is asked for.
 _FAR = 2.0
@@ -15,7 +15,7 @@ _IS_IT = Words("{value}: {times} times what is usual; measured so, and in the ri
 _IS_IT_AT_ALL = Words("{value}: beyond what is usual; measured so, and with the right sign?")
 
 
-def usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> tuple[float, float]:
+def find_usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> tuple[float, float]:
     """Return between which values, SI, a parameter is usual; infinite where nothing is known."""
     if kind is AxisKind.ROTARY and parameter.usual_on_rotary is not None:
         return parameter.usual_on_rotary
@@ -25,29 +25,29 @@ def usual_range(parameter: Parameter, kind: AxisKind = AxisKind.LINEAR) -> tuple
     return -float("inf") if low is None else low, float("inf") if high is None else high
 
 
-def times_usual(parameter: Parameter, value: float, kind: AxisKind = AxisKind.LINEAR) -> float:
+def compute_times_usual(parameter: Parameter, value: float, kind: AxisKind = AxisKind.LINEAR) -> float:
     """Return how many times what is usual a value is: 1 within the usual, infinite where the end is zero."""
-    low, high = usual_range(parameter, kind)
+    low, high = find_usual_range(parameter, kind)
     if low <= value <= high:
         return 1.0
     end = high if value > high else low
     return value / end if end and value / end > 0 else float("inf")
 
 
-def asked_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
+def ask_of(parameter: Parameter, value: float, axis: Axis) -> Words | None:
     """Return what is asked of a value far beyond what is usual; None of any other.
 
     `value`: SI.
     """
-    times = times_usual(parameter, value, axis.kind)
+    times = compute_times_usual(parameter, value, axis.kind)
     if times < _FAR:
         return None
-    low, _ = usual_range(parameter, axis.kind)
+    low, _ = find_usual_range(parameter, axis.kind)
     question = (parameter.question_below or parameter.question) if value < low else parameter.question
     usual = _IS_IT_AT_ALL if times == float("inf") else _IS_IT
-    unit = unit_of(parameter.dimension, axis.kind)
-    symbol = behind(unit.symbol) if unit.symbol else ""
-    written = _VALUE.given(value=significant_words(unit.from_si(value), 2), unit=symbol)
+    unit = find_unit_of(parameter.dimension, axis.kind)
+    symbol = write_behind(unit.symbol) if unit.symbol else ""
+    written = _VALUE.given(value=write_significant(unit.from_si(value), 2), unit=symbol)
     return (question or usual).given(value=written, times=f"{times:.2g}")
 
 

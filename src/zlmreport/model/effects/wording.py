@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from zlmreport.language import Words
-from zlmreport.language.numbers import significant_words
+from zlmreport.language.numbers import write_significant
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import behind
+from zlmreport.measurement.units import write_behind
 from zlmreport.model.effects.design import Design
 
 _QUANTITY = Words("{value}{unit}")
@@ -22,34 +22,34 @@ def deviation(axis: Axis, value: float) -> Words:
     """Return a deviation given in m or rad."""
     unit = axis.deviation_unit
     value = 0.0 if abs(value) < _ROUNDING else value
-    return _QUANTITY.given(value=significant_words(unit.from_si(value), 2), unit=behind(unit.symbol))
+    return _QUANTITY.given(value=write_significant(unit.from_si(value), 2), unit=write_behind(unit.symbol))
 
 
 def position(axis: Axis, value: float) -> Words:
     """Return a position on the axis given in m or rad."""
     unit = axis.position_unit
-    return _QUANTITY.given(value=significant_words(unit.from_si(value), 4), unit=behind(unit.symbol))
+    return _QUANTITY.given(value=write_significant(unit.from_si(value), 4), unit=write_behind(unit.symbol))
 
 
 def length(axis: Axis, value: float) -> Words:
     """Return a distance along the axis given in m or rad."""
     unit = axis.position_unit
-    return _QUANTITY.given(value=significant_words(unit.from_si(value)), unit=behind(unit.symbol))
+    return _QUANTITY.given(value=write_significant(unit.from_si(value)), unit=write_behind(unit.symbol))
 
 
 def span_of_time(design: Design, value: float) -> Words:
     """Return a time given in s, or in readings where the design counts them."""
     if design.time_is_counted:
-        return _COUNTED.given(value=significant_words(value, 2))
+        return _COUNTED.given(value=write_significant(value, 2))
     if value >= _LONG:
-        return _QUANTITY.given(value=significant_words(value / _MINUTE, 3), unit=behind("min"))
-    return _QUANTITY.given(value=significant_words(value, 3), unit=behind("s"))
+        return _QUANTITY.given(value=write_significant(value / _MINUTE, 3), unit=write_behind("min"))
+    return _QUANTITY.given(value=write_significant(value, 3), unit=write_behind("s"))
 
 
 def cell(design: Design, reading: int) -> Words:
     """Return target and direction of a reading."""
     return _CELL.given(
-        position=position(design.axis, float(design.position[reading])), arrow=_arrow(design, reading)
+        position=position(design.axis, float(design.position[reading])), arrow=_write_arrow(design, reading)
     )
 
 
@@ -57,10 +57,10 @@ def reading_at(design: Design, reading: int) -> Words:
     """Return target, direction and run of a reading."""
     return _READING.given(
         position=position(design.axis, float(design.position[reading])),
-        arrow=_arrow(design, reading),
+        arrow=_write_arrow(design, reading),
         run=int(design.cycle[reading]),
     )
 
 
-def _arrow(design: Design, reading: int) -> str:
+def _write_arrow(design: Design, reading: int) -> str:
     return "↑" if design.direction[reading] > 0 else "↓"

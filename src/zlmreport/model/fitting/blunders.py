@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray, read_only_integers
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.distributions import normal_tail
-from zlmreport.model.fitting.repeats import cells
+from zlmreport.model.fitting.repeats import number_cells
 
 #: Of the robust standard deviation.
 _LIMIT = 4.5
@@ -45,13 +45,13 @@ class Outliers:
     p_value: float  #: Chance that any of so many normal readings stands off so far; 1 if none does.
 
 
-def outliers(design: Design, deviation: FloatArray) -> Outliers:
+def find_outliers(design: Design, deviation: FloatArray) -> Outliers:
     """Return the readings that stand off from their repeats and from their neighbours in time.
 
     `deviation`, (N,): x, or what a model leaves of it, m or rad.
     """
     none = Outliers(read_only_integers([]), 1.0)
-    cell = cells(design)
+    cell = number_cells(design)
     count = np.bincount(cell)
     if count.max() < _FEWEST_REPEATS or len(deviation) < _WINDOW:
         return none
@@ -62,19 +62,19 @@ def outliers(design: Design, deviation: FloatArray) -> Outliers:
     left = left - np.median(np.lib.stride_tricks.sliding_window_view(padded, _WINDOW), axis=1)
     judged = count[cell] >= _FEWEST_REPEATS
     typical = float(np.median(count[cell][judged]))
-    left = left / _growth(design.position, left, judged)
+    left = left / _estimate_growth(design.position, left, judged)
     spread = _NORMAL * float(np.median(np.abs(left[judged]))) / (1.0 - _SHARE_OF_MEDIAN / typical)
     if spread == 0:
         return none
     sizes = np.where(judged, np.abs(left) / spread, 0.0)
     flagged = sizes > _LIMIT
-    for pattern in _patterns(design, flagged, left):
+    for pattern in _find_patterns(design, flagged, left):
         sizes[pattern] = np.minimum(sizes[pattern], _LIMIT)
     p_value = min(1.0, 2.0 * len(sizes) * normal_tail(float(sizes.max())))
     return Outliers(read_only_integers(np.flatnonzero(sizes > _LIMIT)), p_value)
 
 
-def _growth(position: FloatArray, left: FloatArray, judged: BoolArray) -> FloatArray:
+def _estimate_growth(position: FloatArray, left: FloatArray, judged: BoolArray) -> FloatArray:
     """Return how readings scatter at their positions over the mean, where that plainly grows along the axis.
 
     Logarithms of sizes are taken: single readings that stand off hardly move their line.
@@ -93,7 +93,7 @@ def _growth(position: FloatArray, left: FloatArray, judged: BoolArray) -> FloatA
     return np.asarray(grown / grown[judged].mean(), dtype=np.float64)
 
 
-def _patterns(design: Design, flagged: BoolArray, left: FloatArray) -> Iterator[IntArray]:
+def _find_patterns(design: Design, flagged: BoolArray, left: FloatArray) -> Iterator[IntArray]:
     """Yield flagged readings that have a pattern: they are evidence, and no blunders."""
     places = np.flatnonzero(flagged)
     off = np.concatenate([[False], flagged, [False]])

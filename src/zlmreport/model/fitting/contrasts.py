@@ -78,7 +78,7 @@ class SingleReadings:
         return np.asarray((found.T / self.scale).T)
 
 
-def single_readings(design: Design, weights: FloatArray, memory: float = 0.0) -> SingleReadings:
+def describe_single_readings(design: Design, weights: FloatArray, memory: float = 0.0) -> SingleReadings:
     """Return how readings scatter singly.
 
     `weights`, (N,): w, the variance of each reading over the mean one.
@@ -165,7 +165,7 @@ class Contrasts:
         return self.degrees * np.log(np.maximum(squares, _NOTHING)) + metric.log_determinant
 
 
-def contrasts_of(
+def make_contrasts_of(
     base: FloatArray, parts: Sequence[NoisePart], weights: FloatArray | SingleReadings
 ) -> Contrasts:
     """Return the space of error contrasts.
@@ -184,7 +184,7 @@ def contrasts_of(
     return Contrasts(orthonormal, single, tuple(parts), factors, factors.T @ factors)
 
 
-def restricted_estimate(
+def estimate_restricted(
     space: Contrasts, contrasts: FloatArray, grid: FloatArray, largest: FloatArray, known: float = 0.0
 ) -> tuple[FloatArray, float]:
     """Return φ̂ and σ̂² by restricted maximum likelihood.
@@ -224,7 +224,7 @@ class Whitener:
         return scaled - self.modes @ ((self.modes.T @ scaled).T * self.excess).T
 
 
-def whitener(parts: Sequence[NoisePart], noise: Noise) -> Whitener:
+def make_whitener(parts: Sequence[NoisePart], noise: Noise) -> Whitener:
     """Return the whitener of a noise."""
     scale = 1.0 / np.sqrt(noise.weights)
     active = [

@@ -15,7 +15,7 @@ import numpy as np
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import Term
-from zlmreport.model.effects.design import Design, at_positions
+from zlmreport.model.effects.design import Design, place_at_positions
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.effects.formula import FormulaEffect
 from zlmreport.model.fitting.fit import Fit
@@ -31,41 +31,43 @@ _BESIDE = 1e-9
 _GOLDEN = (5.0**0.5 - 1.0) / 2.0
 
 
-def curve_positions(fitted: Fit, approach: Approach, span: tuple[float, float] | None = None) -> FloatArray:
+def lay_curve_positions(
+    fitted: Fit, approach: Approach, span: tuple[float, float] | None = None
+) -> FloatArray:
     """Return the positions of the curve of a model, rising, m or rad, shape (M,).
 
     `span`: The part of the travel that is drawn, m or rad; without it all that was measured.
     """
     design = fitted.design
     pairs = list(zip(fitted.model.terms, fitted.solution.thetas, strict=True))
-    at = partial(at_positions, design, approach=approach)
-    return _positions(pairs, at, span or design.span, fitted.value_at)
+    at = partial(place_at_positions, design, approach=approach)
+    return _lay_positions(pairs, at, span or design.span, fitted.value_at)
 
 
 def shows_reach_only(fitted: Fit, span: tuple[float, float] | None = None) -> bool:
     """Return whether the travel holds more waves than a page can part: a curve then shows how far they reach.
 
-    `span`: As of `curve_positions`.
+    `span`: As of `lay_curve_positions`.
     """
     first, last = span or fitted.design.span
-    shortest = min(waves_along(fitted).values(), default=np.inf)
+    shortest = min(find_waves_along(fitted).values(), default=np.inf)
     return bool(_PER_PERIOD * (last - first) / shortest > _MOST)
 
 
-def effect_positions(
+def lay_effect_positions(
     effect: Effect, theta: FloatArray, design: Design, approach: Approach, span: tuple[float, float]
 ) -> FloatArray:
     """Return the positions of the curve of one effect alone, all its linear parameters one, shape (M,).
 
     `span`: The part of the travel that is drawn, m or rad.
     """
-    at = partial(at_positions, design, approach=approach)
-    return _positions(
+    at = partial(place_at_positions, design, approach=approach)
+    return _lay_positions(
         [(Term(effect), theta)], at, span, lambda asked: effect.columns(asked, theta).sum(axis=1)
     )
 
 
-def _positions(
+def _lay_positions(
     pairs: Sequence[tuple[Term, FloatArray]],
     at: Callable[[FloatArray], Design],
     span: tuple[float, float],
@@ -75,7 +77,7 @@ def _positions(
     along = at(np.linspace(first, last, _MOST))
     shortest = min((_scale(term, theta, along) for term, theta in pairs), default=np.inf)
     joints = [
-        place for term, theta in pairs for place in _joints(term, theta, along) if first <= place <= last
+        place for term, theta in pairs for place in _list_joints(term, theta, along) if first <= place <= last
     ]
     wanted = _PER_PERIOD * (last - first) / shortest
     if wanted <= _POSITIONS:
@@ -83,14 +85,14 @@ def _positions(
     elif wanted <= _MOST:
         found = np.linspace(first, last, int(np.ceil(wanted)) + 1)
     else:
-        found = _extremes(lambda places: value(at(places)), span, shortest)
+        found = _find_extremes(lambda places: value(at(places)), span, shortest)
     if not joints:
         return np.asarray(found, dtype=np.float64)
     beside = np.add.outer(np.array(joints), np.array([-_BESIDE, _BESIDE]) * (last - first)).ravel()
     return np.unique(np.clip(np.concatenate([found, beside]), first, last))
 
 
-def _extremes(
+def _find_extremes(
     value: Callable[[FloatArray], FloatArray], span: tuple[float, float], period: float
 ) -> FloatArray:
     """Return where a curve is least and largest in each stretch, and the ends of the travel."""
@@ -114,19 +116,19 @@ def _scale(term: Term, theta: FloatArray, along: Design) -> float:
     else:
         named = zip(term.effect.searched, theta.tolist(), strict=True)
         fading = [abs(value) for parameter, value in named if parameter.name == "relaxation_length"]
-    return min([_shortest_wave(term, theta, along), *fading]) or np.inf
+    return min([_find_shortest_wave(term, theta, along), *fading]) or np.inf
 
 
-def waves_along(fitted: Fit) -> dict[str, float]:
+def find_waves_along(fitted: Fit) -> dict[str, float]:
     """Return the length of the shortest wave of each effect of a model, m or rad; infinite if it has none."""
     design = fitted.design
     approach = Approach.POSITIVE if np.any(design.direction > 0) else Approach.NEGATIVE
-    along = at_positions(design, np.linspace(*design.span, _MOST), approach)
+    along = place_at_positions(design, np.linspace(*design.span, _MOST), approach)
     pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
-    return {term.effect.identifier: _shortest_wave(term, theta, along) for term, theta in pairs}
+    return {term.effect.identifier: _find_shortest_wave(term, theta, along) for term, theta in pairs}
 
 
-def _shortest_wave(term: Term, theta: FloatArray, along: Design) -> float:
+def _find_shortest_wave(term: Term, theta: FloatArray, along: Design) -> float:
     if isinstance(term.effect, FormulaEffect):
         return term.effect.shortest_wave(along, theta)
     periods = [np.inf]
@@ -139,7 +141,7 @@ def _shortest_wave(term: Term, theta: FloatArray, along: Design) -> float:
     return float(min(periods)) / max(orders, default=1) or np.inf
 
 
-def _joints(term: Term, theta: FloatArray, along: Design) -> list[float]:
+def _list_joints(term: Term, theta: FloatArray, along: Design) -> list[float]:
     """Return positions at which an effect jumps or bends: its joints, and the rows of a table."""
     if isinstance(term.effect, FormulaEffect):
         return term.effect.joints(along, theta)

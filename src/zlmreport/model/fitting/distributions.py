@@ -38,7 +38,7 @@ def gamma_tail(shape: float, x: float) -> float:
         for k in count(1):
             yield -k * (k - shape), x + 2 * k + 1 - shape
 
-    return scale * _continued_fraction(fraction())
+    return scale * _compute_continued_fraction(fraction())
 
 
 def chi_square_tail(x: float, degrees: float) -> float:
@@ -56,7 +56,7 @@ def f_tail(ratio: float, numerator: float, denominator: float) -> float:
     if ratio <= 0:
         return 1.0
     product = numerator * ratio
-    return _beta(denominator / 2, numerator / 2, denominator / (denominator + product))
+    return _compute_beta(denominator / 2, numerator / 2, denominator / (denominator + product))
 
 
 def t_quantile(probability: float, degrees: float) -> float:
@@ -65,10 +65,12 @@ def t_quantile(probability: float, degrees: float) -> float:
     >>> round(t_quantile(0.95, 10), 3)
     2.228
     """
-    return _root(lambda t: 1 - probability - _beta(degrees / 2, 0.5, degrees / (degrees + t * t)))
+    return _find_root(
+        lambda t: 1 - probability - _compute_beta(degrees / 2, 0.5, degrees / (degrees + t * t))
+    )
 
 
-def _root(rising: Callable[[float], float]) -> float:
+def _find_root(rising: Callable[[float], float]) -> float:
     """Return where a function that rises from below zero at 0 crosses zero."""
     low, high = 0.0, 1.0
     while rising(high) < 0:
@@ -81,7 +83,7 @@ def _root(rising: Callable[[float], float]) -> float:
     return 0.5 * (low + high)
 
 
-def _beta(a: float, b: float, x: float) -> float:
+def _compute_beta(a: float, b: float, x: float) -> float:
     """Return the regularized incomplete beta function I_x(a, b)."""
     if x <= 0:
         return 0.0
@@ -91,18 +93,18 @@ def _beta(a: float, b: float, x: float) -> float:
         math.lgamma(a + b) - math.lgamma(a) - math.lgamma(b) + a * math.log(x) + b * math.log1p(-x)
     )
     if x > (a + 1) / (a + b + 2):
-        return 1.0 - front * _continued_fraction(_beta_terms(b, a, 1 - x)) / b
-    return front * _continued_fraction(_beta_terms(a, b, x)) / a
+        return 1.0 - front * _compute_continued_fraction(_list_beta_terms(b, a, 1 - x)) / b
+    return front * _compute_continued_fraction(_list_beta_terms(a, b, x)) / a
 
 
-def _beta_terms(a: float, b: float, x: float) -> Iterator[tuple[float, float]]:
+def _list_beta_terms(a: float, b: float, x: float) -> Iterator[tuple[float, float]]:
     yield 1.0, 1.0
     for k in count():
         yield -(a + k) * (a + b + k) * x / ((a + 2 * k) * (a + 2 * k + 1)), 1.0
         yield (k + 1) * (b - k - 1) * x / ((a + 2 * k + 1) * (a + 2 * k + 2)), 1.0
 
 
-def _continued_fraction(terms: Iterator[tuple[float, float]]) -> float:
+def _compute_continued_fraction(terms: Iterator[tuple[float, float]]) -> float:
     """Return a₁/(b₁ + a₂/(b₂ + …)) for the terms (a, b)."""
     numerator, start = next(terms)
     value = upper = start or _TINY

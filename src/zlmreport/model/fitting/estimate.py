@@ -78,20 +78,20 @@ class VarianceOfVariance:
         return float(np.clip(2 * variance**2 / spread, _FEWEST, _MOST))
 
 
-def variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -> VarianceOfVariance:
+def compute_variance_of_variance(space: Contrasts, noise: Noise, weighted: FloatArray) -> VarianceOfVariance:
     """Return how well the variance of the parameters is known.
 
     `weighted`, (N, p): V⁻¹J(JᵀV⁻¹J)⁻¹: the weight of each reading in each parameter.
     """
     active = [index for index, part in enumerate(space.parts) if noise.ratios.get(part.source, 0.0) > _ACTIVE]
     ratios = np.array([noise.ratios.get(part.source, 0.0) for part in space.parts])
-    information = _information(space, ratios, active)
+    information = _compute_information(space, ratios, active)
     factors = [space.parts[index].factor.T @ weighted for index in active]
     slopes = (weighted / space.scale[:, np.newaxis], *factors)
     return VarianceOfVariance(np.asarray(np.linalg.pinv(information), dtype=np.float64), slopes)
 
 
-def _information(space: Contrasts, ratios: FloatArray, active: Sequence[int]) -> FloatArray:
+def _compute_information(space: Contrasts, ratios: FloatArray, active: Sequence[int]) -> FloatArray:
     """Return ½·tr(P·V_i·P·V_j) for single readings and the active sources, in units of σ̂⁻⁴."""
     root = space.metric(ratios).coordinates(np.eye(len(space.gram)))
     together = root.T @ root
@@ -147,7 +147,7 @@ class Estimate:
     @property
     def coverage_factor(self) -> float:
         """The factor k to the expanded uncertainty of 95 %; √3, the whole interval, for a scanned value."""
-        return sqrt(3) if self.is_scanned else coverage_factor(self.degrees)
+        return sqrt(3) if self.is_scanned else compute_coverage_factor(self.degrees)
 
     @property
     def expanded_uncertainty(self) -> float:
@@ -169,12 +169,12 @@ class Estimate:
         return Plausibility.IMPLAUSIBLE
 
 
-def coverage_factor(degrees: float) -> float:
+def compute_coverage_factor(degrees: float) -> float:
     """Return k for an expanded uncertainty of 95.45 %: 2 where the standard uncertainty is well known."""
     return 2.0 if degrees > _WELL_KNOWN else t_quantile(COVERAGE, degrees)
 
 
-def coverage_factors(degrees: FloatArray) -> FloatArray:
+def compute_coverage_factors(degrees: FloatArray) -> FloatArray:
     """Return k for many degrees of freedom, shape (M,).
 
     k is smooth in 1/ν: between a few values it is interpolated, to 1e-3 where ν is at least 3.
@@ -183,7 +183,7 @@ def coverage_factors(degrees: FloatArray) -> FloatArray:
     known = np.unique(inverse)
     if len(known) > _FACTORS:
         known = np.linspace(known[0], known[-1], _FACTORS)
-    return np.interp(inverse, known, [coverage_factor(1.0 / each) for each in known.tolist()])
+    return np.interp(inverse, known, [compute_coverage_factor(1.0 / each) for each in known.tolist()])
 
 
 @dataclass(frozen=True, slots=True)
@@ -216,7 +216,7 @@ class Uncertainties:
         return np.sqrt(total), degrees * shares**2
 
 
-def estimates_of(
+def list_estimates_of(
     problem: FitProblem,
     solution: Solution,
     places: Sequence[ContinuousParameter],
@@ -226,7 +226,7 @@ def estimates_of(
     count = len(uncertainties.inverse)
     standard, degrees = uncertainties.of(np.eye(count))
     solved = iter(zip(standard.tolist(), degrees.tolist(), strict=True))
-    linear = [list(_linear(term, gamma, solved)) for term, gamma in _terms(problem, solution)]
+    linear = [list(_estimate_linear(term, gamma, solved)) for term, gamma in _pair_terms(problem, solution)]
     by_place = {
         (place.term, place.column): (
             float(standard[count - len(places) + number]),
@@ -236,7 +236,7 @@ def estimates_of(
     }
     found: list[Estimate] = []
     for index, term in enumerate(problem.model.terms):
-        found.extend(_expecting(each, term, problem.design.axis) for each in linear[index])
+        found.extend(_add_expected(each, term, problem.design.axis) for each in linear[index])
         searched = term.is_searched(problem.design)
         for column, parameter in enumerate(term.effect.searched):
             value = float(solution.thetas[index][column])
@@ -246,14 +246,14 @@ def estimates_of(
                 u, nu = by_place.get((index, column), (0.0, inf))
                 is_scanned = u == 0 or not np.isfinite(u)
                 if is_scanned:
-                    low, high = scanned_ends(problem, solution, index, column, uncertainties.sigma)
+                    low, high = find_scanned_ends(problem, solution, index, column, uncertainties.sigma)
                     u, nu = max(value - low, high - value) / sqrt(3), inf
                 estimate = Estimate(term.effect.identifier, parameter, value, u, nu, is_scanned=is_scanned)
-            found.append(_expecting(estimate, term, problem.design.axis))
-    return tuple(_as_linked(each, found, problem) for each in found)
+            found.append(_add_expected(estimate, term, problem.design.axis))
+    return tuple(_link_estimate(each, found, problem) for each in found)
 
 
-def _as_linked(estimate: Estimate, found: Sequence[Estimate], problem: FitProblem) -> Estimate:
+def _link_estimate(estimate: Estimate, found: Sequence[Estimate], problem: FitProblem) -> Estimate:
     """Return the estimate of a parameter that equals another: the value and uncertainty of that."""
     links = {term.effect.identifier: term.links for term in problem.model.terms}[estimate.effect]
     if estimate.parameter.name not in links:
@@ -269,11 +269,13 @@ def _as_linked(estimate: Estimate, found: Sequence[Estimate], problem: FitProble
     )
 
 
-def _terms(problem: FitProblem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:
+def _pair_terms(problem: FitProblem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:
     return zip(problem.model.terms, solution.coefficients, strict=True)
 
 
-def _linear(term: Term, gamma: FloatArray, solved: Iterator[tuple[float, float]]) -> Iterator[Estimate]:
+def _estimate_linear(
+    term: Term, gamma: FloatArray, solved: Iterator[tuple[float, float]]
+) -> Iterator[Estimate]:
     for parameter, value, is_solved in zip(term.effect.linear, gamma.tolist(), term.is_solved, strict=True):
         u, degrees = next(solved) if is_solved else (0.0, inf)
         held = term.held_at(parameter)
@@ -281,14 +283,14 @@ def _linear(term: Term, gamma: FloatArray, solved: Iterator[tuple[float, float]]
         yield Estimate(term.effect.identifier, parameter, value, u, degrees, is_given=is_given, at_bound=held)
 
 
-def _expecting(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
+def _add_expected(estimate: Estimate, term: Term, axis: Axis) -> Estimate:
     expected = term.effect.expected(axis).get(estimate.parameter.name)
     if expected is None:
         return estimate
     return replace(estimate, expected=expected)
 
 
-def scanned_ends(
+def find_scanned_ends(
     problem: FitProblem, solution: Solution, index: int, column: int, sigma: float
 ) -> tuple[float, float]:
     """Return the ends of the interval of a θ that jumps from value to value and has no derivative.

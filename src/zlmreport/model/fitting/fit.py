@@ -16,26 +16,26 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.effects.axis_model import AxisModel, refuse_collisions
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Parameter
-from zlmreport.model.fitting.contrasts import Contrasts, contrasts_of, restricted_estimate, whitener
+from zlmreport.model.fitting.contrasts import Contrasts, estimate_restricted, make_contrasts_of, make_whitener
 from zlmreport.model.fitting.estimate import (
     Estimate,
     InstrumentError,
     Uncertainties,
-    coverage_factors,
-    estimates_of,
-    variance_of_variance,
+    compute_coverage_factors,
+    compute_variance_of_variance,
+    list_estimates_of,
 )
-from zlmreport.model.fitting.noise import Noise, NoisePart, coarse_grid, noise_parts
-from zlmreport.model.fitting.observations import of_readings
-from zlmreport.model.fitting.repeats import weights
+from zlmreport.model.fitting.noise import Noise, NoisePart, list_noise_parts, make_coarse_grid
+from zlmreport.model.fitting.observations import select_readings
+from zlmreport.model.fitting.repeats import compute_weights
 from zlmreport.model.fitting.search import (
     ContinuousParameter,
     FitProblem,
     Solution,
     Thetas,
+    compute_tangents,
     refine,
     search,
-    tangents,
 )
 
 #: Variance of a source of shared scatter over that of single readings: none is larger in a fit.
@@ -103,7 +103,7 @@ class Fit:
         own = np.flatnonzero(self.design.session == 0)
         if len(own) == len(self.deviation):
             return self
-        design = of_readings(self.design, own)
+        design = select_readings(self.design, own)
         return replace(self, design=design, deviation=self.deviation[own], fitted=self.fitted[own])
 
     @property
@@ -137,24 +137,24 @@ class Fit:
         `without`: Effects that are left out.
         """
         names, design = self.model.identifiers, design or self.design
-        columns = zip(names, _columns(self.model, design, self.solution), strict=True)
+        columns = zip(names, _list_columns(self.model, design, self.solution), strict=True)
         places = [each for each in self.places if names[each.term] not in without]
-        slopes = tangents(self.model, design, self.solution, places)
+        slopes = compute_tangents(self.model, design, self.solution, places)
         empty = np.empty((len(design.position), 0))
         return np.concatenate([empty, *(own for name, own in columns if name not in without), slopes], axis=1)
 
     def value_at(self, design: Design) -> FloatArray:
         """Return the deviation that the model gives for other readings, m or rad, shape (M,)."""
-        return _value(self.model, design, self.solution)
+        return _compute_value(self.model, design, self.solution)
 
     def predict(self, design: Design) -> Prediction:
         """Return the deviation that the model gives for other readings; valid on the measured span only.
 
         No deviation is known better than the instrument that it was measured with.
         """
-        rows = _jacobian(self.model, design, self.solution, self.places)
+        rows = _compute_jacobian(self.model, design, self.solution, self.places)
         standard, degrees = self.uncertainties.of(rows, self.assumptions.instrument.at_each_position)
-        return Prediction(self.value_at(design), standard, coverage_factors(degrees))
+        return Prediction(self.value_at(design), standard, compute_coverage_factors(degrees))
 
 
 def fit(
@@ -180,12 +180,12 @@ def fit(
     A linear parameter that would lie beyond its bounds is held at the bound, one after another.
     """
     found = _fit(model, design, deviation, assumptions or Assumptions(), start)
-    while (held := _held(found)) is not None:
+    while (held := _hold_beyond_bound(found)) is not None:
         found = _fit(held, design, deviation, assumptions or Assumptions(), found.solution.thetas)
     return found
 
 
-def _held(found: Fit) -> AxisModel | None:
+def _hold_beyond_bound(found: Fit) -> AxisModel | None:
     """Return the model with the linear parameter farthest beyond its bound held there; None if none is."""
     farthest, held = 0.0, None
     terms = {term.effect.identifier: (index, term) for index, term in enumerate(found.model.terms)}
@@ -208,25 +208,25 @@ def _fit(
     model: AxisModel, design: Design, deviation: FloatArray, taken: Assumptions, start: Thetas | None
 ) -> Fit:
     model.check(design)
-    parts = noise_parts(design) if taken.parts is None else taken.parts
-    known = weights(design, deviation) if taken.weights is None else taken.weights
+    parts = list_noise_parts(design) if taken.parts is None else taken.parts
+    known = compute_weights(design, deviation) if taken.weights is None else taken.weights
     noise = Noise(0.0, {}, known)
-    problem = FitProblem(model, design, deviation, whitener(parts, noise))
+    problem = FitProblem(model, design, deviation, make_whitener(parts, noise))
     solution = search(problem) if start is None else refine(problem, problem.solution(start))
-    refuse_collisions(model, _columns(model, design, solution))
+    refuse_collisions(model, _list_columns(model, design, solution))
     for _ in range(2 if any(len(theta) for theta in solution.thetas) else 1):
-        base = _jacobian(model, design, solution, problem.places(solution.thetas))
-        space = contrasts_of(base, parts, noise.weights)
-        noise = _estimated(space, _open(model, design, deviation, solution), noise.weights)
-        problem = FitProblem(model, design, deviation, whitener(parts, noise))
+        base = _compute_jacobian(model, design, solution, problem.places(solution.thetas))
+        space = make_contrasts_of(base, parts, noise.weights)
+        noise = _estimate_noise(space, _open(model, design, deviation, solution), noise.weights)
+        problem = FitProblem(model, design, deviation, make_whitener(parts, noise))
         solution = refine(problem, problem.solution(solution.thetas))
-    return _finished(problem, solution, space, noise, taken)
+    return _finish(problem, solution, space, noise, taken)
 
 
-def _estimated(space: Contrasts, deviation: FloatArray, weights_: FloatArray) -> Noise:
+def _estimate_noise(space: Contrasts, deviation: FloatArray, weights_: FloatArray) -> Noise:
     """Return the noise by restricted maximum likelihood."""
-    ratios, variance = restricted_estimate(
-        space, space.of(deviation), coarse_grid(space.parts), np.full(len(space.parts), _LARGEST_RATIO)
+    ratios, variance = estimate_restricted(
+        space, space.of(deviation), make_coarse_grid(space.parts), np.full(len(space.parts), _LARGEST_RATIO)
     )
     by_source = {part.source: float(ratio) for part, ratio in zip(space.parts, ratios, strict=True)}
     return Noise(float(np.sqrt(variance)), by_source, weights_)
@@ -240,12 +240,12 @@ def _open(model: AxisModel, design: Design, deviation: FloatArray, solution: Sol
     return left
 
 
-def _columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:
+def _list_columns(model: AxisModel, design: Design, solution: Solution) -> list[FloatArray]:
     """Return term by term the columns whose coefficients are solved."""
     return [solved for solved, _ in model.columns(design, solution.thetas)]
 
 
-def _value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:
+def _compute_value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:
     """Return the model's deviation on a design, shape (N,)."""
     found = np.zeros(len(design.position))
     for term, theta, gamma in zip(model.terms, solution.thetas, solution.coefficients, strict=True):
@@ -253,21 +253,21 @@ def _value(model: AxisModel, design: Design, solution: Solution) -> FloatArray:
     return found
 
 
-def _jacobian(
+def _compute_jacobian(
     model: AxisModel, design: Design, solution: Solution, places: Sequence[ContinuousParameter]
 ) -> FloatArray:
     """Return J on a design: the columns that were solved, then the tangents, shape (N, p)."""
     empty = np.empty((len(design.position), 0))
-    slopes = tangents(model, design, solution, places)
-    return np.concatenate([empty, *_columns(model, design, solution), slopes], axis=1)
+    slopes = compute_tangents(model, design, solution, places)
+    return np.concatenate([empty, *_list_columns(model, design, solution), slopes], axis=1)
 
 
-def _finished(
+def _finish(
     problem: FitProblem, solution: Solution, space: Contrasts, noise: Noise, assumptions: Assumptions
 ) -> Fit:
     model, design = problem.model, problem.design
     places = problem.places(solution.thetas)
-    jacobian = _jacobian(model, design, solution, places)
+    jacobian = _compute_jacobian(model, design, solution, places)
     whitened = problem.whiten(jacobian)
     lengths = np.linalg.norm(whitened, axis=0)
     lengths = np.where(lengths > 0, lengths, 1.0)
@@ -275,15 +275,15 @@ def _finished(
     inverse = root @ root.T
     systematic = root @ problem.whiten(assumptions.instrument.factor(design))
     weighted = problem.whiten(whitened) @ inverse
-    variances = variance_of_variance(space, noise, weighted)
+    variances = compute_variance_of_variance(space, noise, weighted)
     uncertainties = Uncertainties(noise.sigma, inverse, systematic, variances)
     return Fit(
         model=model,
         design=design,
         deviation=problem.deviation,
         assumptions=assumptions,
-        fitted=_value(model, design, solution),
-        estimates=estimates_of(problem, solution, places, uncertainties),
+        fitted=_compute_value(model, design, solution),
+        estimates=list_estimates_of(problem, solution, places, uncertainties),
         noise=noise,
         solution=solution,
         places=places,
@@ -291,9 +291,7 @@ def _finished(
     )
 
 
-def cross_validated_rms(
-    model: AxisModel, design: Design, deviation: FloatArray, thetas: Thetas
-) -> float | None:
+def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thetas: Thetas) -> float | None:
     """Return the root mean square error of runs that were left out; None if there is a single run.
 
     What depends on position alone is repeated in every run, so this number is too kind to it. It is one to
@@ -309,9 +307,9 @@ def cross_validated_rms(
     for run in runs:
         left_out = np.flatnonzero(cycle == run)
         kept = np.flatnonzero(cycle != run)
-        problem = FitProblem(model, of_readings(design, kept), deviation[kept], _as_they_are)
+        problem = FitProblem(model, select_readings(design, kept), deviation[kept], _keep_as_they_are)
         found = refine(problem, problem.solution(thetas))
-        others = of_readings(design, left_out)
+        others = select_readings(design, left_out)
         predicted = np.zeros(len(left_out))
         for term, theta, gamma in zip(model.terms, found.thetas, found.coefficients, strict=True):
             predicted += term.effect.columns(others, theta) @ gamma
@@ -319,5 +317,5 @@ def cross_validated_rms(
     return float(np.sqrt(squares / len(deviation)))
 
 
-def _as_they_are(columns: FloatArray) -> FloatArray:
+def _keep_as_they_are(columns: FloatArray) -> FloatArray:
     return columns

@@ -21,7 +21,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.pauses import working_time
+from zlmreport.model.fitting.pauses import compute_working_time
 
 #: Time over which the slow drift forgets itself, as a share of the test's duration.
 _MEMORY = 0.25
@@ -95,71 +95,71 @@ class Noise:
         return self.sigma * float(np.sqrt(self.ratios.get(source, 0.0)))
 
 
-def noise_parts(design: Design) -> tuple[NoisePart, ...]:
+def list_noise_parts(design: Design) -> tuple[NoisePart, ...]:
     """Return the sources of shared scatter that the design can tell from that of single readings."""
     readings = len(design.position)
     if readings < _FEWEST_READINGS:
         return ()
-    by_target = _membership(design.target)
+    by_target = _make_membership(design.target)
     parts = []
-    if _repeats(by_target):
+    if _has_repeats(by_target):
         parts.append(NoisePart(NoiseSource.POSITION, by_target))
-    by_cell = _membership(2 * design.target + (design.direction > 0))
-    if design.is_bidirectional and _repeats(by_cell):
+    by_cell = _make_membership(2 * design.target + (design.direction > 0))
+    if design.is_bidirectional and _has_repeats(by_cell):
         signed = by_target * design.direction[:, np.newaxis]
         parts.append(NoisePart(NoiseSource.DIRECTION, signed))
-    by_run = _membership(design.cycle)
-    if by_run.shape[1] > 1 and _repeats(by_run):
+    by_run = _make_membership(design.cycle)
+    if by_run.shape[1] > 1 and _has_repeats(by_run):
         parts.append(NoisePart(NoiseSource.RUN, by_run))
     if design.duration > 0:
-        parts.append(NoisePart(NoiseSource.TIME, _slow_drift(design)))
+        parts.append(NoisePart(NoiseSource.TIME, _make_slow_drift(design)))
     return tuple(parts)
 
 
-def ratio_grid(parts: Sequence[NoisePart]) -> FloatArray:
+def make_ratio_grid(parts: Sequence[NoisePart]) -> FloatArray:
     """Return every combination of the ratios that are tried, shape (f, parts)."""
-    return combinations([part.ratios for part in parts])
+    return combine_levels([part.ratios for part in parts])
 
 
-def coarse_grid(parts: Sequence[NoisePart]) -> FloatArray:
+def make_coarse_grid(parts: Sequence[NoisePart]) -> FloatArray:
     """Return every combination of none and a middling ratio: where a continuous search may begin."""
-    return combinations([(0.0, part.ratios[len(part.ratios) // 2]) for part in parts])
+    return combine_levels([(0.0, part.ratios[len(part.ratios) // 2]) for part in parts])
 
 
-def combinations(levels: Sequence[Sequence[float]]) -> FloatArray:
+def combine_levels(levels: Sequence[Sequence[float]]) -> FloatArray:
     """Return every combination of one level of each source, shape (f, sources), the last varying fastest."""
     rows = list(product(*levels))
     return np.array(rows, dtype=np.float64).reshape(len(rows), len(levels))
 
 
-def _membership(labels: IntArray) -> FloatArray:
+def _make_membership(labels: IntArray) -> FloatArray:
     return np.asarray(labels[:, np.newaxis] == np.unique(labels), dtype=np.float64)
 
 
-def by_session(design: Design, columns: FloatArray) -> FloatArray:
+def split_by_session(design: Design, columns: FloatArray) -> FloatArray:
     """Return columns, shape (N, k), once for each session, zero in the others: what each has of its own."""
     own = design.session[:, np.newaxis] == np.unique(design.session)
     return np.asarray((own[:, :, np.newaxis] * columns[:, np.newaxis]).reshape(len(columns), -1))
 
 
-def _repeats(membership: FloatArray) -> bool:
+def _has_repeats(membership: FloatArray) -> bool:
     """Whether most members of the groups have company: only then does a group show itself."""
     company = membership.sum(axis=0)
     return bool(company[company > 1].sum() > 0.5 * company.sum())
 
 
-def _slow_drift(design: Design) -> FloatArray:
+def _make_slow_drift(design: Design) -> FloatArray:
     """Return the leading eigenfunctions of the covariance exp(−|t − t'|/τ), as a factor of it."""
-    time = working_time(design)
+    time = compute_working_time(design)
     moment = (time - time.min()) / float(np.ptp(time))
     # On a grid, and by its interpolation at the readings: a test of thousands costs no more than a small one.
-    grid, terms = _drift_terms()
+    grid, terms = _compute_drift_terms()
     factor = np.column_stack([np.interp(moment, grid, term) for term in terms])
-    return by_session(design, factor / np.linalg.norm(factor, axis=1, keepdims=True))
+    return split_by_session(design, factor / np.linalg.norm(factor, axis=1, keepdims=True))
 
 
 @cache
-def _drift_terms() -> tuple[FloatArray, FloatArray]:
+def _compute_drift_terms() -> tuple[FloatArray, FloatArray]:
     """Return moments of a test of unit duration, shape (g,), and the eigenfunctions there, (terms, g)."""
     grid = np.linspace(0.0, 1.0, _DRIFT_MOMENTS)
     covariance = np.exp(-np.abs(grid[:, np.newaxis] - grid) / _MEMORY)

@@ -12,7 +12,7 @@ from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats, read_only_integers
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import behind
+from zlmreport.measurement.units import write_behind
 from zlmreport.model.effects.axis_model import ModelError
 from zlmreport.model.effects.design import Design
 
@@ -66,14 +66,14 @@ class Observations:
         """Return the observations without some readings, named by their places here."""
         kept = np.setdiff1d(np.arange(len(self.deviation)), readings)
         return Observations(
-            of_readings(self.design, kept),
+            select_readings(self.design, kept),
             read_only_floats(self.deviation[kept]),
             read_only_integers(self.reading[kept]),
             self.remarks,
         )
 
 
-def thinned(observed: Observations) -> Observations:
+def thin(observed: Observations) -> Observations:
     """Return the observations of so many targets as a comparison can hold, spread over the whole travel.
 
     What thousands of targets say of causes, two hundred say as well; the time to compare them grows with the
@@ -91,7 +91,7 @@ def thinned(observed: Observations) -> Observations:
     return replace(found, remarks=(*found.remarks, remark))
 
 
-def observations_of(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
+def make_observations_of(measurements: MeasurementSet, *, overrun: float | None = None) -> Observations:
     """Return what the error model works on; missing readings are dropped, the order is kept.
 
     `measurements`: The readings, in the order in which they were taken.
@@ -115,7 +115,7 @@ def observations_of(measurements: MeasurementSet, *, overrun: float | None = Non
         remarks.append(_COUNTED)
     if overrun is None:
         unit = axis.position_unit
-        remarks.append(_OVERRUN.given(overrun=unit.from_si(beyond), unit=behind(unit.symbol)))
+        remarks.append(_OVERRUN.given(overrun=unit.from_si(beyond), unit=write_behind(unit.symbol)))
     moments = time[present] - time[present[0]]
     conditions = {}
     for name, log in measurements.conditions.items():
@@ -132,7 +132,7 @@ def observations_of(measurements: MeasurementSet, *, overrun: float | None = Non
             remarks.append(_FILLED.given(condition=name, count=gaps, rows=rows + more))
         if name in CONDITIONS:
             smooth = smoothed(moments, values)
-            remarks.extend(_doubts(name, values, smooth.noise, smooth.variation))
+            remarks.extend(_find_doubts(name, values, smooth.noise, smooth.variation))
             values = smooth.values
         conditions[name] = read_only_floats(values)
     design = Design(
@@ -143,7 +143,7 @@ def observations_of(measurements: MeasurementSet, *, overrun: float | None = Non
         target=read_only_integers(measurements.target[present]),
         time=read_only_floats(moments),
         time_is_counted=counted,
-        since_reversal=read_only_floats(_since_reversal(position, direction, beyond)[present]),
+        since_reversal=read_only_floats(_measure_since_reversal(position, direction, beyond)[present]),
         conditions=conditions,
     )
     return Observations(
@@ -151,7 +151,7 @@ def observations_of(measurements: MeasurementSet, *, overrun: float | None = Non
     )
 
 
-def of_readings(design: Design, readings: IntArray) -> Design:
+def select_readings(design: Design, readings: IntArray) -> Design:
     """Return the design of some of its readings; the span of the travel stays."""
     return replace(
         design,
@@ -167,7 +167,7 @@ def of_readings(design: Design, readings: IntArray) -> Design:
     )
 
 
-def _since_reversal(position: FloatArray, direction: FloatArray, overrun: float) -> FloatArray:
+def _measure_since_reversal(position: FloatArray, direction: FloatArray, overrun: float) -> FloatArray:
     """Return the distance travelled since the last reversal, from the order of the rows.
 
     A target that lies ahead of the one before it is approached straight; then the axis has turned either
@@ -182,7 +182,7 @@ def _since_reversal(position: FloatArray, direction: FloatArray, overrun: float)
     return travelled
 
 
-def _doubts(name: str, log: FloatArray, noise: float, variation: float) -> Iterator[Words]:
+def _find_doubts(name: str, log: FloatArray, noise: float, variation: float) -> Iterator[Words]:
     """Yield what makes a log doubtful."""
     if noise > _NOISY * variation:
         share = round(noise / variation, 1) if variation > 0 else float("inf")
@@ -211,7 +211,7 @@ def smoothed(moments: FloatArray, log: FloatArray) -> Smoothed:
     intervals = min(_MOST_INTERVALS, len(log) // _READINGS_PER_INTERVAL)
     if extent == 0 or intervals < 2 or np.ptp(log) == 0:
         return Smoothed(log, 0.0, float(np.std(log)))
-    basis = _splines((moments - moments[0]) / extent, intervals)
+    basis = _compute_splines((moments - moments[0]) / extent, intervals)
     penalty = np.diff(np.eye(basis.shape[1]), 2, axis=0)
     # In the basis that makes both the fit and the penalty diagonal, all stiffnesses are tried at once.
     gram = basis.T @ basis + 1e-10 * len(log) * np.eye(basis.shape[1])
@@ -229,7 +229,7 @@ def smoothed(moments: FloatArray, log: FloatArray) -> Smoothed:
     return Smoothed(curves[best], noise, float(np.std(curves[best])))
 
 
-def _splines(where: FloatArray, intervals: int) -> FloatArray:
+def _compute_splines(where: FloatArray, intervals: int) -> FloatArray:
     """Return the cubic B-splines over equal intervals of 0 to 1, shape (N, intervals + 3)."""
     step = 1.0 / intervals
     knots = (np.arange(intervals + 2 * _DEGREE + 1) - _DEGREE) * step

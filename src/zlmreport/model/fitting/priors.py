@@ -15,12 +15,12 @@ from typing import Any, Self
 import numpy as np
 
 from zlmreport.job.evaluation_keys import NoiseKeys, PriorsKeys, SizeKeys, SourceName
-from zlmreport.job.parse import counted
+from zlmreport.job.parse import count_in_words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.model.fitting.contrasts import contrasts_of
+from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit
-from zlmreport.model.fitting.noise import NoiseSource, combinations, noise_parts
+from zlmreport.model.fitting.noise import NoiseSource, combine_levels, list_noise_parts
 
 #: What a handful of tests never excludes.
 _LEAST_PROBABILITY = 1e-3
@@ -105,22 +105,22 @@ class Lesson:
     @classmethod
     def of(cls, fitted: Fit) -> Self:
         """Return what a fitted model teaches."""
-        parts, axis = noise_parts(fitted.design), fitted.design.axis
+        parts, axis = list_noise_parts(fitted.design), fitted.design.axis
         levels = {part.source: part.ratios for part in parts}
-        space = contrasts_of(fitted.base(), parts, fitted.noise.weights)
+        space = make_contrasts_of(fitted.base(), parts, fitted.noise.weights)
         contrast = space.of(fitted.open_deviation)
         criterion = space.restricted(contrast)
-        criteria = np.array([criterion(ratios)[0] for ratios in combinations([*levels.values()])])
-        sizes = {name: float(axis.deviation_unit.from_si(size)) for name, size in _sizes(fitted)}
+        criteria = np.array([criterion(ratios)[0] for ratios in combine_levels([*levels.values()])])
+        sizes = {name: float(axis.deviation_unit.from_si(size)) for name, size in _list_sizes(fitted)}
         return cls(axis.kind, sizes, levels, np.exp(-0.5 * (criteria - criteria.min())))
 
     def as_json(self) -> dict[str, Any]:
         """Return it with as many digits as matter, so that no rounding of a processor shows."""
         return {
             "kind": self.kind,
-            "sizes": {name: _short(size) for name, size in self.sizes.items()},
+            "sizes": {name: _write_short(size) for name, size in self.sizes.items()},
             "levels": {_NAMES[source]: list(levels) for source, levels in self.levels.items()},
-            "likelihoods": [_short(each) for each in self.likelihoods],
+            "likelihoods": [_write_short(each) for each in self.likelihoods],
         }
 
     @classmethod
@@ -130,11 +130,11 @@ class Lesson:
         return cls(kept["kind"], kept["sizes"], levels, np.array(kept["likelihoods"]))
 
 
-def _short(number: float) -> float:
+def _write_short(number: float) -> float:
     return float(f"{number:.7g}")
 
 
-def learned(lessons: Sequence[Lesson]) -> PriorsKeys:
+def learn_priors(lessons: Sequence[Lesson]) -> PriorsKeys:
     """Return what tests teach whose models describe their readings.
 
     The ratios of each test are known within its own likelihood only. So the probabilities are those of the
@@ -153,7 +153,7 @@ def learned(lessons: Sequence[Lesson]) -> PriorsKeys:
         tests=len(lessons),
         noise={
             _NAMES[source]: NoiseKeys(ratios=levels.tolist(), probabilities=weights.tolist())
-            for source, (levels, weights) in _population(lessons).items()
+            for source, (levels, weights) in _learn_population(lessons).items()
         },
         effects={
             name: SizeKeys(rms=float(np.sqrt(np.mean(np.square(each)))), tests=len(each))
@@ -162,9 +162,9 @@ def learned(lessons: Sequence[Lesson]) -> PriorsKeys:
     )
 
 
-def _population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray]:
+def _learn_population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray]:
     """Return the ratios of each source and their probabilities, shape (2, k)."""
-    known = [(each.levels, combinations([*each.levels.values()]), each.likelihoods) for each in lessons]
+    known = [(each.levels, combine_levels([*each.levels.values()]), each.likelihoods) for each in lessons]
     found = {
         source: np.array([tried, np.full(len(tried), 1.0 / len(tried))])
         for levels, _, _ in known
@@ -186,14 +186,14 @@ def _population(lessons: Iterable[Lesson]) -> dict[NoiseSource, FloatArray]:
     return found
 
 
-def as_text(found: PriorsKeys, origin: str) -> str:
+def write_as_text(found: PriorsKeys, origin: str) -> str:
     """Return the file of priors, with what it says beside it; `origin` is where its tests are."""
-    return "".join(f"{line}\n" for line in _lines(found, origin))
+    return "".join(f"{line}\n" for line in _write_lines(found, origin))
 
 
-def _lines(found: PriorsKeys, origin: str) -> Iterator[str]:
+def _write_lines(found: PriorsKeys, origin: str) -> Iterator[str]:
     unit = "µm" if found.kind == "linear" else "″"
-    tests, say = counted(found.tests, "test"), "says" if found.tests == 1 else "say"
+    tests, say = count_in_words(found.tests, "test"), "says" if found.tests == 1 else "say"
     yield f"# What {tests} in {origin} {say} of noise and sizes of effects: model.priors of a job."
     yield f"schema: {found.schema_}"
     yield f"kind: {found.kind}"
@@ -208,7 +208,7 @@ def _lines(found: PriorsKeys, origin: str) -> Iterator[str]:
         yield f"  {name}: {{rms: {size.rms:.4g}, tests: {size.tests}}}"
 
 
-def _sizes(fitted: Fit) -> Iterable[tuple[str, float]]:
+def _list_sizes(fitted: Fit) -> Iterable[tuple[str, float]]:
     """Yield of each effect the root mean square of what the rest of the model cannot imitate, m or rad."""
     model, solution = fitted.model, fitted.solution
     triples = list(zip(model.terms, solution.thetas, solution.coefficients, strict=True))

@@ -17,10 +17,10 @@ import numpy as np
 
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.effect import Parameter
-from zlmreport.model.fitting.contrasts import whitener
-from zlmreport.model.fitting.estimate import Estimate, scanned_ends
+from zlmreport.model.fitting.contrasts import make_whitener
+from zlmreport.model.fitting.estimate import Estimate, find_scanned_ends
 from zlmreport.model.fitting.fit import Fit
-from zlmreport.model.fitting.noise import noise_parts
+from zlmreport.model.fitting.noise import list_noise_parts
 from zlmreport.model.fitting.search import FitProblem, descend
 
 #: Fits with a parameter held, to find one end of its interval, and how near the rise must come.
@@ -46,19 +46,19 @@ class Interval:
     high_is_open: bool = False
 
 
-def intervals(fitted: Fit) -> tuple[Interval, ...]:
+def find_intervals(fitted: Fit) -> tuple[Interval, ...]:
     """Return the interval of every parameter that is estimated for itself, in the order of the model.
 
     One that lies at its bound is among them. The instrument's error, which no readings show, widens each side
     as it does U; bounds of other parameters that are solved are not held. An end takes twelve fits at most.
     """
     parts = fitted.assumptions.parts
-    parts = noise_parts(fitted.design) if parts is None else parts
-    problem = FitProblem(fitted.model, fitted.design, fitted.deviation, whitener(parts, fitted.noise))
-    return tuple(_intervals(fitted, problem))
+    parts = list_noise_parts(fitted.design) if parts is None else parts
+    problem = FitProblem(fitted.model, fitted.design, fitted.deviation, make_whitener(parts, fitted.noise))
+    return tuple(_list_intervals(fitted, problem))
 
 
-def _intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
+def _list_intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
     at_places = {(place.term, place.column): (place.least, place.most) for place in fitted.places}
     identifiers = fitted.model.identifiers
     for each in fitted.estimates:
@@ -68,31 +68,33 @@ def _intervals(fitted: Fit, problem: FitProblem) -> Iterator[Interval]:
         if not (each.is_free or each.at_bound):
             continue
         if each.is_scanned:
-            yield _scanned(fitted, problem, index, each)
+            yield _scan_interval(fitted, problem, index, each)
             continue
         bounds = term.bounds.get(name, (-inf, inf))
         if each.parameter in term.effect.searched:
             bounds = at_places[index, term.effect.searched.index(each.parameter)]
-        usual, widening = _usual(fitted, problem, index, each)
+        usual, widening = _find_usual(fitted, problem, index, each)
         ends, are_open = [], []
         for sign, bound in zip((-1.0, 1.0), bounds, strict=True):
             most = abs(bound - each.value)
-            reach = _reach(_rise(fitted, problem, index, each, sign), usual, most, each.coverage_factor)
+            reach = _find_reach(
+                _make_rise(fitted, problem, index, each, sign), usual, most, each.coverage_factor
+            )
             are_open.append(reach is None)
             ends.append(bound if reach is None else each.value + sign * min(hypot(reach, widening), most))
         yield Interval(each.effect, each.parameter, ends[0], ends[1], are_open[0], are_open[1])
 
 
-def _scanned(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> Interval:
+def _scan_interval(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> Interval:
     """Return the interval of a parameter of which only the values of a grid are known."""
     term = fitted.model.terms[index]
     column = term.effect.searched.index(estimate.parameter)
-    low, high = scanned_ends(problem, fitted.solution, index, column, fitted.uncertainties.sigma)
+    low, high = find_scanned_ends(problem, fitted.solution, index, column, fitted.uncertainties.sigma)
     values = term.grid(fitted.design)[:, column]
     return Interval(estimate.effect, estimate.parameter, low, high, low <= values.min(), high >= values.max())
 
 
-def _usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> tuple[float, float]:
+def _find_usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> tuple[float, float]:
     """Return k·u of a parameter: what the readings leave, and what the instrument adds."""
     known, own = fitted.uncertainties, (estimate.effect, estimate.parameter)
     if own in fitted.columns:
@@ -107,7 +109,7 @@ def _usual(fitted: Fit, problem: FitProblem, index: int, estimate: Estimate) -> 
     return estimate.coverage_factor * known.sigma * standard, estimate.coverage_factor * systematic
 
 
-def _rise(
+def _make_rise(
     fitted: Fit, problem: FitProblem, index: int, estimate: Estimate, sign: float
 ) -> Callable[[float], float]:
     """Return the root of the rise of the deviance over the distance of a parameter from its best value."""
@@ -130,7 +132,7 @@ def _rise(
     return rise
 
 
-def _reach(rise: Callable[[float], float], first: float, most: float, level: float) -> float | None:
+def _find_reach(rise: Callable[[float], float], first: float, most: float, level: float) -> float | None:
     """Return the distance at which a rise comes to a level; None where it does not, as far as it may go.
 
     The root of the deviance is nearly a straight line: steps follow the chord, within what is known.

@@ -17,7 +17,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.effects.design import Design
-from zlmreport.model.fitting.observations import of_readings
+from zlmreport.model.fitting.observations import select_readings
 
 #: Growth along the axis is seen at this level, which the other tests share among them: weights that are not
 #: needed cost more than those that are missing.
@@ -58,34 +58,34 @@ class Repeats:
         return float(np.sum(self.centred**2))
 
 
-def cells(design: Design) -> IntArray:
+def number_cells(design: Design) -> IntArray:
     """Return for each reading the index of its cell, shape (N,); each session has its own."""
     target = design.target + design.session * (design.target.max() + 1)
     _, index = np.unique(2 * target + (design.direction > 0), return_inverse=True)
     return np.asarray(index, dtype=np.int64)
 
 
-def repeats(design: Design, deviation: FloatArray) -> Repeats:
+def find_repeats(design: Design, deviation: FloatArray) -> Repeats:
     """Return the deviations of a test within their cells."""
-    cell = cells(design)
+    cell = number_cells(design)
     count = np.bincount(cell)
     means = np.bincount(cell, weights=deviation) / count
     return Repeats(cell, count.astype(np.int64), deviation - means[cell])
 
 
-def apart_in_time(design: Design) -> bool:
+def is_apart_in_time(design: Design) -> bool:
     """Whether the readings of a cell lie apart in time, as in the linear method.
 
     Then slow drift is within the cells, and neighbours in time are in different ones. In pendulum and
     quasi-pilgrim tests a cell is measured within a short time, and drift is between the cells.
     """
-    cell = cells(design)
+    cell = number_cells(design)
     order = np.lexsort((np.arange(len(cell)), cell))
     gaps = np.diff(order)[np.diff(cell[order]) == 0]
     return bool(gaps.size and np.median(gaps) > 0.5 * len(np.unique(cell)))
 
 
-def resolution(values: FloatArray) -> float:
+def find_resolution(values: FloatArray) -> float:
     """Return the step of which readings are multiples, in their unit; 0 where they are not of any.
 
     >>> resolution(np.array([0.4, 1.2, -0.6])), resolution(np.array([5.0, 10.0, 20.0]))
@@ -103,7 +103,7 @@ def resolution(values: FloatArray) -> float:
     return 0.0
 
 
-def noise_floor(design: Design, deviation: FloatArray) -> float | None:
+def estimate_noise_floor(design: Design, deviation: FloatArray) -> float | None:
     """Return the standard deviation σ_f of a single reading, drift left out; None without repeats.
 
     Where the readings of a cell lie apart in time, neighbours within a run are compared: what drifts more
@@ -112,10 +112,10 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
 
     `deviation`, (N,): x, m or rad.
     """
-    within = repeats(design, deviation)
+    within = find_repeats(design, deviation)
     if within.degrees < 1:
         return None
-    if apart_in_time(design):
+    if is_apart_in_time(design):
         neighbours = (np.diff(within.cell) != 0) & (np.diff(design.cycle) == 0)
         steps = np.diff(within.centred)[neighbours]
         # A mean of n̄ readings is subtracted from each, and takes a share of 1/n̄ of its variance along.
@@ -126,7 +126,7 @@ def noise_floor(design: Design, deviation: FloatArray) -> float | None:
     return float(np.sqrt(within.squares / within.degrees))
 
 
-def lasting_floor(design: Design, deviation: FloatArray) -> float | None:
+def estimate_lasting_floor(design: Design, deviation: FloatArray) -> float | None:
     """Return the noise floor, that counted in which lasts from one reading to the next few; None without one.
 
     Neighbours that scatter together differ by less than they scatter: a floor that is taken from them calls
@@ -135,10 +135,10 @@ def lasting_floor(design: Design, deviation: FloatArray) -> float | None:
 
     `deviation`, (N,): x, m or rad.
     """
-    floor = noise_floor(design, deviation)
-    if floor is None or not apart_in_time(design):
+    floor = estimate_noise_floor(design, deviation)
+    if floor is None or not is_apart_in_time(design):
         return floor
-    within, lasting = repeats(design, deviation), floor
+    within, lasting = find_repeats(design, deviation), floor
     shares = 1.0 - 1.0 / within.count[within.cell]
     for lag in range(2, _LASTS + 1):
         pairs = (design.cycle[lag:] == design.cycle[:-lag]) & (within.cell[lag:] != within.cell[:-lag])
@@ -192,50 +192,50 @@ def spread_tests(design: Design, deviation: FloatArray) -> tuple[SpreadTest, ...
     Few repeats in many cells make any such statistic larger than tables have it; so it is held against
     simulated readings of equal scatter.
     """
-    return _tested(design, deviation)[0]
+    return _examine_spreads(design, deviation)[0]
 
 
-def _tested(design: Design, deviation: FloatArray) -> tuple[tuple[SpreadTest, ...], FloatArray]:
+def _examine_spreads(design: Design, deviation: FloatArray) -> tuple[tuple[SpreadTest, ...], FloatArray]:
     """Return the tests, and the variance of each reading by its growth along the axis; 1 where it is none."""
     random = np.random.default_rng(_SEED).standard_normal((len(deviation), _TRIALS))
-    sizes = np.abs(_drift_free(design, np.column_stack([deviation, random])))
+    sizes = np.abs(_remove_drift(design, np.column_stack([deviation, random])))
     grown = np.ones(len(deviation))
     found: list[SpreadTest] = []
     if sizes[:, 0].max() <= _NOTHING * np.abs(deviation).max():
         return (), grown
-    if len(deviation) > len(np.unique(cells(design))):
+    if len(deviation) > len(np.unique(number_cells(design))):
         away = design.position - design.middle
-        slope, p_value = _slope(away, sizes)
+        slope, p_value = _fit_slope(away, sizes)
         for run in np.unique(design.cycle) if p_value < _LEVEL else ():
             # What one run alone shows is a disturbance of this run, and no growth.
             others = np.flatnonzero(design.cycle != run)
-            part = of_readings(design, others)
-            if len(others) > len(np.unique(cells(part))):
-                without = np.abs(_drift_free(part, np.column_stack([deviation, random])[others]))
-                p_value = max(p_value, _slope(away[others], without)[1])
+            part = select_readings(design, others)
+            if len(others) > len(np.unique(number_cells(part))):
+                without = np.abs(_remove_drift(part, np.column_stack([deviation, random])[others]))
+                p_value = max(p_value, _fit_slope(away[others], without)[1])
         widest = int(design.target[np.argmax(away * slope)])
         found.append(SpreadTest(SpreadFactor.GROWTH, p_value, widest))
         if found[0].is_refuted:
-            grown = _growth(design, deviation)
-            sizes[:, 0] = np.abs(_scatter(design, deviation, grown)) / np.sqrt(grown)
-    for factor, labels in _groupings(design).items():
+            grown = _fit_growth(design, deviation)
+            sizes[:, 0] = np.abs(_estimate_scatter(design, deviation, grown)) / np.sqrt(grown)
+    for factor, labels in _make_groupings(design).items():
         names, group = np.unique(labels, return_inverse=True)
         if len(names) < 2 or np.bincount(group).min() < _FEWEST_READINGS:
             continue
-        ratios, widest = _levene(sizes, group)
+        ratios, widest = _compute_levene(sizes, group)
         reached = int(np.count_nonzero(ratios[1:] >= ratios[0]))
         found.append(SpreadTest(factor, (1 + reached) / (_TRIALS + 1), int(names[widest])))
     return tuple(found), grown
 
 
-def _slope(away: FloatArray, sizes: FloatArray) -> tuple[float, float]:
+def _fit_slope(away: FloatArray, sizes: FloatArray) -> tuple[float, float]:
     """Return the slope of the first set's absolute residuals along the axis, and the chance of such a one."""
     slopes = away @ (sizes - sizes.mean(axis=0)) / np.linalg.norm(sizes - sizes.mean(axis=0), axis=0)
     by_chance = math.sqrt(float(np.mean(slopes[1:] ** 2)))  # a sum of many: normal, to its far tail
     return float(slopes[0]), math.erfc(abs(float(slopes[0])) / (by_chance * math.sqrt(2.0)))
 
 
-def _growth(design: Design, deviation: FloatArray) -> FloatArray:
+def _fit_growth(design: Design, deviation: FloatArray) -> FloatArray:
     """Return the variance of each reading, ln σ² being a straight line over the position: likeliest, mean 1.
 
     Notes
@@ -248,7 +248,7 @@ def _growth(design: Design, deviation: FloatArray) -> FloatArray:
     logarithm = np.zeros(2)
     grown = np.ones(len(deviation))
     for _ in range(_STEPS):
-        squares = _scatter(design, deviation, grown) ** 2
+        squares = _estimate_scatter(design, deviation, grown) ** 2
         squares /= squares.mean()
         for _ in range(_STEPS):
             step = np.linalg.lstsq(line, squares / np.exp(line @ logarithm) - 1, rcond=None)[0]
@@ -258,17 +258,17 @@ def _growth(design: Design, deviation: FloatArray) -> FloatArray:
     return np.asarray(grown, dtype=np.float64)
 
 
-def weights(design: Design, deviation: FloatArray) -> FloatArray:
+def compute_weights(design: Design, deviation: FloatArray) -> FloatArray:
     """Return w, the variance of each reading over the mean one, shape (N,)."""
-    tests, found = _tested(design, deviation)
-    scatter = _scatter(design, deviation, found)
+    tests, found = _examine_spreads(design, deviation)
+    scatter = _estimate_scatter(design, deviation, found)
     for test in tests:
-        if test.is_refuted and test.factor in (groupings := _groupings(design)):
-            found = found * _shrunk(scatter / np.sqrt(found), groupings[test.factor])
+        if test.is_refuted and test.factor in (groupings := _make_groupings(design)):
+            found = found * _shrink_variances(scatter / np.sqrt(found), groupings[test.factor])
     return np.asarray(found / found.mean(), dtype=np.float64)
 
 
-def _groupings(design: Design) -> dict[SpreadFactor, IntArray]:
+def _make_groupings(design: Design) -> dict[SpreadFactor, IntArray]:
     return {
         SpreadFactor.POSITION: design.target,
         SpreadFactor.DIRECTION: design.direction.astype(np.int64),
@@ -276,12 +276,12 @@ def _groupings(design: Design) -> dict[SpreadFactor, IntArray]:
     }
 
 
-def _scatter(design: Design, deviation: FloatArray, variance: FloatArray) -> FloatArray:
-    """Return the scatter of readings of known relative variance as `_drift_free` does, shape (N,)."""
-    return _drift_free(design, deviation[:, np.newaxis], variance)[:, 0]
+def _estimate_scatter(design: Design, deviation: FloatArray, variance: FloatArray) -> FloatArray:
+    """Return the scatter of readings of known relative variance as `_remove_drift` does, shape (N,)."""
+    return _remove_drift(design, deviation[:, np.newaxis], variance)[:, 0]
 
 
-def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None = None) -> FloatArray:
+def _remove_drift(design: Design, values: FloatArray, variance: FloatArray | None = None) -> FloatArray:
     """Return the scatter of readings about their cells, and about offset and slope of their passes.
 
     A pass is what one run takes in one direction. Without it, an effect that grows with position and time
@@ -290,7 +290,7 @@ def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None 
     `values`, (N, B): Deviations of B sets.
     `variance`, (N,) array or None: Of each reading over the mean one; the readings of a cell share it.
     """
-    cell = cells(design)
+    cell = number_cells(design)
     count = np.bincount(cell)
     root = np.ones(len(cell)) if variance is None else np.sqrt(variance)
     membership = (cell == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
@@ -306,7 +306,7 @@ def _drift_free(design: Design, values: FloatArray, variance: FloatArray | None 
     return np.asarray(left * (root / np.sqrt(np.maximum(kept, 1e-3)))[:, np.newaxis], dtype=np.float64)
 
 
-def _levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
+def _compute_levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
     """Return the ratio of variances between and within groups for each set, and the first's widest group."""
     count = np.bincount(group)
     membership = (group == np.arange(len(count))[:, np.newaxis]) / count[:, np.newaxis]
@@ -318,7 +318,7 @@ def _levene(sizes: FloatArray, group: IntArray) -> tuple[FloatArray, int]:
     return ratio, int(np.argmax(means[:, 0]))
 
 
-def _shrunk(scatter: FloatArray, labels: IntArray) -> FloatArray:
+def _shrink_variances(scatter: FloatArray, labels: IntArray) -> FloatArray:
     """Return for each reading its group's variance, drawn to the pooled one: (ν₀s² + ν_i·s_i²)/(ν₀ + ν_i).
 
     ν₀ follows from how much more the logarithms of the variances differ than chance would have it.

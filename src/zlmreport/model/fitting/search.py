@@ -123,7 +123,7 @@ def search(problem: FitProblem) -> Solution:
         for index in searched:
             for theta in grids[index]:
                 tried = problem.solution((*best.thetas[:index], theta, *best.thetas[index + 1 :]))
-                best = _better(best, tried)
+                best = _choose_better(best, tried)
         if best is before:
             break
     return refine(problem, best)
@@ -136,12 +136,12 @@ def refine(problem: FitProblem, start: Solution) -> Solution:
     for _ in range(_HALVINGS if places else 0):
         for place, step in zip(places, steps, strict=True):
             either = [problem.solution(place.moved(best.thetas, shift)) for shift in (step, -step)]
-            best = _better(best, min(either, key=_squares))
+            best = _choose_better(best, min(either, key=_sum_squares))
         steps = [step / 2 for step in steps]
     return descend(problem, best)
 
 
-def tangents(
+def compute_tangents(
     model: AxisModel, design: Design, solution: Solution, places: Sequence[ContinuousParameter]
 ) -> FloatArray:
     """Return ∂(Cγ)/∂θ on a design, shape (N, places)."""
@@ -171,7 +171,7 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
     damping = _SMALLEST_DAMPING
     spacings = np.array([place.spacing for place in places])
     for _ in range(_STEPS if places else 0):
-        slopes = problem.whiten(tangents(problem.model, problem.design, best, places)) * spacings
+        slopes = problem.whiten(compute_tangents(problem.model, problem.design, best, places)) * spacings
         basis = np.linalg.qr(best.columns)[0]
         whole = np.linalg.norm(slopes, axis=0)
         slopes = slopes - basis @ (basis.T @ slopes)
@@ -199,12 +199,12 @@ def descend(problem: FitProblem, start: Solution, settled: float = 0.0) -> Solut
     return best
 
 
-def _better(best: Solution, tried: Solution) -> Solution:
+def _choose_better(best: Solution, tried: Solution) -> Solution:
     """Return the better fit; the one there is where rounding alone tells them apart."""
-    return tried if _squares(tried) < _squares(best) * (1 - _ROUNDING) else best
+    return tried if _sum_squares(tried) < _sum_squares(best) * (1 - _ROUNDING) else best
 
 
-def _squares(solution: Solution) -> float:
+def _sum_squares(solution: Solution) -> float:
     squares = solution.squares
     return squares if np.isfinite(squares) else np.inf
 

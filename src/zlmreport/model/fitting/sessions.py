@@ -51,13 +51,13 @@ class SessionZeros(Effect):
         return np.asarray(design.session[:, np.newaxis] == later, dtype=np.float64)
 
 
-def with_zeros(model: AxisModel, design: Design) -> AxisModel:
+def add_zeros(model: AxisModel, design: Design) -> AxisModel:
     """Return a model in which each session of a design has its own zero before anything else."""
     sessions = int(design.session.max()) + 1
     return AxisModel((Term(SessionZeros(sessions)), *model.terms)) if sessions > 1 else model
 
 
-def held_together(own: Observations, others: Sequence[tuple[str, Observations]]) -> Observations:
+def hold_together(own: Observations, others: Sequence[tuple[str, Observations]]) -> Observations:
     """Return the readings of several tests below one another.
 
     Raises `ModelError` if some sessions tell their times and others do not.
@@ -131,6 +131,6 @@ def held_together(own: Observations, others: Sequence[tuple[str, Observations]])
     )
 
 
-def of_the_job(observed: Observations) -> Observations:
+def select_of_the_job(observed: Observations) -> Observations:
     """Return the readings of the job's own session."""
     return observed.without(np.flatnonzero(observed.design.session > 0))

@@ -14,10 +14,16 @@ from zlmreport.job.measurement_keys import LineOfPlane
 from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.model.diagnosis.report import report_error
-from zlmreport.model.diagnosis.study import instrument_error
+from zlmreport.model.diagnosis.study import find_instrument_error
 from zlmreport.model.effects.axis_model import ModelError
-from zlmreport.model.fitting.observations import observations_of
-from zlmreport.model.plane.surface import Surface, SurfaceLine, coefficient_names, side_by_side, surface
+from zlmreport.model.fitting.observations import make_observations_of
+from zlmreport.model.plane.surface import (
+    Surface,
+    SurfaceLine,
+    fit_surface,
+    join_side_by_side,
+    list_coefficient_names,
+)
 
 #: A job, and what it measured.
 Measured = tuple[Job, MeasurementSet]
@@ -36,20 +42,20 @@ class Plane:
     surfaces: tuple[Surface, ...]  #: One for each direction of approach.
 
 
-def plane_of(measured: Sequence[Measured]) -> Plane:
+def fit_plane(measured: Sequence[Measured]) -> Plane:
     """Fit the deviation over the plane that jobs have measured line by line.
 
     Raises `InputError` with every reason why the jobs are no lines of one plane.
     """
-    places = _places([job for job, _ in measured])
-    problems = list(_differences(measured, places))
+    places = _list_places([job for job, _ in measured])
+    problems = list(_find_differences(measured, places))
     if problems:
         raise InputError(problems)
     (first, sample), second = measured[0], places[0].axis
     lines = tuple(
         sorted(
             (
-                SurfaceLine(job.axis.position_unit.to_si(place.at), observations_of(measurements))
+                SurfaceLine(job.axis.position_unit.to_si(place.at), make_observations_of(measurements))
                 for (job, measurements), place in zip(measured, places, strict=True)
             ),
             key=lambda line: line.across,
@@ -58,7 +64,7 @@ def plane_of(measured: Sequence[Measured]) -> Plane:
     length = float(np.ptp(sample.target_positions))
     try:
         surfaces = tuple(
-            surface(side_by_side(lines, approach, second), instrument_error(first, length))
+            fit_surface(join_side_by_side(lines, approach, second), find_instrument_error(first, length))
             for approach in sample.approaches
         )
     except ModelError as error:
@@ -66,7 +72,7 @@ def plane_of(measured: Sequence[Measured]) -> Plane:
     return Plane(first.axis, second, lines, surfaces)
 
 
-def _places(jobs: Sequence[Job]) -> list[LineOfPlane]:
+def _list_places(jobs: Sequence[Job]) -> list[LineOfPlane]:
     """Return where the lines of jobs lie."""
     places = [job.keys.measurement.plane for job in jobs]
     problems = [
@@ -83,7 +89,7 @@ def _places(jobs: Sequence[Job]) -> list[LineOfPlane]:
     return [place for place in places if place is not None]
 
 
-def _differences(measured: Sequence[Measured], places: Sequence[LineOfPlane]) -> Iterator[Problem]:
+def _find_differences(measured: Sequence[Measured], places: Sequence[LineOfPlane]) -> Iterator[Problem]:
     """Yield why lines do not belong together."""
     (first, sample), leading = measured[0], places[0]
     if len({place.at for place in places}) < 2:
@@ -112,17 +118,17 @@ def _differences(measured: Sequence[Measured], places: Sequence[LineOfPlane]) ->
         if measurements.approaches != sample.approaches:
             yield Problem(
                 job.source.place,
-                f"this line was approached {_arrows(measurements)}, the first one {_arrows(sample)}; "
-                "all lines of a plane need the same directions",
+                f"this line was approached {_write_arrows(measurements)}, "
+                f"the first one {_write_arrows(sample)}; all lines of a plane need the same directions",
             )
-        if instrument_error(job, 1.0) != instrument_error(first, 1.0):
+        if find_instrument_error(job, 1.0) != find_instrument_error(first, 1.0):
             yield Problem(
                 job.place_of("instrument.expanded_uncertainty"),
                 "the instrument's uncertainty is not that of the first job; one instrument measures a plane",
             )
 
 
-def _arrows(measurements: MeasurementSet) -> str:
+def _write_arrows(measurements: MeasurementSet) -> str:
     return " and ".join(approach.arrow for approach in measurements.approaches)
 
 
@@ -144,11 +150,11 @@ def report(plane: Plane, points: Sequence[tuple[float, float]]) -> dict[str, Any
             }
             for line in plane.lines
         ],
-        "directions": [_direction(each, plane.axis, points) for each in plane.surfaces],
+        "directions": [_collect_direction(each, plane.axis, points) for each in plane.surfaces],
     }
 
 
-def _direction(surface: Surface, axis: Axis, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
+def _collect_direction(surface: Surface, axis: Axis, points: Sequence[tuple[float, float]]) -> dict[str, Any]:
     unit = axis.deviation_unit
     interaction = surface.interaction
     return {
@@ -156,39 +162,41 @@ def _direction(surface: Surface, axis: Axis, points: Sequence[tuple[float, float
         "along": [axis.position_unit.from_si(end) for end in surface.along],
         "across": [axis.position_unit.from_si(end) for end in surface.across],
         "error": report_error(surface.error, axis),
-        **_coefficients(surface, axis),
+        **_collect_coefficients(surface, axis),
         "interaction": {
             "value": unit.from_si(interaction.value),
             "expanded_uncertainty": unit.from_si(interaction.expanded_uncertainty),
             "coverage_factor": interaction.coverage_factor,
             "unit": unit.ascii,
         },
-        "points": _points(surface, axis, points),
+        "points": _collect_points(surface, axis, points),
     }
 
 
-def _coefficients(surface: Surface, axis: Axis) -> dict[str, Any]:
+def _collect_coefficients(surface: Surface, axis: Axis) -> dict[str, Any]:
     """Return the coefficients of equation (13) for positions in mm and deviations in µm."""
     found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
     return {
         "coefficients": [
-            {"name": name, "value": value, "unit": _unit(axis, sum(powers))}
+            {"name": name, "value": value, "unit": _write_unit(axis, sum(powers))}
             for name, value, powers in zip(
-                coefficient_names(found.orders), found.values.tolist(), found.powers, strict=True
+                list_coefficient_names(found.orders), found.values.tolist(), found.powers, strict=True
             )
         ],
         "covariance": found.covariance.tolist(),
     }
 
 
-def _unit(axis: Axis, power: int) -> str:
+def _write_unit(axis: Axis, power: int) -> str:
     unit = axis.deviation_unit.ascii
     if power == 0:
         return unit
     return f"{unit}/{axis.position_unit.ascii}{power if power > 1 else ''}"
 
 
-def _points(surface: Surface, axis: Axis, points: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
+def _collect_points(
+    surface: Surface, axis: Axis, points: Sequence[tuple[float, float]]
+) -> list[dict[str, float]]:
     unit, millimetre = axis.deviation_unit, axis.position_unit
     found = surface.predict(points)
     return [

@@ -20,14 +20,14 @@ from zlmreport.measurement.arrays import FloatArray, IntArray, read_only_floats,
 from zlmreport.measurement.units import Unit
 from zlmreport.model.diagnosis.diagnosis import ErrorNumbers
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
-from zlmreport.model.effects.design import Design, of_position, outside_of_measured
+from zlmreport.model.effects.design import Design, list_outside_of_measured, transform_to_position
 from zlmreport.model.effects.effect import Dimension, Effect, Parameter, Shape
-from zlmreport.model.fitting.blunders import outliers
+from zlmreport.model.fitting.blunders import find_outliers
 from zlmreport.model.fitting.estimate import Estimate, InstrumentError
-from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, cross_validated_rms, fit
-from zlmreport.model.fitting.noise import NoiseSource, noise_parts
-from zlmreport.model.fitting.observations import Observations, of_readings
-from zlmreport.model.fitting.repeats import noise_floor
+from zlmreport.model.fitting.fit import Assumptions, Fit, Prediction, cross_validate, fit
+from zlmreport.model.fitting.noise import NoiseSource, list_noise_parts
+from zlmreport.model.fitting.observations import Observations, select_readings
+from zlmreport.model.fitting.repeats import estimate_noise_floor
 
 #: The condition under which a design holds the position of the second axis, m.
 ACROSS = "position_of_second_axis"
@@ -42,7 +42,7 @@ class SurfaceLine:
 
     def aside(self) -> IntArray:
         """Return the readings that stand off, by their places among those observed."""
-        return outliers(self.observed.design, self.observed.deviation).readings
+        return find_outliers(self.observed.design, self.observed.deviation).readings
 
     def kept(self) -> Observations:
         """Return the readings without those that stand off."""
@@ -67,12 +67,12 @@ class SurfaceReadings:
         return self.design.conditions[ACROSS]
 
 
-def side_by_side(lines: Sequence[SurfaceLine], approach: Approach, second: str = "R") -> SurfaceReadings:
+def join_side_by_side(lines: Sequence[SurfaceLine], approach: Approach, second: str = "R") -> SurfaceReadings:
     """Return the readings of lines in one direction of approach, those that stand off set aside.
 
     `lines`: In any order.
     """
-    kept = [_one_way(line, approach) for line in lines]
+    kept = [_select_one_way(line, approach) for line in lines]
     designs = [each.design for each in kept]
     counts = [len(each.deviation) for each in kept]
     number = np.repeat(np.arange(len(kept), dtype=np.float64), counts)
@@ -83,18 +83,18 @@ def side_by_side(lines: Sequence[SurfaceLine], approach: Approach, second: str =
         axis=designs[0].axis,
         position=read_only_floats(position),
         direction=read_only_floats(np.full(len(number), float(approach))),
-        run=_labels(number, run) + 1,
-        target=_labels(across, position),
+        run=_number_pairs(number, run) + 1,
+        target=_number_pairs(across, position),
         time=read_only_floats(np.arange(len(number))),
         time_is_counted=True,
         since_reversal=read_only_floats(np.concatenate([each.since_reversal for each in designs])),
         conditions={ACROSS: read_only_floats(across)},
     )
     deviation = read_only_floats(np.concatenate([each.deviation for each in kept]))
-    return SurfaceReadings(second, design, deviation, _pooled_floor(kept))
+    return SurfaceReadings(second, design, deviation, _pool_floors(kept))
 
 
-def points(readings: SurfaceReadings, along: FloatArray, across: FloatArray) -> Design:
+def make_points(readings: SurfaceReadings, along: FloatArray, across: FloatArray) -> Design:
     """Return a design that asks for points of the plane, each (M,), m."""
     design = readings.design
     none = np.zeros(len(along))
@@ -112,25 +112,25 @@ def points(readings: SurfaceReadings, along: FloatArray, across: FloatArray) -> 
     )
 
 
-def _one_way(line: SurfaceLine, approach: Approach) -> Observations:
+def _select_one_way(line: SurfaceLine, approach: Approach) -> Observations:
     kept = line.kept()
     chosen = np.flatnonzero(kept.design.direction == float(approach))
     return Observations(
-        of_readings(kept.design, chosen),
+        select_readings(kept.design, chosen),
         read_only_floats(kept.deviation[chosen]),
         read_only_integers(kept.reading[chosen]),
         kept.remarks,
     )
 
 
-def _labels(one: FloatArray, other: FloatArray | IntArray) -> IntArray:
+def _number_pairs(one: FloatArray, other: FloatArray | IntArray) -> IntArray:
     """Return numbers from 0 for the pairs of two values, the same for the same pair."""
     _, index = np.unique(np.stack([one, other]), axis=1, return_inverse=True)
     return read_only_integers(index.reshape(-1))
 
 
-def _pooled_floor(lines: Sequence[Observations]) -> float | None:
-    floors = [noise_floor(each.design, each.deviation) for each in lines]
+def _pool_floors(lines: Sequence[Observations]) -> float | None:
+    floors = [estimate_noise_floor(each.design, each.deviation) for each in lines]
     known = [floor for floor in floors if floor is not None]
     return float(np.sqrt(np.mean(np.square(known)))) if known else None
 
@@ -139,7 +139,7 @@ def _pooled_floor(lines: Sequence[Observations]) -> float | None:
 CUBIC = 3
 
 
-def coefficient_names(orders: tuple[int, int]) -> tuple[str, ...]:
+def list_coefficient_names(orders: tuple[int, int]) -> tuple[str, ...]:
     """Return the letters of equation (13), up to the orders: a, b1, c1, d1, b2, c2, d2."""
     letters = "bcd"
     return (
@@ -168,7 +168,7 @@ class Powers(Effect):
         self.orders = orders
         self.across = across
         self.interaction = interaction
-        names = (*coefficient_names(orders), *(("interaction",) if interaction else ()))
+        names = (*list_coefficient_names(orders), *(("interaction",) if interaction else ()))
         self.linear = tuple(Parameter(name, name, Dimension.DEVIATION, same(name)) for name in names)
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:  # noqa: ARG002 - no θ
@@ -241,12 +241,12 @@ class Surface:
         along, across = np.array(places, dtype=np.float64).reshape(-1, 2).T
         axis = self.fit.design.axis
         sentences = [
-            *outside_of_measured(axis.name, axis.position_unit, along, self.along),
-            *outside_of_measured(self.readings.second, axis.position_unit, across, self.across),
+            *list_outside_of_measured(axis.name, axis.position_unit, along, self.along),
+            *list_outside_of_measured(self.readings.second, axis.position_unit, across, self.across),
         ]
         if sentences:
             raise ModelError(sentences)
-        return self.fit.predict(points(self.readings, along, across))
+        return self.fit.predict(make_points(self.readings, along, across))
 
     def coefficients(self) -> Coefficients:
         """Return the polynomial in powers of P and R themselves."""
@@ -257,7 +257,7 @@ class Surface:
         )
 
 
-def surface(readings: SurfaceReadings, instrument: InstrumentError) -> Surface:
+def fit_surface(readings: SurfaceReadings, instrument: InstrumentError) -> Surface:
     """Fit equation (13) to the lines of a plane.
 
     The orders are 3, or less by one than the number of positions or lines where these are fewer than four.
@@ -271,21 +271,21 @@ def surface(readings: SurfaceReadings, instrument: InstrumentError) -> Surface:
     orders = (min(CUBIC, len(design.target_positions) - 1), min(CUBIC, len(lines) - 1))
     powers = Powers(orders, (float(lines[0]), float(lines[-1])))
     # Nobody states when a line was measured after the other, so no drift is taken to run through all of them.
-    parts = tuple(part for part in noise_parts(design) if part.source is not NoiseSource.TIME)
+    parts = tuple(part for part in list_noise_parts(design) if part.source is not NoiseSource.TIME)
     assumed = Assumptions(instrument=instrument, parts=parts)
-    fitted = _fitted(powers, readings, assumed)
+    fitted = _fit(powers, readings, assumed)
     crossed = Powers(orders, powers.across, interaction=True)
     return Surface(
         Approach(int(design.direction[0])),
         readings,
         fitted,
         powers,
-        _error(fitted, readings.noise_floor),
-        _fitted(crossed, readings, assumed).estimates[-1],
+        _compute_error(fitted, readings.noise_floor),
+        _fit(crossed, readings, assumed).estimates[-1],
     )
 
 
-def _fitted(powers: Powers, readings: SurfaceReadings, assumed: Assumptions) -> Fit:
+def _fit(powers: Powers, readings: SurfaceReadings, assumed: Assumptions) -> Fit:
     try:
         return fit(AxisModel((Term(powers),)), readings.design, readings.deviation, assumed)
     except ModelError as error:
@@ -296,12 +296,12 @@ def _fitted(powers: Powers, readings: SurfaceReadings, assumed: Assumptions) -> 
         raise ModelError([sentence]) from error
 
 
-def _error(fitted: Fit, floor: float | None) -> ErrorNumbers:
+def _compute_error(fitted: Fit, floor: float | None) -> ErrorNumbers:
     return ErrorNumbers(
         fitted.rms,
         floor,
         (fitted.rms / floor) ** 2 if floor else None,
-        cross_validated_rms(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
+        cross_validate(fitted.model, fitted.design, fitted.deviation, fitted.solution.thetas),
     )
 
 
@@ -314,6 +314,6 @@ def _to_powers(
     first = 1
     for order, span in zip(orders, (along, across), strict=True):
         own = slice(first, first + order)
-        turn[0, own], turn[own, own] = np.split(of_position(order, span)[:, 1:], [1])
+        turn[0, own], turn[own, own] = np.split(transform_to_position(order, span)[:, 1:], [1])
         first += order
     return turn

@@ -11,14 +11,14 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.model.diagnosis.report import listed
+from zlmreport.model.diagnosis.report import list_in_words
 from zlmreport.model.planning.methods import RUN_BY_RUN, Method
 from zlmreport.model.planning.plan import Pause, Plan
 from zlmreport.model.planning.targets import (
-    drawn_targets,
+    find_periods_at_phases,
+    find_usual_overrun,
     makes_whole_turns,
-    periods_at_phases,
-    usual_overrun,
+    sample_targets,
 )
 
 #: With more targets than these or more runs, one more is no remedy worth the time.
@@ -72,27 +72,27 @@ class PlanChange:
     changed: Callable[[Plan], Plan]  #: Returns the plan with the change.
 
 
-def together(changes: Sequence[PlanChange]) -> PlanChange:
+def join_changes(changes: Sequence[PlanChange]) -> PlanChange:
     """Return several changes as one."""
     return PlanChange(
         " ".join(change.of for change in changes),
         None,
-        listed([change.advice for change in changes]),
+        list_in_words([change.advice for change in changes]),
         lambda plan: reduce(lambda changed, change: change.changed(changed), changes, plan),
     )
 
 
-def changes(axis: Axis, plan: Plan, seed: int) -> Iterator[PlanChange]:
+def list_changes(axis: Axis, plan: Plan, seed: int) -> Iterator[PlanChange]:
     """Yield changes that let a plan see what it hides: each alone, and in the end all together."""
-    of_targets = list(_of_targets(axis, plan, seed, _MANY_TARGETS))
-    of_sequence = list(_of_sequence(plan, _MANY_RUNS))
+    of_targets = list(_list_target_changes(axis, plan, seed, _MANY_TARGETS))
+    of_sequence = list(_list_sequence_changes(plan, _MANY_RUNS))
     yield from (*of_targets, *of_sequence)
     last = [*of_targets[-1:], *of_sequence]
     if len(last) > 1:
-        yield together(last)
+        yield join_changes(last)
 
 
-def further_changes(
+def list_further_changes(
     axis: Axis, plan: Plan, seed: int, period: float | None, *, goes_on: bool = False
 ) -> Iterator[PlanChange]:
     """Yield each change that may tell effects apart, or show one.
@@ -101,15 +101,15 @@ def further_changes(
     `goes_on`: Whether the test can be held together with the one before.
     """
     many = max(_MANY_TARGETS, _FACTOR * len(plan.targets))
-    yield from _of_targets(axis, plan, seed, many, period)
-    yield from _of_sequence(plan, max(_MANY_RUNS, _FACTOR * plan.runs))
+    yield from _list_target_changes(axis, plan, seed, many, period)
+    yield from _list_sequence_changes(plan, max(_MANY_RUNS, _FACTOR * plan.runs))
     if plan.method is Method.LINEAR:
-        yield _by_method(Method.PENDULUM, None)
+        yield _change_by_method(Method.PENDULUM, None)
     if plan.method in RUN_BY_RUN:
         yield from (_pause(column, minutes) for column, minutes in _WARMING)
     if goes_on:
-        yield _session(_SECOND_SESSION, 0.0, 0.0)
-        yield _session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
+        yield _change_by_session(_SECOND_SESSION, 0.0, 0.0)
+        yield _change_by_session(_WARMER_SESSION, _WARMING[0][1], _KELVIN)
     longer = float(round(_LONGER * plan.dwell)) or plan.dwell
     yield PlanChange(
         "dwell", None, _REST.given(seconds=f"{longer:g}"), lambda each: replace(each, dwell=longer)
@@ -118,11 +118,11 @@ def further_changes(
         "overrun",
         None,
         _OVERRUN.given(times=f"{_FARTHER:g}"),
-        lambda each: within_travel(axis, replace(each, overrun=_FARTHER * each.overrun)),
+        lambda each: keep_within_travel(axis, replace(each, overrun=_FARTHER * each.overrun)),
     )
 
 
-def within_travel(axis: Axis, plan: Plan) -> Plan:
+def keep_within_travel(axis: Axis, plan: Plan) -> Plan:
     """Return a plan whose outermost targets leave room to turn round within the travel."""
     if axis.travel is None or makes_whole_turns(axis):
         return plan
@@ -131,7 +131,7 @@ def within_travel(axis: Axis, plan: Plan) -> Plan:
     return replace(plan, targets=read_only_floats(moved))
 
 
-def _session(advice: Words, minutes: float, change: float) -> PlanChange:
+def _change_by_session(advice: Words, minutes: float, change: float) -> PlanChange:
     after = Pause(minutes * _SECONDS_PER_MINUTE, change, _WARMING[0][0])
     words = advice.given(minutes=f"{minutes:g}", change=f"{change:g}")
     return PlanChange("session", None, words, lambda each: replace(each, after=after))
@@ -143,31 +143,33 @@ def _pause(column: str, minutes: float) -> PlanChange:
     return PlanChange("pause", None, advice, lambda each: replace(each, pause=pause, runs=max(2, each.runs)))
 
 
-def _by_method(method: Method, reason: Words | None) -> PlanChange:
+def _change_by_method(method: Method, reason: Words | None) -> PlanChange:
     return PlanChange("method", reason, _MEASURE_BY[method], lambda each: replace(each, method=method))
 
 
-def _of_sequence(plan: Plan, runs: int) -> Iterator[PlanChange]:
+def _list_sequence_changes(plan: Plan, runs: int) -> Iterator[PlanChange]:
     if plan.method is not Method.LINEAR:
-        yield _by_method(Method.LINEAR, None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION)
+        yield _change_by_method(
+            Method.LINEAR, None if plan.method is Method.UNIDIRECTIONAL else _BOUND_TO_POSITION
+        )
     if plan.runs < runs:
         advice = _MORE_RUNS.given(runs=runs)
         yield PlanChange("runs", None, advice, lambda each: replace(each, runs=runs))
 
 
-def _of_targets(
+def _list_target_changes(
     axis: Axis, plan: Plan, seed: int, many: int, period: float | None = None
 ) -> Iterator[PlanChange]:
     """Yield other targets; the last change has all that those before it have."""
     spread_over = axis if axis.travel else replace(axis, travel=(plan.targets[0], plan.targets[-1]))
-    overrun = min(plan.overrun, usual_overrun(spread_over))
+    overrun = min(plan.overrun, find_usual_overrun(spread_over))
 
     def drawn(each: Plan, count: int, own: float | None) -> Plan:
-        return replace(each, targets=drawn_targets(spread_over, count, overrun, own, seed))
+        return replace(each, targets=sample_targets(spread_over, count, overrun, own, seed))
 
-    blind = periods_at_phases(axis, plan.targets, 1)
+    blind = find_periods_at_phases(axis, plan.targets, 1)
     if blind or period is not None:
-        reason = _SAME_PHASE.given(periods=listed(blind)) if blind else None
+        reason = _SAME_PHASE.given(periods=list_in_words(blind)) if blind else None
         count = len(plan.targets)
         yield PlanChange("targets", reason, _RANDOM_FRACTIONS, lambda each: drawn(each, count, period))
     if len(plan.targets) < many:

@@ -18,7 +18,7 @@ from zlmreport.job.job import Job
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.units import MILLIMETRE
-from zlmreport.model.planning.programs import ProgramOptions, plain_name, program_number
+from zlmreport.model.planning.programs import ProgramOptions, write_plain_name, write_program_number
 
 _SECONDS_PER_MINUTE = 60.0
 _FULL_TURN = 360.0
@@ -188,7 +188,7 @@ class CirclePath:
         return x, y
 
 
-def circle_path(job: Job, place: Place, feed: float | None = None) -> CirclePath:
+def plan_circle_path(job: Job, place: Place, feed: float | None = None) -> CirclePath:
     """Return the path of a job's circular test.
 
     `feed`: Of the path, mm/min; that of the circle if it is not given.
@@ -211,7 +211,7 @@ def circle_path(job: Job, place: Place, feed: float | None = None) -> CirclePath
     return CirclePath(number, job.axis.circle, feed, turns, keys.run_up, keys.rest, place)
 
 
-def circle_heading(path: CirclePath, options: ProgramOptions) -> Iterator[str]:
+def write_circle_heading(path: CirclePath, options: ProgramOptions) -> Iterator[str]:
     """Yield the remarks at the head of a program: plain ASCII, each beginning with a word of its own.
 
     Raises `InputError` where the keys of the program give an axis another name: two axes run a circle.
@@ -228,10 +228,10 @@ def circle_heading(path: CirclePath, options: ProgramOptions) -> Iterator[str]:
         f"{axis} {MILLIMETRE.from_si(value):.12g}"
         for axis, value in zip("XYZ", path.circle.centre, strict=True)
     )
-    yield f"job {plain_name(path.number)}"
+    yield f"job {write_plain_name(path.number)}"
     yield (
-        f"circle {path.circle.plane}, radius {path.radius:.12g} mm, feed {program_number(path.feed)} mm/min, "
-        f"{len(path.turns)} turns"
+        f"circle {path.circle.plane}, radius {path.radius:.12g} mm, "
+        f"feed {write_program_number(path.feed)} mm/min, {len(path.turns)} turns"
     )
     yield (
         f"evaluated {low:.12g} to {high:.12g} deg from {first} to {second}, "

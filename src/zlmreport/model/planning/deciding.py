@@ -16,22 +16,28 @@ from zlmreport.job.choices import EffectChoice
 from zlmreport.job.job import Job
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.model.diagnosis.contest import Told, untold
+from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import Candidate, Diagnosis
-from zlmreport.model.diagnosis.finding import known_noise
+from zlmreport.model.diagnosis.finding import find_known_noise
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
 from zlmreport.model.fitting.fit import Fit, fit
-from zlmreport.model.fitting.noise import noise_parts
+from zlmreport.model.fitting.noise import list_noise_parts
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.model.planning.experiment import Experiment, next_experiment
-from zlmreport.model.planning.plan import ExpectedTest, PlannedStandard, measured_plan, propose, seed_of
-from zlmreport.model.planning.planned_test import model_of
+from zlmreport.model.planning.experiment import Experiment, plan_next_experiment
+from zlmreport.model.planning.plan import (
+    ExpectedTest,
+    PlannedStandard,
+    find_measured_plan,
+    make_seed_of,
+    propose,
+)
+from zlmreport.model.planning.planned_test import choose_model_of
 from zlmreport.model.planning.rivals import Question, Rival
-from zlmreport.model.planning.targets import in_users_unit
-from zlmreport.model.planning.visibility import determined, expected_design
+from zlmreport.model.planning.targets import convert_to_users_unit
+from zlmreport.model.planning.visibility import expect_design, find_determined
 
 PLACE = Place("zlmreport plan --decide")
 #: Of effects that nobody has measured: their root mean square value over the repeatability.
@@ -46,33 +52,33 @@ _OF_THE_FORM: Mapping[str, Mapping[str, str]] = {
 }
 
 
-def experiment_of_tie(
-    study: Study, diagnosis: Diagnosis, effects: Sequence[Effect], told: Told = untold
+def plan_experiment_of_tie(
+    study: Study, diagnosis: Diagnosis, effects: Sequence[Effect], told: Told = tell_nobody
 ) -> Experiment | None:
     """Return the experiment that tells the first candidate of a diagnosis from its equals; None without any.
 
     `told`: Is told the share of the plans that are simulated.
     """
-    question = question_of_tie(diagnosis)
-    return None if question is None else _of_study(study, diagnosis.fit, question, effects, told)
+    question = find_question_of_tie(diagnosis)
+    return None if question is None else _plan_of_study(study, diagnosis.fit, question, effects, told)
 
 
-def question_of_tie(diagnosis: Diagnosis) -> Question | None:
+def find_question_of_tie(diagnosis: Diagnosis) -> Question | None:
     """Return which of the first candidate and its equals it is; None without any."""
     leading = diagnosis.candidates[0] if diagnosis.candidates else None
     if leading is None or not leading.equals:
         return None
     base = diagnosis.fit
     tied = [each for each in diagnosis.candidates if each.identifier in {leading.identifier, *leading.equals}]
-    fits = [_with(base, each) for each in tied]
+    fits = [_fit_with(base, each) for each in tied]
     rivals = [
-        _rival(after, each.effect, each.probability, _size(base, after))
+        _make_rival(after, each.effect, each.probability, _estimate_size(base, after))
         for after, each in zip(fits, tied, strict=True)
     ]
-    return question_of(base, rivals, fits)
+    return make_question_of(base, rivals, fits)
 
 
-def deciding_experiment(
+def plan_deciding_experiment(
     names: Sequence[str],
     job: Job,
     study: Study | None,
@@ -87,25 +93,27 @@ def deciding_experiment(
     Raises `InputError` if none is named, one twice, or one that there is not.
     """
     known = {each.identifier: each for each in (study.tried(effects) if study else effects)}
-    model = study.model if study else model_of(job, effects)
+    model = study.model if study else choose_model_of(job, effects)
     known |= {term.effect.identifier: term.effect for term in model.terms}
     _refuse_names(names, known)
     chosen = [known[name] for name in names]
     for name in names:
         model = model.without(name)
     if study is None:
-        return _unmeasured(job, model, chosen, effects, standards)
+        return _plan_unmeasured(job, model, chosen, effects, standards)
     base = replace(study, model=model).fitted().fit
-    fits = [_best_form(base, each) for each in chosen]
-    sizes = [0.0 if each is None else _size(base, each) for each in fits]
+    fits = [_fit_best_form(base, each) for each in chosen]
+    sizes = [0.0 if each is None else _estimate_size(base, each) for each in fits]
     size = max(
         _UNMEASURED * min((each.noise.sigma for each in fits if each), default=base.noise.sigma), *sizes
     )
     rivals = [
-        _rival(after, each, 1.0, size) if after else Rival.of_size(each, 1.0, size)
+        _make_rival(after, each, 1.0, size) if after else Rival.of_size(each, 1.0, size)
         for after, each in zip(fits, chosen, strict=True)
     ]
-    return _of_study(study, base, question_of(base, rivals, [each for each in fits if each]), effects)
+    return _plan_of_study(
+        study, base, make_question_of(base, rivals, [each for each in fits if each]), effects
+    )
 
 
 def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
@@ -117,7 +125,7 @@ def _refuse_names(names: Sequence[str], known: Mapping[str, Effect]) -> None:
             raise InputError.at(PLACE, f"there is no effect {name[:60]!r}; {did_you_mean(name, list(known))}")
 
 
-def _with(base: Fit, candidate: Candidate) -> Fit:
+def _fit_with(base: Fit, candidate: Candidate) -> Fit:
     """Return the fit of a model with a candidate, where the diagnosis found it."""
     searched = [each.value for each in candidate.estimates if each.parameter in candidate.effect.searched]
     before = dict(zip(base.model.identifiers, base.solution.thetas, strict=True))
@@ -126,7 +134,7 @@ def _with(base: Fit, candidate: Candidate) -> Fit:
     return fit(model, base.design, base.deviation, base.assumptions, (*start, np.array(searched)))
 
 
-def _best_form(base: Fit, effect: Effect) -> Fit | None:
+def _fit_best_form(base: Fit, effect: Effect) -> Fit | None:
     """Return the fit with an effect, in the form worth its parameters (G. Schwarz); None without any."""
     found: list[tuple[float, Fit]] = []
     for form in effect.forms():
@@ -141,12 +149,12 @@ def _best_form(base: Fit, effect: Effect) -> Fit | None:
     return min(found, key=lambda each: each[0])[1] if found else None
 
 
-def _size(base: Fit, after: Fit) -> float:
+def _estimate_size(base: Fit, after: Fit) -> float:
     """Return the root mean square value of what a further effect explains, m or rad."""
     return float(np.std(after.fitted - base.fitted))
 
 
-def _rival(after: Fit, effect: Effect, probability: float, size: float) -> Rival:
+def _make_rival(after: Fit, effect: Effect, probability: float, size: float) -> Rival:
     """Return an effect as fitted; of no more than a size where the readings do not tell its parameters."""
     parameters = (*effect.linear, *effect.searched)
     is_counted = after.design.time_is_counted and any(each.dimension is Dimension.TIME for each in parameters)
@@ -156,20 +164,20 @@ def _rival(after: Fit, effect: Effect, probability: float, size: float) -> Rival
     return Rival.of_size(effect, probability, size, found.scatters)
 
 
-def _of_study(
-    study: Study, base: Fit, question: Question, effects: Sequence[Effect], told: Told = untold
+def _plan_of_study(
+    study: Study, base: Fit, question: Question, effects: Sequence[Effect], told: Told = tell_nobody
 ) -> Experiment:
     job = study.job
     scale = base.design.conditions.get("axis_temperature")
     rise = job.keys.plan.temperature_change if scale is None else float(np.ptp(scale))
-    plan = measured_plan(job, study.measurements)
-    seed = seed_of(job.keys.certificate.number)
-    return next_experiment(
+    plan = find_measured_plan(job, study.measurements)
+    seed = make_seed_of(job.keys.certificate.number)
+    return plan_next_experiment(
         question, plan, ExpectedTest(question.sigma, rise), study.tried(effects), seed, told=told
     )
 
 
-def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Question:
+def make_question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Question:
     """Return the question which of some effects it is.
 
     `base`: The fitted model beside which they stand.
@@ -177,7 +185,7 @@ def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Ques
     """
     best = min(fits, key=lambda each: each.rms, default=base)
     # What is larger than noise may be, the model lacks: another effect than those in question.
-    largest = {part.source: part.ratios[-1] for part in noise_parts(base.design)}
+    largest = {part.source: part.ratios[-1] for part in list_noise_parts(base.design)}
     return Question(
         axis=base.design.axis,
         model=base.model,
@@ -186,12 +194,12 @@ def question_of(base: Fit, rivals: Sequence[Rival], fits: Sequence[Fit]) -> Ques
         sigma=best.noise.sigma,
         degrees=best.degrees,
         ratios={source: min(ratio, largest[source]) for source, ratio in best.noise.ratios.items()},
-        known=known_noise(base),
+        known=find_known_noise(base),
         first=Observations(base.design, base.open_deviation, np.arange(len(base.deviation)), ()),
     )
 
 
-def _unmeasured(
+def _plan_unmeasured(
     job: Job,
     model: AxisModel,
     chosen: Sequence[Effect],
@@ -200,35 +208,35 @@ def _unmeasured(
 ) -> Experiment:
     proposal = propose(job, standards)
     expected = proposal.expected
-    model = determined(model, expected_design(job.axis, proposal.plan, expected))
+    model = find_determined(model, expect_design(job.axis, proposal.plan, expected))
     size = _UNMEASURED * expected.sigma
     question = Question(
         axis=job.axis,
         model=model,
-        base=partial(_columns, model),
+        base=partial(_make_columns, model),
         rivals=tuple(Rival.of_size(each, 1.0, size) for each in chosen),
         sigma=expected.sigma,
         degrees=_DEGREES,
         ratios={},
     )
-    return next_experiment(question, proposal.plan, expected, effects, proposal.seed)
+    return plan_next_experiment(question, proposal.plan, expected, effects, proposal.seed)
 
 
-def _columns(model: AxisModel, design: Design) -> FloatArray:
-    columns = [_of_term(term, design) for term in model.terms]
+def _make_columns(model: AxisModel, design: Design) -> FloatArray:
+    columns = [_make_columns_of_term(term, design) for term in model.terms]
     return np.concatenate([np.empty((len(design.position), 0)), *columns], axis=1)
 
 
-def _of_term(term: Term, design: Design) -> FloatArray:
+def _make_columns_of_term(term: Term, design: Design) -> FloatArray:
     return term.columns(design, term.grid(design)[0])[0]
 
 
-def experiment_values(experiment: Experiment, job: Job, language: Language) -> dict[str, Any]:
+def collect_experiment(experiment: Experiment, job: Job, language: Language) -> dict[str, Any]:
     """Return an experiment as plain values for JSON; its job beside the one that left the question open."""
     plan = experiment.plan
     return {
         "effects": list(experiment.effects),
-        "job": None if plan is None else deciding_job(experiment, job, PurePath(job.files[0].name).name),
+        "job": None if plan is None else make_deciding_job(experiment, job, PurePath(job.files[0].name).name),
         "minutes": experiment.minutes or None,
         "decides": experiment.decides,
         "log": list(experiment.logs),
@@ -236,34 +244,38 @@ def experiment_values(experiment: Experiment, job: Job, language: Language) -> d
     }
 
 
-def deciding_number(job: Job) -> str:
+def make_deciding_number(job: Job) -> str:
     """Return the number of the job that decides: the name of its file, too."""
     return f"{job.keys.certificate.number}-decide"
 
 
-def deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
+def write_deciding_text(experiment: Experiment, job: Job, extends: str) -> str:
     """Return the job of an experiment as the text of its file, ``<number>-decide.yaml``."""
     statement = experiment.statement.in_language(Language.ENGLISH)
     lines = [f"# {sentence.strip()}." for sentence in statement.rstrip(".").split(". ")]
-    return "\n".join([*lines, *_lines(deciding_job(experiment, job, extends), "")]) + "\n"
+    return "\n".join([*lines, *_write_lines(make_deciding_job(experiment, job, extends), "")]) + "\n"
 
 
-def deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, Any]:
-    """Return the keys of the job of an experiment; parameters as `deciding_text` takes them."""
+def make_deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, Any]:
+    """Return the keys of the job of an experiment; parameters as `write_deciding_text` takes them."""
     plan, axis = experiment.plan, job.axis
     assert plan is not None  # noqa: S101 - the caller has seen to it
-    overrun, feed = in_users_unit(axis, np.array([plan.overrun, plan.feed * _SECONDS_PER_MINUTE]))
+    overrun, feed = convert_to_users_unit(axis, np.array([plan.overrun, plan.feed * _SECONDS_PER_MINUTE]))
     keys: dict[str, Any] = {
         "extends": extends,
-        "certificate": {"number": deciding_number(job), "kind": "report"},
+        "certificate": {"number": make_deciding_number(job), "kind": "report"},
         "measurement": {
             "method": plan.method.value,
             "feed": feed,
             "dwell": plan.dwell,
-            "source": _source(job),
+            "source": _make_source_keys(job),
         },
         "plan": {
-            "targets": {"count": None, "fractions_of": None, "positions": in_users_unit(axis, plan.targets)},
+            "targets": {
+                "count": None,
+                "fractions_of": None,
+                "positions": convert_to_users_unit(axis, plan.targets),
+            },
             "runs": plan.runs,
             "overrun": overrun,
         },
@@ -278,20 +290,20 @@ def deciding_job(experiment: Experiment, job: Job, extends: str) -> dict[str, An
     model: dict[str, Any] = {"sessions": [extends]} if plan.after else {}
     kept = [each for each in job.effects if each.identifier not in experiment.effects]
     if len(kept) < len(job.effects):
-        model["effects"] = [_written(each) for each in kept]
+        model["effects"] = [_write_effect(each) for each in kept]
     return {**keys, "model": model} if model else keys
 
 
-def _written(choice: EffectChoice) -> Any:
+def _write_effect(choice: EffectChoice) -> Any:
     """Return an effect as a job writes it."""
     limits = {name: each.model_dump(exclude_none=True) for name, each in choice.limits.items()}
     own = {**choice.settings.model_dump(mode="json", exclude_unset=True), **choice.values, **limits}
     return own if choice.is_formula else {choice.identifier: own} if own else choice.identifier
 
 
-def _source(job: Job) -> dict[str, Any]:
+def _make_source_keys(job: Job) -> dict[str, Any]:
     """Return the data source of the new readings: the form of its plan, or another file of the same kind."""
-    number, options = deciding_number(job), job.source.options
+    number, options = make_deciding_number(job), job.source.options
     stated = options.model_fields_set
     if job.source.identifier != _FORM:
         named = {key: getattr(options, key) for key in ("file", "journal") if key in stated}
@@ -305,11 +317,11 @@ def _source(job: Job) -> dict[str, Any]:
     return {"file": f"{number}-readings.csv", **usual}
 
 
-def _lines(keys: Mapping[str, Any], indent: str) -> Iterator[str]:
+def _write_lines(keys: Mapping[str, Any], indent: str) -> Iterator[str]:
     """Yield a group of keys as YAML; what is no group as JSON, which YAML contains."""
     for key, value in keys.items():
         if isinstance(value, Mapping) and value:
             yield f"{indent}{key}:"
-            yield from _lines(value, f"{indent}  ")
+            yield from _write_lines(value, f"{indent}  ")
         else:
             yield f"{indent}{key}: {json.dumps(value, ensure_ascii=False)}"

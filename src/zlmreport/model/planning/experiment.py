@@ -18,18 +18,23 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.model.diagnosis.candidates import effects_to_try
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, averaged, untold
+from zlmreport.model.diagnosis.candidates import list_effects_to_try
+from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, average_evidence, tell_nobody
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.finding import MENTION, NAMED, TOLD_APART
 from zlmreport.model.diagnosis.nameless import PRICE as NAMELESS_PRICE
-from zlmreport.model.diagnosis.report import listed
+from zlmreport.model.diagnosis.report import list_in_words
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Dimension, Effect
-from zlmreport.model.planning.changes import PlanChange, further_changes, together, within_travel
+from zlmreport.model.planning.changes import (
+    PlanChange,
+    join_changes,
+    keep_within_travel,
+    list_further_changes,
+)
 from zlmreport.model.planning.methods import RUN_BY_RUN
-from zlmreport.model.planning.plan import ExpectedTest, Plan, beyond_travel
+from zlmreport.model.planning.plan import ExpectedTest, Plan, find_beyond_travel
 from zlmreport.model.planning.rivals import Question
 
 #: The probability from which on an experiment is taken to decide, and below which none is advised.
@@ -93,47 +98,47 @@ class _Draws:
     seed: tuple[int, ...]
 
 
-def next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may be, and who is told
+def plan_next_experiment(  # noqa: PLR0913 - what is asked, what is known, what may be, and who is told
     question: Question,
     plan: Plan,
     expected: ExpectedTest,
     effects: Sequence[Effect],
     seed: int,
     *,
-    told: Told = untold,
+    told: Told = tell_nobody,
 ) -> Experiment:
     """Return the cheapest plan that decides a question; the best one if none is sure to."""
-    looked = partial(_glance, question, expected, _Draws(_SETS, (seed, 0)))
-    plan = within_travel(question.axis, _of_moderate_size(plan))
-    period, goes_on = _period(question), question.may_go_on
-    changes = tuple(further_changes(question.axis, plan, seed, period, goes_on=goes_on))
+    looked = partial(_judge_at_a_glance, question, expected, _Draws(_SETS, (seed, 0)))
+    plan = keep_within_travel(question.axis, _make_moderate(plan))
+    period, goes_on = _find_longest_period(question), question.may_go_on
+    changes = tuple(list_further_changes(question.axis, plan, seed, period, goes_on=goes_on))
     options: list[_Option] = []
-    for each in _options(question, plan, [(), *((one,) for one in changes)]):
+    for each in _list_options(question, plan, [(), *((one,) for one in changes)]):
         options.append(looked(each))
         told(0.5 * len(options) / (1 + len(changes)))
-    judged = partial(_thorough, question, expected, effects, _Draws(_SETS_OF_THE_BEST, (seed, 0)))
-    tried = list(_judged(judged, options)) if any(each.decides >= _ENOUGH for each in options) else []
+    judged = partial(_judge_thoroughly, question, expected, effects, _Draws(_SETS_OF_THE_BEST, (seed, 0)))
+    tried = list(_judge_options(judged, options)) if any(each.decides >= _ENOUGH for each in options) else []
     told(0.75)
     # The rivals alone look easier to tell apart than among all effects: then several changes together.
     if all(each.decides < _ENOUGH for each in tried):
-        leading = sorted(options, key=_surest)[:_COMBINED]
+        leading = sorted(options, key=_find_surest)[:_COMBINED]
         single = [each.changes[0] for each in leading if each.changes]
         several = [each for count in (2, 3) for each in combinations(single, count)]
         apart = [each for each in several if len({change.of for change in each}) == len(each)]
-        combined = [looked(each) for each in _options(question, plan, apart)]
-        tried += _judged(judged, combined if tried else [*options, *combined])
+        combined = [looked(each) for each in _list_options(question, plan, apart)]
+        tried += _judge_options(judged, combined if tried else [*options, *combined])
         options += combined
     best = max(tried, key=lambda each: each.decides, default=_Option((), plan))
     if best.decides >= _NOT_WORTH_IT:
-        best = _thorough(question, expected, effects, _Draws(_SETS_OF_A_PROMISE, (seed, 1)), best)
-    return _experiment(question, expected, best, len(options))
+        best = _judge_thoroughly(question, expected, effects, _Draws(_SETS_OF_A_PROMISE, (seed, 1)), best)
+    return _make_experiment(question, expected, best, len(options))
 
 
-def _judged(judged: Callable[[_Option], _Option], options: Sequence[_Option]) -> Iterator[_Option]:
+def _judge_options(judged: Callable[[_Option], _Option], options: Sequence[_Option]) -> Iterator[_Option]:
     """Yield the cheapest plan that promises enough and the surest ones, judged, until one decides."""
     promising = [each for each in options if each.decides >= _ENOUGH]
     cheapest = min(promising, key=lambda each: each.plan.duration, default=None)
-    surest = [each for each in sorted(options, key=_surest) if each is not cheapest]
+    surest = [each for each in sorted(options, key=_find_surest) if each is not cheapest]
     order = [*([cheapest] if cheapest else []), *surest]
     for option in order[: _BEST if order and order[0].decides >= _NOT_WORTH_IT else 1]:
         yield (found := judged(option))
@@ -141,17 +146,17 @@ def _judged(judged: Callable[[_Option], _Option], options: Sequence[_Option]) ->
             return
 
 
-def _surest(option: _Option) -> tuple[float, float]:
+def _find_surest(option: _Option) -> tuple[float, float]:
     return -option.decides, -option.margin
 
 
-def _of_moderate_size(plan: Plan) -> Plan:
+def _make_moderate(plan: Plan) -> Plan:
     """Return a plan of no more targets and runs than an experiment needs, spread as they were."""
     places = np.linspace(0, len(plan.targets) - 1, min(len(plan.targets), _MOST_TARGETS)).astype(np.int64)
     return replace(plan, targets=read_only_floats(plan.targets[places]), runs=min(plan.runs, _MOST_RUNS))
 
 
-def _period(question: Question) -> float | None:
+def _find_longest_period(question: Question) -> float | None:
     """Return the longest period of the effects in question, as estimated; None if they have none."""
     found = [
         float(value)
@@ -162,46 +167,50 @@ def _period(question: Question) -> float | None:
     return max(found, default=None)
 
 
-def _options(question: Question, plan: Plan, choices: Sequence[Sequence[PlanChange]]) -> Iterator[_Option]:
+def _list_options(
+    question: Question, plan: Plan, choices: Sequence[Sequence[PlanChange]]
+) -> Iterator[_Option]:
     """Yield the plans that changes lead to: those that the axis can follow, and that are not too long."""
     before = 0 if question.first is None else len(question.first.deviation)
     for choice in choices:
         # targets that do not fit into the travel
         with contextlib.suppress(ValueError):
-            changed = together(choice).changed(plan) if choice else plan
+            changed = join_changes(choice).changed(plan) if choice else plan
             readings = changed.readings + (before if changed.after else 0)
             fits = readings <= _MOST_READINGS and len(changed.targets) > 1
             paused = changed.pause is None or changed.method in RUN_BY_RUN
-            if fits and paused and beyond_travel(question.axis, changed) is None:
+            if fits and paused and find_beyond_travel(question.axis, changed) is None:
                 yield _Option(tuple(choice), changed)
 
 
-def _glance(question: Question, expected: ExpectedTest, draws: _Draws, option: _Option) -> _Option:
+def _judge_at_a_glance(question: Question, expected: ExpectedTest, draws: _Draws, option: _Option) -> _Option:
     """Return how often a plan would decide if only the rivals were possible, and the noise known."""
     design = question.design(option.plan, expected)
     visible = [each.effect for each in question.rivals if each.effect.untestable(design) is None]
     if len(visible) < len(question.rivals):
         return option
     contest = Contest.of(design, question.columns(design), visible, with_nameless=False)
-    decides, margin = _decided(question, contest, [contest.nearest(question.ratios)], draws)
+    decides, margin = _compute_share_decided(question, contest, [contest.nearest(question.ratios)], draws)
     return replace(option, decides=decides, margin=margin)
 
 
-def _thorough(
+def _judge_thoroughly(
     question: Question, expected: ExpectedTest, effects: Sequence[Effect], draws: _Draws, option: _Option
 ) -> _Option:
     """Return how often a plan decides among all effects and shapes, whatever the noise."""
     design = question.design(option.plan, expected)
     if any(each.effect.untestable(design) for each in question.rivals):
         return option
-    others = effects_to_try(question.model, design, effects).forms
+    others = list_effects_to_try(question.model, design, effects).forms
     own = [each.effect for each in question.rivals]
     forms = [*own, *(each for each in others if each.identifier not in question.names)]
     contest = Contest.of(design, question.columns(design), forms)
-    return replace(option, decides=_decided(question, contest, list(contest.middling()), draws)[0])
+    return replace(
+        option, decides=_compute_share_decided(question, contest, list(contest.middling()), draws)[0]
+    )
 
 
-def _decided(
+def _compute_share_decided(
     question: Question, contest: Contest, noises: Sequence[Amplitudes], draws: _Draws
 ) -> tuple[float, float]:
     """Return the share of tests that are decided rightly, truths as likely as they are; and the margin.
@@ -220,7 +229,9 @@ def _decided(
         random = np.random.default_rng([*draws.seed, len(design.position)])
         own = max(_FEWEST_SETS, round(share * draws.sets))
         readings = question.readings(design, contest.space.parts, rival, own, random)
-        evidence, nameless = averaged([contest.trials(each, [], readings, question.known) for each in noises])
+        evidence, nameless = average_evidence(
+            [contest.trials(each, [], readings, question.known) for each in noises]
+        )
         lead = _lead(evidence, nameless, places, rival.effect.identifier, question.names)
         right += share * float(np.mean(lead > 0))
         margin = min(margin, float(np.quantile(lead, 0.1)))
@@ -244,37 +255,37 @@ def _lead(
     return np.asarray(own - np.maximum(needed, PRICE + NAMED), dtype=np.float64)
 
 
-def _experiment(question: Question, expected: ExpectedTest, best: _Option, count: int) -> Experiment:
-    aim = (_TO_TELL if len(question.rivals) > 1 else _TO_SHOW).given(effects=listed(question.names))
+def _make_experiment(question: Question, expected: ExpectedTest, best: _Option, count: int) -> Experiment:
+    aim = (_TO_TELL if len(question.rivals) > 1 else _TO_SHOW).given(effects=list_in_words(question.names))
     share = number_words(100 * best.decides, 0)
     if best.decides < _NOT_WORTH_IT:
         none = _NONE.given(count=str(count), aim=aim, decides=share)
-        statement = _with_way_out(question, question.next_design(best.plan, expected), none)
-        return Experiment(question.names, None, (), 0.0, best.decides, _with_sizes(question, statement))
+        statement = _add_way_out(question, question.next_design(best.plan, expected), none)
+        return Experiment(question.names, None, (), 0.0, best.decides, _add_sizes(question, statement))
     logs = question.logs(question.design(best.plan, expected))
-    advice = together(best.changes).advice if best.changes else _AS_IT_IS
+    advice = join_changes(best.changes).advice if best.changes else _AS_IT_IS
     if logs:
         advice = _LOG.given(advice=advice, logs=", ".join(logs))
     minutes = best.plan.duration / _SECONDS_PER_MINUTE
     statement = _ADVICE.given(
         aim=aim, advice=advice, minutes=number_words(max(1.0, minutes), 0), decides=share
     )
-    statement = _with_sizes(question, statement)
+    statement = _add_sizes(question, statement)
     return Experiment(question.names, best.plan, logs, minutes, best.decides, statement)
 
 
-def _with_sizes(question: Question, statement: Words) -> Words:
+def _add_sizes(question: Question, statement: Words) -> Words:
     """Return a statement with what was taken for the size of effects that no readings tell."""
     taken = [rival for rival in question.rivals if not rival.gamma.size]
     if not taken:
         return statement
     size = wording.deviation(question.axis, max(rival.size for rival in taken))
     return _TAKEN.given(
-        statement=statement, effects=listed([each.effect.identifier for each in taken]), size=size
+        statement=statement, effects=list_in_words([each.effect.identifier for each in taken]), size=size
     )
 
 
-def _with_way_out(question: Question, design: Design, statement: Words) -> Words:
+def _add_way_out(question: Question, design: Design, statement: Words) -> Words:
     """Return a statement with what an effect lacks, or the other measurement that its page names."""
     for rival in question.rivals:
         reason = rival.effect.untestable(design)

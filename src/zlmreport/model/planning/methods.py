@@ -42,7 +42,7 @@ class Stop:
 Path: TypeAlias = Iterator[Stop]
 
 
-def path(method: Method, targets: Sequence[float], runs: int, overrun: float) -> tuple[Stop, ...]:
+def plan_path(method: Method, targets: Sequence[float], runs: int, overrun: float) -> tuple[Stop, ...]:
     """Return the stops of a test, in their order.
 
     `targets`: Target positions, rising, m or rad.
@@ -60,7 +60,7 @@ def path(method: Method, targets: Sequence[float], runs: int, overrun: float) ->
     return tuple(_PATHS[method](targets, runs, overrun))
 
 
-def _linear(targets: Sequence[float], runs: int, overrun: float) -> Path:
+def _lead_linear(targets: Sequence[float], runs: int, overrun: float) -> Path:
     """Lead over all targets upwards, then over all of them downwards; and so on for each run."""
     yield Stop(targets[0] - overrun)
     for run in range(1, runs + 1):
@@ -70,14 +70,14 @@ def _linear(targets: Sequence[float], runs: int, overrun: float) -> Path:
         yield Stop(targets[0] - overrun)
 
 
-def _unidirectional(targets: Sequence[float], runs: int, overrun: float) -> Path:
+def _lead_unidirectional(targets: Sequence[float], runs: int, overrun: float) -> Path:
     """Lead over all targets upwards, and back without a reading; and so on for each run."""
     for run in range(1, runs + 1):
         yield Stop(targets[0] - overrun)
         yield from (Stop(position, index, run) for index, position in enumerate(targets))
 
 
-def _pendulum(targets: Sequence[float], runs: int, overrun: float) -> Path:
+def _lead_pendulum(targets: Sequence[float], runs: int, overrun: float) -> Path:
     """Approach each target from below and from above in turn, all runs of it before the next target."""
     for index, position in enumerate(targets):
         for run in range(1, runs + 1):
@@ -87,7 +87,7 @@ def _pendulum(targets: Sequence[float], runs: int, overrun: float) -> Path:
             yield Stop(position, index, run)
 
 
-def _quasi_pilgrim(targets: Sequence[float], runs: int, overrun: float) -> Path:
+def _lead_quasi_pilgrim(targets: Sequence[float], runs: int, overrun: float) -> Path:
     """Go to and fro between each pair of neighbours: the next target upwards, this one downwards.
 
     The first target has all its upward readings before that, the last one its downward readings after it.
@@ -106,10 +106,10 @@ def _quasi_pilgrim(targets: Sequence[float], runs: int, overrun: float) -> Path:
 
 _PATHS: Mapping[Method, Callable[[Sequence[float], int, float], Path]] = MappingProxyType(
     {
-        Method.LINEAR: _linear,
-        Method.UNIDIRECTIONAL: _unidirectional,
-        Method.PENDULUM: _pendulum,
-        Method.QUASI_PILGRIM: _quasi_pilgrim,
+        Method.LINEAR: _lead_linear,
+        Method.UNIDIRECTIONAL: _lead_unidirectional,
+        Method.PENDULUM: _lead_pendulum,
+        Method.QUASI_PILGRIM: _lead_quasi_pilgrim,
     }
 )
 
@@ -126,7 +126,7 @@ class Visit:
     travelled: float
 
 
-def visits(path: Iterable[Stop]) -> tuple[Visit, ...]:
+def list_visits(path: Iterable[Stop]) -> tuple[Visit, ...]:
     """Return the readings on a path; direction and distances are those of the motion that leads to them.
 
     Raises `ValueError` if a reading stands at the start of the path, where no motion leads to it.
@@ -153,13 +153,13 @@ def visits(path: Iterable[Stop]) -> tuple[Visit, ...]:
     return tuple(found)
 
 
-def half_way(listed: Sequence[Visit]) -> int:
+def find_half_way(listed: Sequence[Visit]) -> int:
     """Return the reading with which the second half of the runs begins, where these follow one another."""
     middle = max(visit.run for visit in listed) // 2 + 1
     return next(index for index, visit in enumerate(listed) if visit.run >= middle)
 
 
-def times(listed: Sequence[Visit], feed: float, dwell: float) -> FloatArray:
+def compute_times(listed: Sequence[Visit], feed: float, dwell: float) -> FloatArray:
     """Return when each reading is taken, s from the first, shape (N,).
 
     `feed`: m/s or rad/s; the way to a target is travelled at this speed.
@@ -169,13 +169,13 @@ def times(listed: Sequence[Visit], feed: float, dwell: float) -> FloatArray:
     return np.asarray(elapsed - elapsed[0])
 
 
-def planned_design(
+def make_planned_design(
     axis: Axis, targets: FloatArray, listed: Sequence[Visit], feed: float, dwell: float
 ) -> Design:
     """Return a planned test as effects see it; nobody knows its conditions yet.
 
     `targets`, (m,): Target positions, rising, m or rad.
-    `feed`, `dwell`: As `times` takes them.
+    `feed`, `dwell`: As `compute_times` takes them.
     """
     index = np.array([visit.target for visit in listed])
     return Design(
@@ -184,7 +184,7 @@ def planned_design(
         direction=read_only_floats([visit.approach for visit in listed]),
         run=read_only_integers([visit.run for visit in listed]),
         target=read_only_integers(index),
-        time=read_only_floats(times(listed, feed, dwell)),
+        time=read_only_floats(compute_times(listed, feed, dwell)),
         time_is_counted=False,
         since_reversal=read_only_floats([visit.since_reversal for visit in listed]),
     )

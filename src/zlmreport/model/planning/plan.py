@@ -26,8 +26,8 @@ from zlmreport.measurement.axis import Axis, AxisKind
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.refractive_index import STANDARD_HUMIDITY, STANDARD_PRESSURE
 from zlmreport.measurement.units import REFERENCE_TEMPERATURE
-from zlmreport.model.planning.methods import RUN_BY_RUN, Method, path
-from zlmreport.model.planning.targets import drawn_targets, makes_whole_turns, usual_overrun
+from zlmreport.model.planning.methods import RUN_BY_RUN, Method, plan_path
+from zlmreport.model.planning.targets import find_usual_overrun, makes_whole_turns, sample_targets
 
 _SECONDS_PER_MINUTE = 60.0
 _USUAL_FEED = 2000.0
@@ -83,23 +83,23 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
             "axis.travel is missing: targets are spread over it; for example [0, 1000]",
         )
     to_si = axis.position_unit.to_si
-    motion = _motion(job)
+    motion = _plan_motion(job)
     method, overrun = motion.method, motion.overrun
-    seed = seed_of(job.keys.certificate.number) if keys.seed is None else keys.seed
+    seed = make_seed_of(job.keys.certificate.number) if keys.seed is None else keys.seed
     period = None if keys.targets.fractions_of is None else to_si(keys.targets.fractions_of)
 
     def drawn(count: int) -> FloatArray:
-        return drawn_targets(axis, count, overrun, period, seed)
+        return sample_targets(axis, count, overrun, period, seed)
 
     try:
         if keys.targets.positions is not None:
             targets = read_only_floats(to_si(np.array(keys.targets.positions)))
         else:
-            count = keys.targets.count or chosen_count(axis, method, keys.runs, drawn, standards)
+            count = keys.targets.count or choose_count(axis, method, keys.runs, drawn, standards)
             targets = drawn(count)
     except ValueError as error:
         raise InputError.at(job.place_of("plan.targets"), f"plan.targets: {error}") from error
-    runs = keys.runs or chosen_runs(axis, method, targets, standards)
+    runs = keys.runs or choose_runs(axis, method, targets, standards)
     if keys.pause and (method not in RUN_BY_RUN or runs == 1):
         raise InputError.at(
             job.place_of("plan.pause"),
@@ -114,16 +114,16 @@ def propose(job: Job, standards: Sequence[PlannedStandard]) -> Proposal:
     plan = replace(motion, targets=targets, runs=runs)
     expected = ExpectedTest(axis.deviation_unit.to_si(keys.repeatability), keys.temperature_change)
     has_fractions = keys.targets.positions is None and period != 0
-    return Proposal(plan, expected, seed, has_fractions, _assumed(job))
+    return Proposal(plan, expected, seed, has_fractions, _list_assumed(job))
 
 
-def measured_plan(job: Job, measurements: MeasurementSet) -> Plan:
+def find_measured_plan(job: Job, measurements: MeasurementSet) -> Plan:
     """Return the plan of a test that has been done, as far as its job and its readings tell it."""
     runs = max(1, int(measurements.run.max(initial=1)))
-    return replace(_motion(job), targets=measurements.target_positions, runs=runs)
+    return replace(_plan_motion(job), targets=measurements.target_positions, runs=runs)
 
 
-def _motion(job: Job) -> Plan:
+def _plan_motion(job: Job) -> Plan:
     """Return what a job says of a plan, and custom of the rest, but for targets and runs."""
     axis, keys, measured = job.axis, job.keys.plan, job.keys.measurement
     to_si = axis.position_unit.to_si
@@ -131,19 +131,19 @@ def _motion(job: Job) -> Plan:
     return Plan(
         targets=read_only_floats([]),
         method=Method(measured.method or Method.LINEAR),
-        overrun=to_si(keys.overrun) if keys.overrun else usual_overrun(axis),
+        overrun=to_si(keys.overrun) if keys.overrun else find_usual_overrun(axis),
         feed=to_si(measured.feed or _USUAL_FEED) / _SECONDS_PER_MINUTE,
         dwell=measured.dwell or _USUAL_DWELL,
         pause=Pause(pause.minutes * _SECONDS_PER_MINUTE, pause.change, pause.of) if pause else None,
     )
 
 
-def seed_of(number: str) -> int:
+def make_seed_of(number: str) -> int:
     """Return the seed that belongs to a certificate's number: the same number gives the same targets."""
     return int.from_bytes(hashlib.sha256(number.encode()).digest()[:4], "big")
 
 
-def _assumed(job: Job) -> frozenset[str]:
+def _list_assumed(job: Job) -> frozenset[str]:
     stated = {f"measurement.{key}" for key in job.keys.measurement.model_fields_set}
     stated |= {f"plan.{key}" for key in job.keys.plan.model_fields_set}
     stated |= {"model.effects"} if job.effects else set()
@@ -178,7 +178,9 @@ class Plan:
     @property
     def stops(self) -> list[float]:
         """Where the axis stops one after another, m or rad."""
-        return [stop.position for stop in path(self.method, self.targets.tolist(), self.runs, self.overrun)]
+        return [
+            stop.position for stop in plan_path(self.method, self.targets.tolist(), self.runs, self.overrun)
+        ]
 
     @property
     def travelled(self) -> float:
@@ -197,7 +199,7 @@ class Plan:
         return self.travelled / self.feed + self.dwell * self.readings + pauses
 
 
-def beyond_travel(axis: Axis, plan: Plan) -> tuple[float, float] | None:
+def find_beyond_travel(axis: Axis, plan: Plan) -> tuple[float, float] | None:
     """Return the lowest and highest position of a plan, m or rad, where one lies beyond the travel."""
     if axis.travel is None or makes_whole_turns(axis):
         return None
@@ -234,7 +236,7 @@ class Pause:
         return self.change if column == self.of else self.change * _FOLLOW[self.of].get(column, 0.0)
 
 
-def expected_conditions(
+def expect_conditions(
     rise: float, time: FloatArray, pause: Pause | None = None, half_way: int = 0
 ) -> Mapping[str, FloatArray]:
     """Return every condition that files may log, by its name, as it may be expected at each reading, SI.
@@ -273,7 +275,7 @@ class DemandingStandard(Protocol):
 PlannedStandard: TypeAlias = tuple[DemandingStandard, Any]
 
 
-def chosen_count(
+def choose_count(
     axis: Axis,
     method: Method,
     runs: int | None,
@@ -287,21 +289,21 @@ def chosen_count(
     assert axis.travel is not None  # noqa: S101 - the caller has seen to it
     intervals = math.ceil((axis.travel[1] - axis.travel[0]) / _LARGEST_INTERVAL[axis.kind] - _ROUNDING)
     least = min(max(_LEAST_TARGETS, intervals + 1), _MOST_TARGETS)
-    runs = runs or chosen_runs(axis, method, drawn(least), standards)
+    runs = runs or choose_runs(axis, method, drawn(least), standards)
     unmet = []
     for count in range(least, least + _FURTHER_TARGETS):
-        unmet.append(_unmet(as_measured(axis, method, drawn(count), runs), standards))
+        unmet.append(_count_unmet(make_as_measured(axis, method, drawn(count), runs), standards))
         if unmet[-1] == 0:
             break
     return least + unmet.index(min(unmet))
 
 
-def chosen_runs(axis: Axis, method: Method, targets: FloatArray, standards: Sequence[PlannedStandard]) -> int:
+def choose_runs(axis: Axis, method: Method, targets: FloatArray, standards: Sequence[PlannedStandard]) -> int:
     """Return the number of runs that meets most requirements; 5 if several do."""
-    return min(_RUNS, key=lambda runs: _unmet(as_measured(axis, method, targets, runs), standards))
+    return min(_RUNS, key=lambda runs: _count_unmet(make_as_measured(axis, method, targets, runs), standards))
 
 
-def as_measured(axis: Axis, method: Method, targets: FloatArray, runs: int) -> MeasurementSet:
+def make_as_measured(axis: Axis, method: Method, targets: FloatArray, runs: int) -> MeasurementSet:
     """Return a test as standards would see it once it is done; its deviations are zero."""
     approaches = [Approach.POSITIVE] if method is Method.UNIDIRECTIONAL else list(Approach)
     run, approach, target = np.meshgrid(
@@ -317,7 +319,7 @@ def as_measured(axis: Axis, method: Method, targets: FloatArray, runs: int) -> M
     )
 
 
-def _unmet(measurements: MeasurementSet, standards: Sequence[PlannedStandard]) -> int:
+def _count_unmet(measurements: MeasurementSet, standards: Sequence[PlannedStandard]) -> int:
     return sum(
         finding.met is False
         for standard, options in standards

@@ -9,20 +9,26 @@ from zlmreport.errors import InputError
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.model.effects.axis_model import AxisModel, Term, chosen_terms
+from zlmreport.model.effects.axis_model import AxisModel, Term, choose_terms
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 from zlmreport.model.planning.methods import Visit
-from zlmreport.model.planning.plan import PlannedStandard, Proposal, as_measured, beyond_travel, propose
-from zlmreport.model.planning.targets import periods_at_phases
+from zlmreport.model.planning.plan import (
+    PlannedStandard,
+    Proposal,
+    find_beyond_travel,
+    make_as_measured,
+    propose,
+)
+from zlmreport.model.planning.targets import find_periods_at_phases
 from zlmreport.model.planning.visibility import (
     Remedy,
     SeenEffect,
-    determined,
-    effects_seen,
-    expected_design,
-    planned_visits,
-    remedies,
+    expect_design,
+    find_determined,
+    find_remedies,
+    judge_effects_seen,
+    list_planned_visits,
 )
 
 #: Readings beyond the number of parameters that a diagnosis needs.
@@ -62,31 +68,33 @@ class PlannedTest:
         return found
 
 
-def planned_test(job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]) -> PlannedTest:
+def describe_planned_test(
+    job: Job, standards: Sequence[PlannedStandard], effects: Sequence[Effect]
+) -> PlannedTest:
     """Return what can be said of a job's test before it is done.
 
     Raises `InputError` if the targets cannot be planned, or are too few for anything to be seen.
     """
     proposal = propose(job, standards)
     plan = proposal.plan
-    listed = planned_visits(plan)
-    design = expected_design(job.axis, plan, proposal.expected)
-    model = model_of(job, effects)
-    base = determined(model, design)
+    listed = list_planned_visits(plan)
+    design = expect_design(job.axis, plan, proposal.expected)
+    model = choose_model_of(job, effects)
+    base = find_determined(model, design)
     _demand_readings(job, base, design)
-    seen_effects = effects_seen(base, design, effects, proposal.expected)
-    test = as_measured(job.axis, plan.method, plan.targets, plan.runs)
+    seen_effects = judge_effects_seen(base, design, effects, proposal.expected)
+    test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     return PlannedTest(
         proposal=proposal,
         visits=listed,
         design=design,
         travelled=plan.travelled,
         duration=plan.duration,
-        half_seen=tuple(periods_at_phases(job.axis, plan.targets, 2)),
-        beyond_travel=beyond_travel(job.axis, plan),
+        half_seen=tuple(find_periods_at_phases(job.axis, plan.targets, 2)),
+        beyond_travel=find_beyond_travel(job.axis, plan),
         model=base,
         seen_effects=seen_effects,
-        remedies=remedies(seen_effects, model, job.axis, proposal),
+        remedies=find_remedies(seen_effects, model, job.axis, proposal),
         findings={
             standard.designation: tuple(standard.requirements(test, options))
             for standard, options in standards
@@ -106,10 +114,10 @@ def _demand_readings(job: Job, base: AxisModel, design: Design) -> None:
         )
 
 
-def model_of(job: Job, effects: Sequence[Effect]) -> AxisModel:
+def choose_model_of(job: Job, effects: Sequence[Effect]) -> AxisModel:
     """Return the effects beside which others are looked for: those of the job, or the usual ones."""
     by_identifier = {effect.identifier: effect for effect in effects}
     if job.effects:
-        return AxisModel(chosen_terms(job.effects, by_identifier.__getitem__, job.axis.kind))
+        return AxisModel(choose_terms(job.effects, by_identifier.__getitem__, job.axis.kind))
     usual = [by_identifier[identifier] for identifier in USUAL_MODEL if identifier in by_identifier]
     return AxisModel(tuple(Term(effect) for effect in usual))

@@ -14,9 +14,9 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
-from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, path, visits
+from zlmreport.model.planning.methods import RUN_BY_RUN, Method, Stop, list_visits, plan_path
 from zlmreport.model.planning.plan import Plan
-from zlmreport.model.planning.targets import in_users_unit
+from zlmreport.model.planning.targets import convert_to_users_unit
 
 _SECONDS_PER_MINUTE = 60.0
 #: Feed, mm/min or °/min, and dwell, s.
@@ -137,7 +137,7 @@ class Motion:
                     "takes them, or fewer in plan.targets.positions",
                 )
         rounded = (replace(stop, position=round(stop.position, decimals) + 0.0) for stop in self.stops)
-        return replace(self, stops=tuple(self._from_their_sides(_moving(rounded), decimals)))
+        return replace(self, stops=tuple(self._from_their_sides(_select_moving(rounded), decimals)))
 
     def of_run(self, run: int) -> Motion:
         """Return the motion of one run, for a restart: from the start of the test, and back to it.
@@ -158,7 +158,7 @@ class Motion:
             )
         start, before = self.stops[0], replace(self.stops[indices[0] - 1], begins="", reading=None)
         stops = (start, before, *inside, ProgramStop(start.position))
-        return replace(self, stops=tuple(_moving(stops)))
+        return replace(self, stops=tuple(_select_moving(stops)))
 
     def _from_their_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
         """Yield stops; refuse a reading that no motion in its direction leads to."""
@@ -179,7 +179,7 @@ class Motion:
         return self.axis.position_unit.symbol
 
 
-def _moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
+def _select_moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
     """Yield stops without those that the axis has reached already and where nothing is read."""
     before = None
     for stop in stops:
@@ -188,7 +188,7 @@ def _moving(stops: Iterable[ProgramStop]) -> Iterator[ProgramStop]:
         before = stop.position
 
 
-def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
+def plan_motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
     """Return the motion of a plan.
 
     Raises `InputError` if the feed or the dwell is too small for any control.
@@ -198,14 +198,14 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
         if value < _LEAST_RATE:
             message = f"{key}: {value:.6g} is less than can be programmed; state {_LEAST_RATE:g} or more"
             raise InputError.at(place, message)
-    stops = path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     if stops[-1].position != stops[0].position:
         stops = (*stops, Stop(stops[0].position))  # where the datum was taken it is looked at once more
-    positions = in_users_unit(axis, np.array([stop.position for stop in stops]))
-    targets = in_users_unit(axis, plan.targets)
+    positions = convert_to_users_unit(axis, np.array([stop.position for stop in stops]))
+    targets = convert_to_users_unit(axis, plan.targets)
     readings = (
         Reading(count, visit.target + 1, visit.approach, visit.run)
-        for count, visit in enumerate(visits(stops), start=1)
+        for count, visit in enumerate(list_visits(stops), start=1)
     )
     return Motion(
         number=number,
@@ -214,19 +214,19 @@ def motion_of(number: str, axis: Axis, plan: Plan, place: Place) -> Motion:
         runs=plan.runs,
         targets=tuple(targets),
         stops=tuple(
-            ProgramStop(position, begins=_begins(stops, index, plan))
+            ProgramStop(position, begins=_find_what_begins(stops, index, plan))
             if stop.target is None
             else ProgramStop(targets[stop.target], next(readings))
             for index, (stop, position) in enumerate(zip(stops, positions, strict=True))
         ),
-        overrun=in_users_unit(axis, np.array([plan.overrun]))[0],
+        overrun=convert_to_users_unit(axis, np.array([plan.overrun]))[0],
         feed=feed,
         dwell=plan.dwell,
         place=place,
     )
 
 
-def _begins(stops: Sequence[Stop], index: int, plan: Plan) -> Begins:
+def _find_what_begins(stops: Sequence[Stop], index: int, plan: Plan) -> Begins:
     """Return what begins from a stop at which nothing is read."""
     if not index:
         return "test"
@@ -260,7 +260,7 @@ class ProgramOptions(Options):
         return {"start": at_start, "runs": bool(stop.begins), "never": False}[self.wait]
 
 
-def axis_address(
+def write_axis_address(
     motion: Motion,
     options: ProgramOptions,
     addresses: re.Pattern[str] = _ONE_LETTER,
@@ -294,7 +294,7 @@ def axis_address(
     return address
 
 
-def heading(motion: Motion) -> Iterator[str]:
+def write_heading(motion: Motion) -> Iterator[str]:
     """Yield the remarks at the head of a program: plain ASCII, each beginning with a word of its own."""
     unit = motion.axis.position_unit.ascii
     runs = "1 run" if motion.runs == 1 else f"{motion.runs} runs"
@@ -303,10 +303,10 @@ def heading(motion: Motion) -> Iterator[str]:
         runs = f"run {', '.join(map(str, sorted(included)))} of {motion.runs}"
     count = sum(stop.reading is not None for stop in motion.stops)
     readings = "1 reading" if count == 1 else f"{count} readings"
-    yield f"job {plain_name(motion.number)}"
-    yield f"axis {plain_name(motion.axis.name)}, {motion.method.value} method, {runs}, {readings}"
+    yield f"job {write_plain_name(motion.number)}"
+    yield f"axis {write_plain_name(motion.axis.name)}, {motion.method.value} method, {runs}, {readings}"
     yield (
-        f"feed {program_number(motion.feed)} {unit}/min, dwell {program_number(motion.dwell)} s, "
+        f"feed {write_program_number(motion.feed)} {unit}/min, dwell {write_program_number(motion.dwell)} s, "
         f"overrun {motion.overrun:.12g} {unit}"
     )
     for start in range(0, len(motion.targets), _TARGETS_A_LINE):
@@ -317,12 +317,12 @@ def heading(motion: Motion) -> Iterator[str]:
         yield "check that the control does not turn a rotary axis by the shorter way"
 
 
-def remark(reading: Reading) -> str:
+def write_remark(reading: Reading) -> str:
     """Return what is remarked on a reading."""
     return f"target {reading.target} {_SIGNS[reading.approach]} run {reading.run}"
 
 
-def program_number(value: float) -> str:
+def write_program_number(value: float) -> str:
     """Write a feed or a dwell as every control reads it: no exponent, no trailing zeros.
 
     >>> program_number(2000.0), program_number(4.5)
@@ -332,6 +332,6 @@ def program_number(value: float) -> str:
     return text.rstrip("0").rstrip(".")
 
 
-def plain_name(text: str) -> str:
+def write_plain_name(text: str) -> str:
     """Return a user's name as every control takes it in a remark."""
     return _NOT_PLAIN.sub("_", text)[:_LONGEST_NAME]

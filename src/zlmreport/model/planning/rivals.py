@@ -12,13 +12,13 @@ from zlmreport.measurement.axis import Axis
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.fitting.contrasts import contrasts_of
+from zlmreport.model.fitting.contrasts import make_contrasts_of
 from zlmreport.model.fitting.fit import Fit
-from zlmreport.model.fitting.noise import NoisePart, NoiseSource, noise_parts, ratio_grid
+from zlmreport.model.fitting.noise import NoisePart, NoiseSource, list_noise_parts, make_ratio_grid
 from zlmreport.model.fitting.observations import Observations
-from zlmreport.model.fitting.sessions import SessionZeros, held_together
+from zlmreport.model.fitting.sessions import SessionZeros, hold_together
 from zlmreport.model.planning.plan import ExpectedTest, Plan
-from zlmreport.model.planning.visibility import expected_design, logs_of
+from zlmreport.model.planning.visibility import expect_design, list_logs_of
 
 #: Share of the coefficients that shrinking must leave.
 _STANDS_OUT = 0.5
@@ -34,14 +34,14 @@ class PossibleNoise:
     ratios: Mapping[NoiseSource, float]  #: φ of the other sources of scatter.
 
 
-def possible_scatters(after: Fit) -> tuple[PossibleNoise, ...]:
+def list_possible_scatters(after: Fit) -> tuple[PossibleNoise, ...]:
     """Return noises that readings leave open beside a model, each as likely as any other of them.
 
     They lie evenly in what restricted likelihood says of the ratios φ that noise may have.
     """
-    parts = noise_parts(after.design)
-    space = contrasts_of(after.base(), parts, after.noise.weights)
-    criterion, grid = space.restricted(space.of(after.open_deviation)), ratio_grid(parts)
+    parts = list_noise_parts(after.design)
+    space = make_contrasts_of(after.base(), parts, after.noise.weights)
+    criterion, grid = space.restricted(space.of(after.open_deviation)), make_ratio_grid(parts)
     criteria, squares = np.transpose([criterion(ratios) for ratios in grid])
     likelihoods = np.cumsum(np.exp(-0.5 * (criteria - criteria.min())))
     places = np.searchsorted(likelihoods, likelihoods[-1] * (np.arange(_SCATTERS) + 0.5) / _SCATTERS)
@@ -104,7 +104,7 @@ class Rival:
         # The last effect's estimates are the last ones, those of its searched parameters at the end.
         estimates = after.estimates[len(after.estimates) - len(term.effect.searched) :]
         widths = np.array([each.expanded_uncertainty * each.is_scanned for each in estimates])
-        theta, scatters = after.solution.thetas[index], possible_scatters(after)
+        theta, scatters = after.solution.thetas[index], list_possible_scatters(after)
         return cls(term.effect, probability, theta, kept * gamma, root, widths, scatters, kept=kept)
 
     @classmethod
@@ -122,7 +122,7 @@ class Rival:
             lengths = np.std(columns, axis=0)
             gamma = random.standard_normal(columns.shape[1]) / np.where(lengths > 0, lengths, 1.0)
             gamma = gamma * (self.size / (float(np.std(columns @ gamma)) or 1.0))
-            return columns @ _possible(gamma, self.effect)
+            return columns @ _bring_into_possible(gamma, self.effect)
         drawn = self.root @ random.standard_normal(self.root.shape[1])
         within = self.widths * random.uniform(-1.0, 1.0, len(self.widths))
         theta = self.theta + drawn[len(self.gamma) :] + within
@@ -132,7 +132,7 @@ class Rival:
         return self.effect.columns(design, nearest) @ (self.gamma + drawn[: len(self.gamma)])
 
 
-def _possible(gamma: FloatArray, effect: Effect) -> FloatArray:
+def _bring_into_possible(gamma: FloatArray, effect: Effect) -> FloatArray:
     """Return coefficients with possible signs, all brought down until none is larger than is plausible."""
     share, signed = 1.0, gamma.copy()
     for index, parameter in enumerate(effect.linear):
@@ -182,14 +182,14 @@ class Question:
         planned = Observations(
             own, read_only_floats(np.zeros(count)), read_only_integers(np.arange(count)), ()
         )
-        return replace(held_together(planned, [("", self.first)]).design, span=own.span)
+        return replace(hold_together(planned, [("", self.first)]).design, span=own.span)
 
     def next_design(self, plan: Plan, expected: ExpectedTest) -> Design:
         """Return a plan by itself, with the logs of the test and those that the rivals ask for.
 
         What was logged begins as it did then.
         """
-        design = expected_design(self.axis, plan, expected)
+        design = expect_design(self.axis, plan, expected)
         if self.first is None:
             return design
         first = self.first.design
@@ -208,7 +208,7 @@ class Question:
 
     def logs(self, design: Design) -> tuple[str, ...]:
         """Return the columns that the effects in question ask for."""
-        asked = (name for rival in self.rivals for name in logs_of(rival.effect, design))
+        asked = (name for rival in self.rivals for name in list_logs_of(rival.effect, design))
         return tuple(name for name in dict.fromkeys(asked) if name in design.conditions)
 
     def readings(

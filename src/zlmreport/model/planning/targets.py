@@ -32,12 +32,12 @@ _PERIODS = {
 }
 
 
-def target_generator(seed: int) -> np.random.Generator:
+def make_target_generator(seed: int) -> np.random.Generator:
     """Return where the random fractions of targets come from: the same seed gives the same targets."""
     return np.random.default_rng([seed, _STREAM])
 
 
-def target_positions(
+def compute_target_positions(
     travel: tuple[float, float], count: int, period: float, random: np.random.Generator
 ) -> FloatArray:
     """Return target positions P_i = (i − 1)·p + r, rising, all within the travel.
@@ -69,7 +69,7 @@ def makes_whole_turns(axis: Axis) -> bool:
     return axis.travel[1] - axis.travel[0] >= 2 * math.pi * (1 - _ROUNDING)
 
 
-def usual_overrun(axis: Axis) -> float:
+def find_usual_overrun(axis: Axis) -> float:
     """Return how far beyond a target an axis turns round where the job does not say it, m or rad."""
     usual = axis.position_unit.to_si(_USUAL_OVERRUN)
     if axis.travel is None:
@@ -77,7 +77,7 @@ def usual_overrun(axis: Axis) -> float:
     return min(usual, _LARGEST_SHARE * (axis.travel[1] - axis.travel[0]))
 
 
-def drawn_targets(axis: Axis, count: int, overrun: float, period: float | None, seed: int) -> FloatArray:
+def sample_targets(axis: Axis, count: int, overrun: float, period: float | None, seed: int) -> FloatArray:
     """Return targets P_i = (i − 1)·p + r over the travel of an axis, rising, m or rad.
 
     They keep the overrun's distance from the ends of the travel, for there the axis must turn round; not on
@@ -98,40 +98,40 @@ def drawn_targets(axis: Axis, count: int, overrun: float, period: float | None, 
     if last <= first:
         raise ValueError("the travel is shorter than the overrun at both ends")
     if period is None:
-        period = _usual_period(axis, count, last - first)
-    targets = target_positions((first, last), count, period, target_generator(seed))
-    typed = np.clip(_typed(axis, targets), first, last)
+        period = _find_usual_period(axis, count, last - first)
+    targets = compute_target_positions((first, last), count, period, make_target_generator(seed))
+    typed = np.clip(_round_as_typed(axis, targets), first, last)
     if axis.kind is AxisKind.ROTARY and period:
-        typed = _at_quarter_turns(typed, first, last)
+        typed = _add_quarter_turns(typed, first, last)
     return read_only_floats(typed)
 
 
-def in_users_unit(axis: Axis, positions: FloatArray) -> list[float]:
+def convert_to_users_unit(axis: Axis, positions: FloatArray) -> list[float]:
     """Return positions in mm or °, as decimal numbers that were meant."""
     return [round(value, _DIGITS) for value in axis.position_unit.from_si(positions).tolist()]
 
 
-def periods(axis: Axis) -> tuple[tuple[str, float], ...]:
+def list_periods(axis: Axis) -> tuple[tuple[str, float], ...]:
     """Return the periods that an axis states, by their keys, m or rad."""
     stated = (("axis.screw_pitch", axis.screw_pitch), ("axis.signal_period", axis.signal_period))
     return tuple((key, period) for key, period in stated if period is not None)
 
 
-def _usual_period(axis: Axis, count: int, length: float) -> float:
+def _find_usual_period(axis: Axis, count: int, length: float) -> float:
     wanted = axis.screw_pitch or _SHARE_OF_INTERVAL * length / (count - 1)
     return min(wanted, (1 - _ROUNDING) * length / count)
 
 
-def _typed(axis: Axis, targets: FloatArray) -> FloatArray:
+def _round_as_typed(axis: Axis, targets: FloatArray) -> FloatArray:
     """Return targets with as many digits as a control takes, and as their periods and intervals need."""
     unit = axis.position_unit
     interval = float(targets[-1] - targets[0]) / (len(targets) - 1)
-    shortest = unit.from_si(min([interval, *(period for _, period in periods(axis))]))
+    shortest = unit.from_si(min([interval, *(period for _, period in list_periods(axis))]))
     digits = max(_USUAL_DIGITS, math.ceil(-math.log10(shortest / _LEAST_PHASES) - _ROUNDING))
     return unit.to_si(np.round(unit.from_si(targets), digits))
 
 
-def _at_quarter_turns(targets: FloatArray, first: float, last: float) -> FloatArray:
+def _add_quarter_turns(targets: FloatArray, first: float, last: float) -> FloatArray:
     """Return targets among which every quarter turn from the first to the last is, as ISO 230-2 asks."""
     moved = targets.copy()
     turns = range(
@@ -143,7 +143,7 @@ def _at_quarter_turns(targets: FloatArray, first: float, last: float) -> FloatAr
     return moved
 
 
-def periods_at_phases(axis: Axis, targets: FloatArray, number: int) -> list[Words]:
+def find_periods_at_phases(axis: Axis, targets: FloatArray, number: int) -> list[Words]:
     """Return the known periods of an axis at exactly so many phases of which targets lie.
 
     `axis`: Which states its periods, or none.
@@ -152,19 +152,19 @@ def periods_at_phases(axis: Axis, targets: FloatArray, number: int) -> list[Word
     """
     return [
         _PERIODS[key].given(period=position_in_words(axis, period))
-        for key, period in periods(axis)
-        if phases(targets, period) == number
+        for key, period in list_periods(axis)
+        if count_phases(targets, period) == number
     ]
 
 
-def phases(targets: FloatArray, period: float) -> int:
+def count_phases(targets: FloatArray, period: float) -> int:
     """Return at how many phases of a period targets lie: 1, 2, or 3 for more."""
-    elsewhere = targets[~_at_phase_of_first(targets, period)]
+    elsewhere = targets[~_find_phase_of_first(targets, period)]
     if not elsewhere.size:
         return 1
-    return 2 if _at_phase_of_first(elsewhere, period).all() else 3
+    return 2 if _find_phase_of_first(elsewhere, period).all() else 3
 
 
-def _at_phase_of_first(targets: FloatArray, period: float) -> BoolArray:
+def _find_phase_of_first(targets: FloatArray, period: float) -> BoolArray:
     turns = (targets - targets[0]) / period
     return np.asarray(np.abs(turns - np.rint(turns)) < _ONE_PHASE)

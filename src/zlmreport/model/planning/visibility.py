@@ -19,9 +19,9 @@ from zlmreport.model.diagnosis.visibility import Visibility, plan_visibility
 from zlmreport.model.effects.axis_model import AxisModel, ModelError, refuse_collisions
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect, needs_linear_axis, needs_rotary_axis
-from zlmreport.model.planning.changes import changes
-from zlmreport.model.planning.methods import Visit, half_way, path, planned_design, visits
-from zlmreport.model.planning.plan import ExpectedTest, Plan, Proposal, expected_conditions
+from zlmreport.model.planning.changes import list_changes
+from zlmreport.model.planning.methods import Visit, find_half_way, list_visits, make_planned_design, plan_path
+from zlmreport.model.planning.plan import ExpectedTest, Plan, Proposal, expect_conditions
 
 _LIVELIER = Words("measure while there are larger changes of {logs}")
 _IMITATED = Words("{effect} imitates it")
@@ -51,23 +51,26 @@ class SeenEffect:
     logs: tuple[str, ...]  #: Columns that must be logged beside the readings for it to be tried.
 
 
-def planned_visits(plan: Plan) -> tuple[Visit, ...]:
+def list_planned_visits(plan: Plan) -> tuple[Visit, ...]:
     """Return the readings of a plan in their order."""
-    return visits(path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
+    return list_visits(plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
 
 
-def expected_design(axis: Axis, plan: Plan, expected: ExpectedTest) -> Design:
+def expect_design(axis: Axis, plan: Plan, expected: ExpectedTest) -> Design:
     """Return a planned test with the conditions that are expected, all of them logged."""
-    listed, pause = planned_visits(plan), plan.pause
-    design, second_half = planned_design(axis, plan.targets, listed, plan.feed, plan.dwell), half_way(listed)
+    listed, pause = list_planned_visits(plan), plan.pause
+    design, second_half = (
+        make_planned_design(axis, plan.targets, listed, plan.feed, plan.dwell),
+        find_half_way(listed),
+    )
     if pause:
         late = pause.duration * (np.arange(len(listed)) >= second_half)
         design = replace(design, time=read_only_floats(design.time + late))
-    course = expected_conditions(expected.temperature_change, design.time, pause, second_half)
+    course = expect_conditions(expected.temperature_change, design.time, pause, second_half)
     return replace(design, conditions=course)
 
 
-def determined(model: AxisModel, design: Design) -> AxisModel:
+def find_determined(model: AxisModel, design: Design) -> AxisModel:
     """Return the part of a model that a planned test determines; the rest it cannot see or not tell apart."""
     kept = AxisModel(())
     for term in model.terms:
@@ -80,7 +83,7 @@ def determined(model: AxisModel, design: Design) -> AxisModel:
     return kept
 
 
-def effects_seen(
+def judge_effects_seen(
     model: AxisModel, design: Design, effects: Sequence[Effect], expected: ExpectedTest
 ) -> tuple[SeenEffect, ...]:
     """Return what a planned test sees of every installed effect, best seen first.
@@ -100,19 +103,21 @@ def effects_seen(
     for seen in plan_visibility(model, design, effects, expected.sigma):
         effect = by_identifier.get(seen.effect)
         if effect is not None:
-            found.append(SeenEffect(effect, _sight(effect, seen, design), seen, logs_of(effect, design)))
+            found.append(
+                SeenEffect(effect, _judge_sight(effect, seen, design), seen, list_logs_of(effect, design))
+            )
     order = list(Sight)
     return tuple(sorted(found, key=lambda each: (order.index(each.sight), -each.visibility.share)))
 
 
-def logs_of(effect: Effect, design: Design) -> tuple[str, ...]:
+def list_logs_of(effect: Effect, design: Design) -> tuple[str, ...]:
     """Return the columns that an effect asks for, whether a course of them can be expected or not."""
     asked = _Asked(design.conditions)
     effect.untestable(replace(design, conditions=asked))
     return tuple(asked.names)
 
 
-def _sight(effect: Effect, seen: Visibility, design: Design) -> Sight:
+def _judge_sight(effect: Effect, seen: Visibility, design: Design) -> Sight:
     if seen.reason is not None and effect.untestable(design) is not None:
         other = seen.reason in (needs_linear_axis(design), needs_rotary_axis(design))
         return Sight.OTHER_AXIS if other else Sight.NOT_TESTABLE
@@ -157,29 +162,29 @@ class Remedy:
     share: float | None  #: What would then be visible of it; None where another measurement is advised.
 
 
-def remedies(
+def find_remedies(
     seen_effects: Sequence[SeenEffect], model: AxisModel, axis: Axis, proposal: Proposal
 ) -> dict[str, Remedy]:
     """Return what to do about each effect that a plan hides, by its identifier, where something helps."""
     plan, expected = proposal.plan, proposal.expected
     blurred = [each for each in seen_effects if each.sight in {Sight.HIDDEN, Sight.TOO_SMALL}]
     found: dict[str, Remedy] = {}
-    for change in changes(axis, plan, proposal.seed):
+    for change in list_changes(axis, plan, proposal.seed):
         left = [each.effect for each in blurred if each.effect.identifier not in found]
         if not left:
             break
-        design = expected_design(axis, change.changed(plan), expected)
-        for then in effects_seen(determined(model, design), design, left, expected):
+        design = expect_design(axis, change.changed(plan), expected)
+        for then in judge_effects_seen(find_determined(model, design), design, left, expected):
             if then.sight is Sight.VISIBLE:
                 found[then.effect.identifier] = Remedy(change.reason, change.advice, then.visibility.share)
     for each in blurred:
-        remedy = _another_measurement(each, model)
+        remedy = _find_another_measurement(each, model)
         if remedy:
             found.setdefault(each.effect.identifier, remedy)
     return found
 
 
-def _another_measurement(seen: SeenEffect, model: AxisModel) -> Remedy | None:
+def _find_another_measurement(seen: SeenEffect, model: AxisModel) -> Remedy | None:
     """Return what else would show an effect: livelier conditions, or what its author knows."""
     if seen.sight is Sight.TOO_SMALL:
         return Remedy(None, _LIVELIER.given(logs=", ".join(seen.logs)), None) if seen.logs else None

@@ -87,7 +87,7 @@ class Stream(IntEnum):
         return np.random.default_rng([seed, self, *further])
 
 
-def noise_of(noise: SimulatedNoise, design: Design, seed: int) -> FloatArray:
+def sample_noise_of(noise: SimulatedNoise, design: Design, seed: int) -> FloatArray:
     """Return the random part of each reading, shape (N,), m or rad; resolution and missing ones apart."""
     targets = int(design.target.max()) + 1
     runs = int(design.run.max()) + 1
@@ -95,12 +95,12 @@ def noise_of(noise: SimulatedNoise, design: Design, seed: int) -> FloatArray:
     per_direction = Stream.POSITION_AND_DIRECTION.generator(seed).standard_normal(targets)
     per_run = Stream.RUN.generator(seed).standard_normal(runs)
     return np.asarray(
-        _readings(noise, design, targets, seed)
+        _sample_readings(noise, design, targets, seed)
         + noise.position * per_target[design.target]
         + noise.position_and_direction * design.direction * per_direction[design.target]
         + noise.run * per_run[design.run]
-        + noise.drift * _drift(design.time, noise.drift_time, seed)
-        + _outliers(noise, len(design.position), seed)
+        + noise.drift * _sample_drift(design.time, noise.drift_time, seed)
+        + _sample_outliers(noise, len(design.position), seed)
     )
 
 
@@ -109,7 +109,7 @@ def is_missing(noise: SimulatedNoise, readings: int, seed: int) -> BoolArray:
     return np.asarray(Stream.MISSING.generator(seed).random(readings) < noise.missing_share)
 
 
-def rounded(values: FloatArray, resolution: float) -> FloatArray:
+def round_as_shown(values: FloatArray, resolution: float) -> FloatArray:
     """Return values as an instrument of some resolution shows them; as they are for 0."""
     if not resolution:
         return values
@@ -118,13 +118,13 @@ def rounded(values: FloatArray, resolution: float) -> FloatArray:
     return np.where(np.isfinite(steps), steps * resolution, values)
 
 
-def _readings(noise: SimulatedNoise, design: Design, targets: int, seed: int) -> FloatArray:
+def _sample_readings(noise: SimulatedNoise, design: Design, targets: int, seed: int) -> FloatArray:
     spread = 1 + noise.unequal * Stream.UNEQUAL.generator(seed).uniform(-1, 1, targets)
     single = Stream.READING.generator(seed).standard_normal(len(design.position))
     return np.asarray(noise.reading * spread[design.target] * single)
 
 
-def _drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
+def _sample_drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
     """Return a stationary process of unit variance whose correlation fades as exp(−Δt/memory)."""
     shocks = Stream.DRIFT.generator(seed).standard_normal(len(time))
     kept = np.exp(-np.diff(time) / memory)
@@ -134,13 +134,13 @@ def _drift(time: FloatArray, memory: float, seed: int) -> FloatArray:
     return drift
 
 
-def _outliers(noise: SimulatedNoise, readings: int, seed: int) -> FloatArray:
+def _sample_outliers(noise: SimulatedNoise, readings: int, seed: int) -> FloatArray:
     random = Stream.OUTLIER.generator(seed)
     is_off = random.random(readings) < noise.outlier_share
     return np.asarray(np.where(is_off, random.choice([-1.0, 1.0], readings), 0.0) * noise.outlier_size)
 
 
-def true_course(course: ConditionCourse, time: FloatArray) -> FloatArray:
+def compute_true_course(course: ConditionCourse, time: FloatArray) -> FloatArray:
     """Return a condition at each reading, SI, shape (N,)."""
     end = course.start if course.end is None else course.end
     if course.time_constant is None:
@@ -152,7 +152,7 @@ def true_course(course: ConditionCourse, time: FloatArray) -> FloatArray:
     return np.asarray(course.start + (end - course.start) * progress + swing)
 
 
-def logged_course(course: ConditionCourse, true: FloatArray, seed: int, sensor: int) -> FloatArray:
+def compute_logged_course(course: ConditionCourse, true: FloatArray, seed: int, sensor: int) -> FloatArray:
     """Return what a sensor logs of a condition.
 
     `course`: With the sensor's noise and resolution.
@@ -160,4 +160,4 @@ def logged_course(course: ConditionCourse, true: FloatArray, seed: int, sensor: 
     `sensor`: Number of the sensor: each has noise of its own.
     """
     noise = course.sensor_noise * Stream.LOG.generator(seed, sensor).standard_normal(len(true))
-    return rounded(true + noise, course.resolution)
+    return round_as_shown(true + noise, course.resolution)

@@ -18,14 +18,14 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import Scale, Unit
-from zlmreport.model.effects.axis_model import Term, chosen_terms
-from zlmreport.model.effects.effect import Effect, unit_of
+from zlmreport.model.effects.axis_model import Term, choose_terms
+from zlmreport.model.effects.effect import Effect, find_unit_of
 from zlmreport.model.planning.methods import Method
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.planning.planned_test import USUAL_MODEL
-from zlmreport.model.planning.targets import target_generator, target_positions
+from zlmreport.model.planning.targets import compute_target_positions, make_target_generator
 from zlmreport.model.simulation.description import ConditionCourse, Description, SimulatedNoise
-from zlmreport.model.simulation.simulate import design_of, deviation_by
+from zlmreport.model.simulation.simulate import compute_deviation_by, make_design_of
 
 _SECONDS_PER_MINUTE = 60
 #: Of a deviation, m or rad: no axis is so far off.
@@ -42,7 +42,7 @@ _NO_DEVIATIONS = frozenset({"unequal", "drift_time", "outlier_share", "missing_s
 _DIRECTIONS = {Approach.POSITIVE: "+", Approach.NEGATIVE: "-"}
 
 
-def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Description:
+def read_description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Description:
     """Return what a simulation file describes.
 
     Raises `InputError` if its targets do not fit into the travel, an effect lacks a parameter, or cannot act
@@ -53,7 +53,7 @@ def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Descr
     description = Description(
         axis=axis,
         plan=Plan(
-            targets=_targets(file),
+            targets=_read_targets(file),
             method=Method(keys.method),
             runs=keys.runs,
             overrun=position.to_si(keys.overrun),
@@ -61,18 +61,18 @@ def description_of(file: SimulationFile, find: Callable[[str], Effect]) -> Descr
             dwell=keys.dwell,
         ),
         seed=keys.seed,
-        effects=chosen_terms(file.effects, find, axis.kind),
-        conditions={name: _course(name, course) for name, course in keys.conditions.items()},
-        noise=_noise(keys.noise, axis.deviation_unit),
+        effects=choose_terms(file.effects, find, axis.kind),
+        conditions={name: _read_course(name, course) for name, course in keys.conditions.items()},
+        noise=_read_noise(keys.noise, axis.deviation_unit),
         time_is_logged=keys.time_logged,
     )
-    problems = list(_impossible(file, description)) or list(_boundless(file, description))
+    problems = list(_find_impossible(file, description)) or list(_find_boundless(file, description))
     if problems:
         raise InputError(problems)
     return description
 
 
-def _targets(file: SimulationFile) -> FloatArray:
+def _read_targets(file: SimulationFile) -> FloatArray:
     keys = file.keys
     unit = file.axis.position_unit
     if keys.targets.positions is not None:
@@ -83,7 +83,9 @@ def _targets(file: SimulationFile) -> FloatArray:
     if period is None:
         period = keys.axis.screw_pitch or 0.0
     try:
-        drawn = target_positions(keys.axis.travel, keys.targets.count, period, target_generator(keys.seed))
+        drawn = compute_target_positions(
+            keys.axis.travel, keys.targets.count, period, make_target_generator(keys.seed)
+        )
     except ValueError as error:
         raise InputError.at(file.place_of("targets", "count"), f"targets.count: {error}") from error
     # as they can be typed into a part program, and never beyond an end
@@ -91,7 +93,7 @@ def _targets(file: SimulationFile) -> FloatArray:
     return read_only_floats(unit.to_si(np.maximum(typed, keys.axis.travel[0])))
 
 
-def _course(name: str, keys: CourseKeys) -> ConditionCourse:
+def _read_course(name: str, keys: CourseKeys) -> ConditionCourse:
     kind = CONDITIONS.get(name)
     unit = kind.unit if kind else _AS_FOUND
     return ConditionCourse(
@@ -106,15 +108,15 @@ def _course(name: str, keys: CourseKeys) -> ConditionCourse:
     )
 
 
-def _noise(keys: NoiseKeys, unit: Unit) -> SimulatedNoise:
+def _read_noise(keys: NoiseKeys, unit: Unit) -> SimulatedNoise:
     return SimulatedNoise(
         **{name: value if name in _NO_DEVIATIONS else unit.to_si(value) for name, value in keys}
     )
 
 
-def _impossible(file: SimulationFile, description: Description) -> Iterator[Problem]:
+def _find_impossible(file: SimulationFile, description: Description) -> Iterator[Problem]:
     """Yield effects that cannot act: for want of a parameter or a condition, or on an axis of this kind."""
-    design = design_of(description)
+    design = make_design_of(description)
     for choice, term in zip(file.effects, description.effects, strict=True):
         effect = term.effect
         reason = effect.untestable(design)
@@ -125,12 +127,12 @@ def _impossible(file: SimulationFile, description: Description) -> Iterator[Prob
             known = {**effect.expected(file.axis), **term.fixed}
             yield from (
                 Problem(choice.place, f"{effect.identifier}: {name} is missing, {unit}")
-                for name, unit in _searched(term, description)
+                for name, unit in _list_searched(term, description)
                 if name not in known
             )
         if not any(parameter.name in term.fixed for parameter in effect.linear):
             example = effect.linear[0]
-            unit = unit_of(example.dimension, file.axis.kind).symbol or "a number"
+            unit = find_unit_of(example.dimension, file.axis.kind).symbol or "a number"
             yield Problem(
                 choice.place,
                 f"{effect.identifier} has no size; give {' or '.join(each.name for each in effect.linear)}, "
@@ -138,12 +140,12 @@ def _impossible(file: SimulationFile, description: Description) -> Iterator[Prob
             )
 
 
-def _boundless(file: SimulationFile, description: Description) -> Iterator[Problem]:
+def _find_boundless(file: SimulationFile, description: Description) -> Iterator[Problem]:
     """Yield effects whose deviation is no number, and conditions that no reader takes."""
-    design = design_of(description)
+    design = make_design_of(description)
     for choice, term in zip(file.effects, description.effects, strict=True):
         with np.errstate(all="ignore"):
-            deviation = deviation_by(term.effect, design, term.fixed)
+            deviation = compute_deviation_by(term.effect, design, term.fixed)
         if not np.all(np.abs(deviation) < _LARGEST):
             message = f"{term.effect.identifier}: with these values it deviates beyond all bounds"
             yield Problem(choice.place, message)
@@ -157,36 +159,36 @@ def _boundless(file: SimulationFile, description: Description) -> Iterator[Probl
             )
 
 
-def _searched(term: Term, description: Description) -> Iterator[tuple[str, str]]:
+def _list_searched(term: Term, description: Description) -> Iterator[tuple[str, str]]:
     """Yield each searched parameter with what it is and its unit."""
     for parameter in term.effect.searched:
-        unit = unit_of(parameter.dimension, description.axis.kind).symbol
+        unit = find_unit_of(parameter.dimension, description.axis.kind).symbol
         meaning = parameter.description.in_language(Language.ENGLISH)
         yield parameter.name, f"the {meaning}, {unit}" if unit else f"the {meaning}"
 
 
-def readings_table(measurements: MeasurementSet, remarks: Sequence[str]) -> str:
+def write_readings_table(measurements: MeasurementSet, remarks: Sequence[str]) -> str:
     """Return the readings as a table that the data source ``laser-csv`` reads."""
     axis = measurements.axis
     target = axis.position_unit.from_si(measurements.target_positions)[measurements.target]
     deviation = axis.deviation_unit.from_si(measurements.deviation)
     columns: dict[str, list[str]] = {
-        "target": _numbers(target, POSITION_DIGITS),
+        "target": _write_numbers(target, POSITION_DIGITS),
         "direction": [_DIRECTIONS[Approach(sign)] for sign in measurements.approach.tolist()],
         "run": [str(run) for run in measurements.run.tolist()],
-        "deviation": _numbers(deviation, _DEVIATION_DIGITS),
+        "deviation": _write_numbers(deviation, _DEVIATION_DIGITS),
     }
     if measurements.time is not None:
-        columns["time"] = _numbers(measurements.time, _TIME_DIGITS)
+        columns["time"] = _write_numbers(measurements.time, _TIME_DIGITS)
     for name, values in measurements.conditions.items():
-        columns[name] = _numbers(_in_users_unit(name, values), _CONDITION_DIGITS)
+        columns[name] = _write_numbers(_convert_to_users_unit(name, values), _CONDITION_DIGITS)
     lines = [f"# {remark}" for remark in remarks]
     lines.append(",".join(columns))
     lines.extend(",".join(row) for row in zip(*columns.values(), strict=True))
     return "\n".join(lines) + "\n"
 
 
-def _numbers(values: FloatArray, digits: int) -> list[str]:
+def _write_numbers(values: FloatArray, digits: int) -> list[str]:
     """Write numbers without trailing zeros; a missing one is an empty cell."""
     return ["" if np.isnan(value) else _number(value, digits) for value in values.tolist()]
 
@@ -196,31 +198,31 @@ def _number(value: float, digits: int) -> str:
     return "0" if text == "-0" else text
 
 
-def _in_users_unit(name: str, values: FloatArray) -> FloatArray:
+def _convert_to_users_unit(name: str, values: FloatArray) -> FloatArray:
     kind = CONDITIONS.get(name)
     return (values - kind.unit.zero) / kind.unit.si if kind else values
 
 
-def job_text(file: SimulationFile, folder: Path, readings: str) -> str:
+def write_job_text(file: SimulationFile, folder: Path, readings: str) -> str:
     """Return a job that evaluates simulated readings, and models them.
 
     `folder`: Where the job will stand: tables of the axis are named from there.
     `readings`: Name of the file with the readings, beside the job.
     """
     source = {"plugin": "laser-csv", "file": readings}
-    return "\n".join([*_job_lines(file, folder, source), _OUTPUT]) + "\n"
+    return "\n".join([*_write_job_lines(file, folder, source), _OUTPUT]) + "\n"
 
 
-def live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mapping[str, Any]) -> str:
+def write_live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mapping[str, Any]) -> str:
     """Return a job that captures the readings of an emulated machine from an instrument, and models them."""
     unit = file.axis.position_unit
     targets = unit.from_si(plan.targets).round(_MEANT_DIGITS).tolist()
     lines = [
-        *_job_lines(file, folder, source, dwell=file.keys.dwell),
+        *_write_job_lines(file, folder, source, dwell=file.keys.dwell),
         "plan:",
-        f"  targets: {_flow({'positions': targets})}",
+        f"  targets: {_write_flow({'positions': targets})}",
         f"  runs: {plan.runs}",
-        f"  overrun: {_flow(file.keys.overrun)} # {unit.symbol}",
+        f"  overrun: {_write_flow(file.keys.overrun)} # {unit.symbol}",
         _OUTPUT,
     ]
     return "\n".join(lines) + "\n"
@@ -229,7 +231,7 @@ def live_job_text(file: SimulationFile, folder: Path, plan: Plan, source: Mappin
 _OUTPUT = "output: {directory: out, formats: [pdf, json]}"
 
 
-def _job_lines(
+def _write_job_lines(
     file: SimulationFile, folder: Path, source: Mapping[str, Any], dwell: float | None = None
 ) -> Iterator[str]:
     keys = file.keys
@@ -241,29 +243,29 @@ def _job_lines(
     yield "# A measuring report of simulated readings: nothing here was measured."
     yield "schema: zlmreport/job/1"
     yield "certificate:"
-    yield f"  number: {_flow(keys.output.number)}"
+    yield f"  number: {_write_flow(keys.output.number)}"
     yield "  kind: report"
-    yield f"axis: {_flow(axis)} # {file.axis.position_unit.symbol}"
+    yield f"axis: {_write_flow(axis)} # {file.axis.position_unit.symbol}"
     yield "measurement:"
     yield f"  method: {keys.method}"
-    yield f"  feed: {_flow(keys.feed)} # {file.axis.position_unit.symbol}/min"
+    yield f"  feed: {_write_flow(keys.feed)} # {file.axis.position_unit.symbol}/min"
     if dwell is not None:
-        yield f"  dwell: {_flow(dwell)} # s"
-    yield f"  source: {_flow(source)}"
+        yield f"  dwell: {_write_flow(dwell)} # s"
+    yield f"  source: {_write_flow(source)}"
     yield "  remarks: Simulated readings, not measurements."
     yield "evaluate:"
     yield "  - iso230-2:2014"
     yield "model:"
     yield "  effects:"
-    yield from (f"    - {_flow(effect)}" for effect in effects)
+    yield from (f"    - {_write_flow(effect)}" for effect in effects)
 
 
-def _flow(value: Any) -> str:
+def _write_flow(value: Any) -> str:
     """Write a value in one line of YAML; a text that is no plain word stands in quotes."""
     if isinstance(value, Mapping):
-        return f"{{{', '.join(f'{key}: {_flow(item)}' for key, item in value.items())}}}"
+        return f"{{{', '.join(f'{key}: {_write_flow(item)}' for key, item in value.items())}}}"
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_flow, value))}]"
+        return f"[{', '.join(map(_write_flow, value))}]"
     if isinstance(value, float) and value.is_integer():
         return str(int(value))
     if isinstance(value, str) and _PLAIN.fullmatch(value) and value != "null":

@@ -18,15 +18,15 @@ from zlmreport.measurement.measurement_set import CONDITIONS, MeasurementSet
 from zlmreport.measurement.provenance import Provenance
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
-from zlmreport.model.planning.methods import path, planned_design, visits
+from zlmreport.model.planning.methods import list_visits, make_planned_design, plan_path
 from zlmreport.model.planning.plan import Plan
 from zlmreport.model.simulation.description import (
     Description,
+    compute_logged_course,
+    compute_true_course,
     is_missing,
-    logged_course,
-    noise_of,
-    rounded,
-    true_course,
+    round_as_shown,
+    sample_noise_of,
 )
 
 _REMARK = Words("Simulated readings, not measurements (seed {seed}).")
@@ -46,35 +46,35 @@ def simulate(description: Description) -> Simulation:
 
     Raises `ValueError` if a searched parameter of an effect has no value.
     """
-    design = design_of(description)
-    systematic = deviation_by_all(description, design)
-    return Simulation(observed(description, design, systematic), design, read_only_floats(systematic))
+    design = make_design_of(description)
+    systematic = compute_deviation_by_all(description, design)
+    return Simulation(observe(description, design, systematic), design, read_only_floats(systematic))
 
 
-def design_of(description: Description) -> Design:
+def make_design_of(description: Description) -> Design:
     """Return the test that is described with its true conditions; whatever its effects."""
     plan = description.plan
-    listed = visits(path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
-    design = planned_design(description.axis, plan.targets, listed, plan.feed, plan.dwell)
+    listed = list_visits(plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun))
+    design = make_planned_design(description.axis, plan.targets, listed, plan.feed, plan.dwell)
     conditions = {
-        name: read_only_floats(true_course(course, design.time))
+        name: read_only_floats(compute_true_course(course, design.time))
         for name, course in description.conditions.items()
     }
     return replace(design, conditions=conditions)
 
 
-def deviation_by_all(description: Description, design: Design) -> FloatArray:
+def compute_deviation_by_all(description: Description, design: Design) -> FloatArray:
     """Return the deviation that all effects of a description make, shape (N,), m or rad.
 
     Raises `ValueError` if a searched parameter of an effect has no value.
     """
     systematic = np.zeros(len(design.position))
     for each in description.effects:
-        systematic += deviation_by(each.effect, design, each.fixed)
+        systematic += compute_deviation_by(each.effect, design, each.fixed)
     return systematic
 
 
-def deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) -> FloatArray:
+def compute_deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) -> FloatArray:
     """Return the deviation that an effect makes, shape (N,), m or rad.
 
     `values`: Its parameters by name, SI. Linear ones that are left out are 0; searched ones may be left out
@@ -91,13 +91,13 @@ def deviation_by(effect: Effect, design: Design, values: Mapping[str, float]) ->
     return np.asarray(effect.columns(design, theta) @ gamma)
 
 
-def observed(description: Description, design: Design, systematic: FloatArray) -> MeasurementSet:
+def observe(description: Description, design: Design, systematic: FloatArray) -> MeasurementSet:
     """Return what an instrument gives of deviations, with all noise of the description.
 
     `systematic`, (N,): The deviation without noise, m or rad.
     """
     noise, seed = description.noise, description.seed
-    shown = rounded(systematic + noise_of(noise, design, seed), noise.resolution)
+    shown = round_as_shown(systematic + sample_noise_of(noise, design, seed), noise.resolution)
     shown = np.where(is_missing(noise, len(shown), seed), np.nan, shown)
     return MeasurementSet(
         axis=description.axis,
@@ -107,15 +107,15 @@ def observed(description: Description, design: Design, systematic: FloatArray) -
         run=design.run,
         deviation=read_only_floats(shown),
         time=design.time if description.time_is_logged else None,
-        conditions=_logs(description, design),
+        conditions=_simulate_logs(description, design),
         provenance=Provenance("simulation", remarks=(_REMARK.given(seed=seed),)),
     )
 
 
-def _logs(description: Description, design: Design) -> dict[str, FloatArray]:
+def _simulate_logs(description: Description, design: Design) -> dict[str, FloatArray]:
     return {
         name: read_only_floats(
-            logged_course(course, design.conditions[name], description.seed, _number_of(name))
+            compute_logged_course(course, design.conditions[name], description.seed, _number_of(name))
         )
         for name, course in description.conditions.items()
         if course.is_logged
@@ -150,11 +150,11 @@ class EmulatedMachine:
 
     def position(self, time: float) -> float:
         """Return where the axis is, m or rad, at a time in s from the start."""
-        return _between(self.moments, self.places, time)
+        return _interpolate(self.moments, self.places, time)
 
     def conditions(self, time: float) -> dict[str, float]:
         """Return the true conditions at a time in s from the start, SI."""
-        return {name: _between(self.moments, values, time) for name, values in self.weather.items()}
+        return {name: _interpolate(self.moments, values, time) for name, values in self.weather.items()}
 
 
 class StartedMachine:
@@ -190,7 +190,7 @@ class StartedMachine:
         return self.elapsed
 
 
-def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
+def make_emulated_machine(description: Description, lead: float) -> EmulatedMachine:
     """Return a machine that carries out the plan of a description.
 
     At each target it errs by its effects and by its noise, drawn as for simulated readings, and rests there;
@@ -203,10 +203,10 @@ def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
 
     Raises `ValueError` if a searched parameter of an effect has no value.
     """
-    seen = _without_instrument(description)
-    design = design_of(seen)
-    truth = observed(seen, design, deviation_by_all(seen, design))
-    moments, nominal, visited = _course(description.plan, lead)
+    seen = _drop_instrument(description)
+    design = make_design_of(seen)
+    truth = observe(seen, design, compute_deviation_by_all(seen, design))
+    moments, nominal, visited = _make_course(description.plan, lead)
     arrives, leaves = moments[visited], moments[visited + 1]
     at_rest = np.column_stack([arrives, leaves]).ravel()
     errs = np.interp(moments, [lead, *at_rest, moments[-1]], [0.0, *np.repeat(truth.deviation, 2), 0.0])
@@ -224,7 +224,7 @@ def emulated_machine(description: Description, lead: float) -> EmulatedMachine:
     )
 
 
-def _without_instrument(description: Description) -> Description:
+def _drop_instrument(description: Description) -> Description:
     """Return a description whose readings and logs are the truth."""
     return replace(
         description,
@@ -237,17 +237,17 @@ def _without_instrument(description: Description) -> Description:
     )
 
 
-def _course(plan: Plan, lead: float) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _make_course(plan: Plan, lead: float) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return moments, positions where nothing errs, and the indices of the moments of arrival at targets."""
-    corners = list(_corners(plan, lead))
+    corners = list(_find_corners(plan, lead))
     visited = [index for index, (_, _, is_arrival) in enumerate(corners) if is_arrival]
     moments, nominal, _ = zip(*corners, strict=True)
     return np.array(moments), np.array(nominal), np.array(visited)
 
 
-def _corners(plan: Plan, lead: float) -> Iterator[tuple[float, float, bool]]:
+def _find_corners(plan: Plan, lead: float) -> Iterator[tuple[float, float, bool]]:
     """Yield each corner of the motion: when, where, and whether the axis arrives at a target there."""
-    stops = path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
+    stops = plan_path(plan.method, plan.targets.tolist(), plan.runs, plan.overrun)
     yield 0.0, stops[0].position, False
     if stops[-1].position != stops[0].position:
         stops = (*stops, stops[0])
@@ -261,7 +261,7 @@ def _corners(plan: Plan, lead: float) -> Iterator[tuple[float, float, bool]]:
             yield now, stop.position, False
 
 
-def _between(moments: Sequence[float], values: Sequence[float], time: float) -> float:
+def _interpolate(moments: Sequence[float], values: Sequence[float], time: float) -> float:
     """Return a value between the corners of a course; beyond its ends the first or the last."""
     after = bisect_right(moments, time)
     if after == 0 or after == len(moments):

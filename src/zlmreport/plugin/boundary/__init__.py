@@ -129,7 +129,7 @@ class Guarded:
         """Raise the error that tells of another one, unless that is no fault of the plugin."""
         if isinstance(error, _PASSED) or (isinstance(error, OSError) and self._kind.name in _OPENING):
             return
-        sentence = str(error) if isinstance(error, Unacceptable) else told(error, self._offered)
+        sentence = str(error) if isinstance(error, Unacceptable) else tell_failure(error, self._offered)
         raise PluginError([Problem(NOWHERE, f"{self._who}: {asked} {sentence}")]) from error
 
 
@@ -152,7 +152,7 @@ class _GuardedConnection(Guarded):
             yield reading
 
 
-def guarded(kind: Kind[Any], offered: Any, by: str) -> Any:
+def guard(kind: Kind[Any], offered: Any, by: str) -> Any:
     """Return an object of a plugin behind the boundary; it stands wherever the object would.
 
     `by`: Where it comes from: ``plugin house (zlmreport-house 1.0)``.
@@ -160,7 +160,7 @@ def guarded(kind: Kind[Any], offered: Any, by: str) -> Any:
     return Guarded(kind, offered, f"{kind.label} {offered.identifier!r} of {by}")
 
 
-def told(error: BaseException, offered: object) -> str:
+def tell_failure(error: BaseException, offered: object) -> str:
     """Return what a plugin raised, with the innermost line that is its own."""
     message = " ".join(str(error).split())[:_LONGEST]
     frames = traceback.extract_tb(error.__traceback__)

@@ -47,7 +47,7 @@ def real(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
     is_as_expected = type(values) is np.ndarray and values.dtype is _DOUBLE and values.shape == shape
     if is_as_expected and math.isfinite(np.add.reduce(values, None)):
         return values  # type: ignore[no-any-return]
-    array = _numbers(values, what)
+    array = _require_numbers(values, what)
     if array.shape != shape:
         raise Unacceptable(f"gives {what} of the shape {array.shape}; {shape} is expected")
     if np.isinf(array).any():
@@ -55,7 +55,7 @@ def real(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
     return array
 
 
-def _numbers(values: Any, what: str) -> FloatArray:
+def _require_numbers(values: Any, what: str) -> FloatArray:
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -66,31 +66,31 @@ def _numbers(values: Any, what: str) -> FloatArray:
     return array if array.dtype == _DOUBLE else array.astype(np.float64)
 
 
-def _finite(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
+def _require_finite(values: Any, shape: tuple[int, ...], what: str) -> FloatArray:
     array = real(values, shape, what)
     if not math.isfinite(np.add.reduce(array, None)) and np.isnan(array).any():
         raise Unacceptable(f"gives {what} that is NaN; a number is expected")
     return array
 
 
-def _of(kind: type, answer: Any) -> Any:
+def _require_kind(kind: type, answer: Any) -> Any:
     if not isinstance(answer, kind):
-        raise Unacceptable(f"returns {_named(answer)}; {kind.__name__} is expected")
+        raise Unacceptable(f"returns {_name_answer(answer)}; {kind.__name__} is expected")
     return answer
 
 
-def _named(answer: object) -> str:
+def _name_answer(answer: object) -> str:
     return "nothing" if answer is None else f"an object of type {type(answer).__name__}"
 
 
-def _all_of(kind: type, answer: Any) -> tuple[Any, ...]:
+def _require_all_of(kind: type, answer: Any) -> tuple[Any, ...]:
     """Return everything of an iterable; refuse one with something else in it."""
     if not isinstance(answer, Iterable) or isinstance(answer, str | bytes):
-        raise Unacceptable(f"returns {_named(answer)}; several {kind.__name__} are expected")
+        raise Unacceptable(f"returns {_name_answer(answer)}; several {kind.__name__} are expected")
     found = tuple(answer)
     for each in found:
         if not isinstance(each, kind):
-            raise Unacceptable(f"returns {_named(each)} among others; each must be {kind.__name__}")
+            raise Unacceptable(f"returns {_name_answer(each)} among others; each must be {kind.__name__}")
     return found
 
 
@@ -98,13 +98,13 @@ def arithmetic(
     standard: Guarded, answer: Any, statistics: PositionStatistics, *_: Any, **__: Any
 ) -> Arithmetic:
     """Refuse values that the standard does not declare, and such as are no lengths or angles."""
-    of = _of(Arithmetic, answer)
+    of = _require_kind(Arithmetic, answer)
     *batch, _, positions = statistics.mean.shape
     for owner, given, declared, shape in (
         ("quantities", of.parameters, standard.quantities, tuple(batch)),
         ("position_quantities", of.positions, standard.position_quantities, (*batch, positions)),
     ):
-        _of(Mapping, given)
+        _require_kind(Mapping, given)
         symbols = [each.symbol for each in declared]
         if list(given) != symbols and (len(given) != len(symbols) or given.keys() != set(symbols)):
             wrong = [f"no {name}" for name in symbols if name not in given]
@@ -118,10 +118,10 @@ def arithmetic(
 
 def requirements(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Any, ...]:
     """Take every finding; refuse one that is not said in words."""
-    findings = _all_of(Finding, answer)
+    findings = _require_all_of(Finding, answer)
     for each in findings:
-        _of(Words, each.requirement)
-        _of(Words, each.found)
+        _require_kind(Words, each.requirement)
+        _require_kind(Words, each.found)
         if each.met is not None and not isinstance(each.met, bool | np.bool_):
             raise Unacceptable(f"returns a finding whose met is {each.met!r}, not True, False or None")
     return findings
@@ -130,13 +130,15 @@ def requirements(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[A
 def of_error(standard: Guarded, answer: Any, *_: Any) -> Any:
     """Hand on the standard as it evaluates an error, behind the boundary too."""
     if getattr(answer, "identifier", None) != standard.identifier:
-        raise Unacceptable(f"returns {_named(answer)}; itself for that error is expected")
+        raise Unacceptable(f"returns {_name_answer(answer)}; itself for that error is expected")
     return standard.again(answer)
 
 
 def of_lines(_standard: Guarded, answer: Any, measurements: MeasurementSet, *_: Any) -> Mapping[str, Any]:
     """Refuse contributions of lines that there are not."""
-    found = {name: _all_of(Contribution, each) for name, each in _of(Mapping, answer).items()}
+    found = {
+        name: _require_all_of(Contribution, each) for name, each in _require_kind(Mapping, answer).items()
+    }
     if unknown := found.keys() - measurements.tests.keys():
         raise Unacceptable(
             f"gives contributions of {', '.join(map(repr, sorted(unknown)))}, which is no test"
@@ -146,15 +148,15 @@ def of_lines(_standard: Guarded, answer: Any, measurements: MeasurementSet, *_: 
 
 def figures(_standard: Guarded, answer: Any, *_: Any, **__: Any) -> tuple[Any, ...]:
     """Take every graph."""
-    return _all_of(Figure, answer)
+    return _require_all_of(Figure, answer)
 
 
 def read(source: Guarded, answer: Any, _options: Any, context: Any) -> MeasurementSet:
     """Refuse a set that is not whole, and hand it on so that nobody can alter a reading."""
-    of: MeasurementSet = _of(MeasurementSet, answer)
+    of: MeasurementSet = _require_kind(MeasurementSet, answer)
     if of.axis != context.axis:
         raise Unacceptable(f"reads the axis {of.axis}; the job describes {context.axis}")
-    _of(Provenance, of.provenance)
+    _require_kind(Provenance, of.provenance)
     if of.provenance.source != source.identifier:
         raise Unacceptable(f"names {of.provenance.source!r} as the source; its own identifier is expected")
     whole(of)
@@ -168,12 +170,12 @@ def read(source: Guarded, answer: Any, _options: Any, context: Any) -> Measureme
 
 def proposals(_source: Guarded, answer: Any, *_: Any) -> tuple[Any, ...]:
     """Take every proposal now: a generator would run elsewhere."""
-    return _all_of(SourceProposal, answer)
+    return _require_all_of(SourceProposal, answer)
 
 
 def whole(of: MeasurementSet) -> None:
     """Refuse a measurement set whose parts do not belong together, or whose readings are no numbers."""
-    targets = _finite(of.target_positions, (np.size(of.target_positions),), "target positions")
+    targets = _require_finite(of.target_positions, (np.size(of.target_positions),), "target positions")
     if not targets.size or np.any(np.diff(targets) <= 0):
         raise Unacceptable(f"gives target positions that do not rise: {targets}")
     shape = (np.size(of.deviation),)
@@ -182,11 +184,11 @@ def whole(of: MeasurementSet) -> None:
         if values is not None:
             real(values, shape, str(name))
     if of.datum is not None:
-        _finite(of.datum, (), "datum")
-    _designations(of, shape)
+        _require_finite(of.datum, (), "datum")
+    _require_designations(of, shape)
 
 
-def _designations(of: MeasurementSet, shape: tuple[int, ...]) -> None:
+def _require_designations(of: MeasurementSet, shape: tuple[int, ...]) -> None:
     """Refuse readings that do not say which they are."""
     for what, whole_numbers in (("target", of.target), ("approach", of.approach), ("run", of.run)):
         if np.asarray(whole_numbers).dtype.kind not in "iu":
@@ -205,7 +207,7 @@ def _designations(of: MeasurementSet, shape: tuple[int, ...]) -> None:
 
 def render(_renderer: Guarded, answer: Any, _certificate: Certificate) -> bytes:
     """Refuse what is no file."""
-    content: bytes = _of(bytes, answer)
+    content: bytes = _require_kind(bytes, answer)
     if not content:
         raise Unacceptable("returns an empty file")
     return content
@@ -214,26 +216,26 @@ def render(_renderer: Guarded, answer: Any, _certificate: Certificate) -> bytes:
 def columns(effect: Guarded, answer: Any, design: Design, _theta: FloatArray) -> FloatArray:
     """Refuse what is no finite column for each parameter."""
     shape = (len(design.position), len(effect.linear))
-    return _finite(answer, shape, "columns")
+    return _require_finite(answer, shape, "columns")
 
 
 def grid(effect: Guarded, answer: Any, _design: Design) -> FloatArray:
     """Refuse what is no finite row for each start."""
-    array = _numbers(answer, "a grid")
+    array = _require_numbers(answer, "a grid")
     if not array.size and effect.searched:
         raise Unacceptable("gives an empty grid; the search begins with at least one row")
     rows = array.shape[0] if array.ndim else 0
-    return _finite(array, (max(rows, 1), len(effect.searched)), "a grid")
+    return _require_finite(array, (max(rows, 1), len(effect.searched)), "a grid")
 
 
 def form(effect: Guarded, answer: Any, _settings: Any) -> Effect:
     """Hand on the form of an effect, behind the boundary too."""
-    return effect.again(_of(Effect, answer))  # type: ignore[no-any-return]
+    return effect.again(_require_kind(Effect, answer))  # type: ignore[no-any-return]
 
 
 def forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
     """Hand on the forms of an effect, behind the boundary too."""
-    found = tuple(effect.again(each) for each in _all_of(Effect, answer))
+    found = tuple(effect.again(each) for each in _require_all_of(Effect, answer))
     if not found:
         raise Unacceptable("returns no form; there is one at least")
     return found
@@ -241,49 +243,49 @@ def forms(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
 
 def forms_or_none(effect: Guarded, answer: Any) -> tuple[Effect, ...]:
     """Hand on further forms of an effect, if there are any."""
-    return tuple(effect.again(each) for each in _all_of(Effect, answer))
+    return tuple(effect.again(each) for each in _require_all_of(Effect, answer))
 
 
 def untestable(_effect: Guarded, answer: Any, *_: Any) -> Any:
     """Refuse a reason that is not said in words."""
-    return answer if answer is None else _of(Words, answer)
+    return answer if answer is None else _require_kind(Words, answer)
 
 
 def expected(effect: Guarded, answer: Any, *_: Any) -> Mapping[str, float]:
     """Refuse values that are none, or of no parameter."""
     names = {each.name for each in (*effect.linear, *effect.searched)}
-    for name, value in _of(Mapping, answer).items():
+    for name, value in _require_kind(Mapping, answer).items():
         if name not in names:
             raise Unacceptable(f"gives {name!r}, which is none of its parameters")
-        _finite(value, (), str(name))
+        _require_finite(value, (), str(name))
     return answer  # type: ignore[no-any-return]
 
 
 def terms(_effect: Guarded, answer: Any, design: CircleDesign, _searched: Any) -> tuple[CircleTerm, ...]:
     """Refuse what is no finite column for each reading."""
-    found = _all_of(CircleTerm, answer)
+    found = _require_all_of(CircleTerm, answer)
     return tuple(
-        replace(each, column=_finite(each.column, (design.count,), f"a column of {each.name}"))
+        replace(each, column=_require_finite(each.column, (design.count,), f"a column of {each.name}"))
         for each in found
     )
 
 
 def starts(effect: Guarded, answer: Any, _design: CircleDesign) -> tuple[tuple[float, ...], ...]:
     """Refuse what is no number for each searched parameter."""
-    found = [tuple(map(float, each)) for each in _all_of(Iterable, answer)]
+    found = [tuple(map(float, each)) for each in _require_all_of(Iterable, answer)]
     for each in found:
-        _finite(np.array(each, dtype=np.float64), (len(effect.searched),), "a row of its grid")
+        _require_finite(np.array(each, dtype=np.float64), (len(effect.searched),), "a row of its grid")
     return tuple(found)
 
 
 def sentences(_effect: Guarded, answer: Any, *_: Any) -> tuple[Words, ...]:
     """Take every sentence."""
-    return _all_of(Words, answer)
+    return _require_all_of(Words, answer)
 
 
 def program(_program: Guarded, answer: Any, *_: Any) -> str:
     """Refuse what a control could not read."""
-    text: str = _of(str, answer)
+    text: str = _require_kind(str, answer)
     if not text or not text.isascii():
         raise Unacceptable("returns a program that is empty or not plain ASCII")
     return text
@@ -291,7 +293,7 @@ def program(_program: Guarded, answer: Any, *_: Any) -> str:
 
 def tables(_controller: Guarded, answer: Any, *_: Any) -> Mapping[str, str]:
     """Refuse what are no files, and names that would leave their folder."""
-    for name, text in _of(Mapping, answer).items():
+    for name, text in _require_kind(Mapping, answer).items():
         if not isinstance(text, str) or not text:
             raise Unacceptable(f"returns no text for the file {name!r}")
         if not isinstance(name, str) or any(sign in name for sign in "/\\\0"):
@@ -303,28 +305,28 @@ def tables(_controller: Guarded, answer: Any, *_: Any) -> Mapping[str, str]:
 
 def table(_controller: Guarded, answer: Any, *_: Any) -> CompensationTable:
     """Refuse a table with something else than a deviation at each position."""
-    of: CompensationTable = _of(CompensationTable, answer)
+    of: CompensationTable = _require_kind(CompensationTable, answer)
     shape = (np.size(of.positions),)
     for what, values in (("positions", of.positions), ("forward", of.forward), ("reverse", of.reverse)):
-        _finite(values, shape, what)
+        _require_finite(values, shape, what)
     return of
 
 
 def contributions(_extension: Guarded, answer: Any, *_: Any) -> Sequence[Any]:
     """Take every contribution."""
-    return _all_of(Contribution, answer)
+    return _require_all_of(Contribution, answer)
 
 
 def described(_extension: Guarded, answer: Any, *_: Any) -> Any:
     """Refuse what is no description."""
-    return answer if answer is None else _of(Described, answer)
+    return answer if answer is None else _require_kind(Described, answer)
 
 
 def plan(extension: Guarded, answer: Any, *_: Any) -> Any:
     """Hand on a plan whose files and programs are asked for through the boundary too."""
     if answer is None:
         return None
-    of = _of(ExtensionPlan, answer)
+    of = _require_kind(ExtensionPlan, answer)
     files = extension.watched("files of the plan", of.files)
     return replace(of, subject=extension.watched("subject of the plan", of.subject), files=files)
 
@@ -333,31 +335,31 @@ def live(extension: Guarded, answer: Any, *_: Any) -> Any:
     """Hand on readings that are taken through the boundary too."""
     if answer is None:
         return None
-    of = _of(LiveRun, answer)
+    of = _require_kind(LiveRun, answer)
     return replace(of, run=extension.watched("live", of.run))
 
 
 def contradictions(_extension: Guarded, answer: Any, *_: Any) -> Sequence[Any]:
     """Take every contradiction now: a generator would run elsewhere."""
-    return _all_of(tuple, answer)
+    return _require_all_of(tuple, answer)
 
 
 def completed(_extension: Guarded, answer: Any, *_: Any) -> Any:
     """Refuse what are no keys."""
-    return _of(JobKeys, answer)
+    return _require_kind(JobKeys, answer)
 
 
 def opened(instrument: Guarded, answer: Any, _options: Any) -> Any:
     """Hand on an open instrument, behind the boundary too."""
     lacking = [name for name in ("__enter__", "__exit__", "readings", "zero") if not hasattr(answer, name)]
     if lacking:
-        raise Unacceptable(f"returns {_named(answer)} without {', '.join(lacking)}; see Connection")
+        raise Unacceptable(f"returns {_name_answer(answer)} without {', '.join(lacking)}; see Connection")
     return instrument.connected(answer)
 
 
 def receiver(_notifier: Guarded, answer: Any, _options: Any) -> str:
     """Refuse a receiver that could not be named in a line."""
-    text: str = _of(str, answer)
+    text: str = _require_kind(str, answer)
     if len(text.splitlines()) != 1 or not text.strip():
         raise Unacceptable("returns a receiver that is empty, or not of one line")
     return text

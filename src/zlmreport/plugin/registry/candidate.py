@@ -14,7 +14,7 @@ import pluggy
 
 from zlmreport.errors import Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.plugin import hooks
-from zlmreport.plugin.boundary import guarded
+from zlmreport.plugin.boundary import guard
 from zlmreport.plugin.hooks import PROJECT
 from zlmreport.plugin.kinds import KINDS, Kind
 from zlmreport.plugin.presence import PRESENCE
@@ -59,7 +59,7 @@ class UnfitError(Exception):
     """A plugin offers something that is not what its hook asks for."""
 
 
-def reason_of(error: BaseException) -> str:
+def say_reason_of(error: BaseException) -> str:
     """Return in one line why a plugin fails, with the line of it that does."""
     message = " ".join(str(error).split())[:_LONGEST_REASON]
     if isinstance(
@@ -111,10 +111,10 @@ class PluginCandidate:
             before = PRESENCE.begin(f"{self.plugin.in_words}: loading")
             try:
                 module = self._load()
-                self.misspelt = tuple(misspelt_hooks(self.plugin, module))
+                self.misspelt = tuple(find_misspelt_hooks(self.plugin, module))
                 self._offered = _checked(self.plugin, module, self._named)
             except (Exception, SystemExit) as error:  # noqa: BLE001 - whatever a plugin does, the others work
-                self.failure = FailedPlugin(self.plugin, reason_of(error))
+                self.failure = FailedPlugin(self.plugin, say_reason_of(error))
             wrong = PRESENCE.end(before)
             if wrong:
                 self._offered, self.failure = {}, FailedPlugin(self.plugin, wrong)
@@ -132,21 +132,21 @@ def _checked(plugin: Plugin, module: object, named: tuple[Kind[Any], str] | None
     manager.register(module, plugin.name)
     found: dict[Key, Any] = {}
     for kind in (named[0],) if named else KINDS:
-        for offered in _answers(manager, kind):
+        for offered in _list_answers(manager, kind):
             identifier = getattr(offered, "identifier", None)
             if named and identifier != named[1]:
                 continue
             check(kind, offered)
             if (kind.name, identifier) in found:
                 raise UnfitError(f"offers {kind.label} {identifier!r} twice")
-            found[kind.name, offered.identifier] = guarded(kind, offered, plugin.in_words)
+            found[kind.name, offered.identifier] = guard(kind, offered, plugin.in_words)
     if named and not found:
         kind, identifier = named
         raise UnfitError(f"its entry point names {kind.label} {identifier!r}, and {kind.hook} offers none")
     return found
 
 
-def _answers(manager: pluggy.PluginManager, kind: Kind[Any]) -> Iterator[Any]:
+def _list_answers(manager: pluggy.PluginManager, kind: Kind[Any]) -> Iterator[Any]:
     """Yield what a plugin answers to the hook of a kind."""
     hook = getattr(manager.hook, kind.hook)
     answers = hook()
@@ -185,16 +185,16 @@ def check(kind: Kind[Any], offered: Any) -> None:
 
 def _check_keys(kind: Kind[Any], who: str, options: object) -> None:
     """Refuse job keys that are none, or that the job has itself."""
-    from zlmreport.job.types import Options, keys_in  # noqa: PLC0415 - brings pydantic: a renderer has no keys
+    from zlmreport.job.types import Options, list_keys_in  # noqa: PLC0415 - brings pydantic: a renderer has no keys
 
     if not isinstance(options, type) or not issubclass(options, Options):
         raise UnfitError(f"{who} needs options that are a subclass of Options")
-    taken = sorted(kind.reserved & keys_in(options).keys())
+    taken = sorted(kind.reserved & list_keys_in(options).keys())
     if taken:
         raise UnfitError(f"{who} cannot have the key {taken[0]!r} of its own: the job has one")
 
 
-def misspelt_hooks(plugin: Plugin, module: object) -> Iterator[Problem]:
+def find_misspelt_hooks(plugin: Plugin, module: object) -> Iterator[Problem]:
     """Yield functions that look like hooks and would never be called."""
     way_out = f"(or switch the plugin off: {DISABLE}={plugin.name})"
     place = Place(f"plugin {plugin.name}")

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError
 from zlmreport.plugin.hooks import hookimpl
 from zlmreport.plugin.kinds import KINDS, Kind
-from zlmreport.plugin.registry.candidate import DISABLE, Plugin, PluginCandidate, reason_of
+from zlmreport.plugin.registry.candidate import DISABLE, Plugin, PluginCandidate, say_reason_of
 from zlmreport.plugin.registry.registry import Registry
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ def find_plugins(
     releases = _Releases()
     candidates: list[PluginCandidate] = []
     disabled: list[str] = []
-    for point, kind in plugin_points():
+    for point, kind in find_plugin_points():
         if point.name in off:
             disabled.append(point.name)
             continue
@@ -63,7 +63,7 @@ def find_plugins(
     refused: list[ZlmreportError] = []
     for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
         try:
-            from_files.append(_in_file(path))
+            from_files.append(_find_in_file(path))
         except ZlmreportError as error:
             refused.append(error)
     registry = Registry([*candidates, *from_files], disabled)
@@ -98,7 +98,7 @@ class _Releases:
         return self._known[key]
 
 
-def plugin_points() -> list[tuple[EntryPoint, Kind[Any] | None]]:
+def find_plugin_points() -> list[tuple[EntryPoint, Kind[Any] | None]]:
     """Return the entry points of plugins in the order of their names, each with the kind that it says."""
     installed = entry_points()
     found: list[tuple[EntryPoint, Kind[Any] | None]] = [
@@ -108,7 +108,7 @@ def plugin_points() -> list[tuple[EntryPoint, Kind[Any] | None]]:
     return sorted(found, key=lambda each: (each[0].name, each[0].value, each[0].group))
 
 
-def _in_file(path: Path) -> PluginCandidate:
+def _find_in_file(path: Path) -> PluginCandidate:
     """Return the plugin in a file; its name in the interpreter is one that no import finds."""
     if not path.is_file():
         raise AccessError.at(Place(str(path)), "there is no such plugin file")
@@ -126,7 +126,7 @@ def _in_file(path: Path) -> PluginCandidate:
     try:
         spec.loader.exec_module(module)
     except (Exception, SystemExit) as error:
-        raise InputError.at(Place(str(path), _line_in(path, error)), reason_of(error)) from error
+        raise InputError.at(Place(str(path), _find_line_in(path, error)), say_reason_of(error)) from error
     return PluginCandidate(Plugin(path.stem, str(path)), lambda: module)
 
 
@@ -134,9 +134,9 @@ class _Catalogue:
     """A catalogue of effects as a plugin: what a module with the hook is."""
 
     def __init__(self, path: Path) -> None:
-        from zlmreport.model.effects.catalogue import effects_in  # noqa: PLC0415 - brings pydantic
+        from zlmreport.model.effects.catalogue import read_effects_in  # noqa: PLC0415 - brings pydantic
 
-        self._effects = effects_in(path)
+        self._effects = read_effects_in(path)
 
     @hookimpl
     def zlmreport_effects(self) -> Iterable[Effect]:
@@ -144,7 +144,7 @@ class _Catalogue:
         return self._effects
 
 
-def _line_in(path: Path, error: BaseException) -> int:
+def _find_line_in(path: Path, error: BaseException) -> int:
     """Return the last line of a file that an error came through; 0 if it never was there."""
     if isinstance(error, SyntaxError) and error.filename == str(path):
         return error.lineno or 0

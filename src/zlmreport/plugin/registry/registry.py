@@ -45,7 +45,7 @@ class _Doubtful(Guarded):
         return (self,)
 
 
-def doubtful(effect: Any) -> Any:
+def make_doubtful(effect: Any) -> Any:
     """Return an effect as one that cannot be tested."""
     return effect.doubted(_Doubtful)
 
@@ -115,7 +115,7 @@ class Registry:
             if len(offering) == 1:
                 found.extend(offered)
             elif kind is kinds.EFFECT and offered:
-                found.append(cast("Wanted", doubtful(offered[0])))
+                found.append(cast("Wanted", make_doubtful(offered[0])))
         return tuple(found)
 
     def identifiers(self, kind: Kind[Any]) -> tuple[str, ...]:
@@ -174,7 +174,7 @@ class Registry:
         offering = self._offering(key)
         if len(offering) > 1:
             kind = next(kind for kind in KINDS if kind.name == key[0])
-            raise InputError.at(place, _twice(kind, key[1], offering))
+            raise InputError.at(place, _say_provided_twice(kind, key[1], offering))
         return offering
 
     def _offering(self, key: tuple[str, str]) -> Sequence[PluginCandidate]:
@@ -238,10 +238,10 @@ class Registry:
     def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
         """Return a standard, as `find` does; by the name of an identical adoption, too."""
         if identifier not in self.identifiers(kinds.STANDARD):
-            from zlmreport.job.installed import adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
+            from zlmreport.job.installed import list_adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
 
             for each in self.standards:
-                if identifier in adoptions_of(each):
+                if identifier in list_adoptions_of(each):
                     return each
         return self.find(kinds.STANDARD, identifier, named_at)
 
@@ -255,9 +255,9 @@ class Registry:
 
     def effect(self, identifier: str, named_at: Place | None = None) -> Effect:
         """Return an effect, as `find` does; ``scale-joint-2`` is the second of those that may be several."""
-        from zlmreport.job.choices import parted  # noqa: PLC0415 - a listing of names needs no jobs
+        from zlmreport.job.choices import part_number  # noqa: PLC0415 - a listing of names needs no jobs
 
-        name, number = parted(identifier)
+        name, number = part_number(identifier)
         if number > 1 and name in self.identifiers(kinds.EFFECT):
             first = self.find(kinds.EFFECT, name, named_at)
             if first.several:
@@ -304,12 +304,12 @@ class Registry:
 def _is_for(program: PartProgram, takes: type | None) -> bool:
     """Return whether a part program is written of this, or without it of the motion of a planned test."""
     from zlmreport.model.planning.programs import Motion  # noqa: PLC0415 (only who asks for programs loads them)
-    from zlmreport.plugin.protocols import taken_by  # noqa: PLC0415
+    from zlmreport.plugin.protocols import find_taken_by  # noqa: PLC0415
 
-    return taken_by(program) is (takes or Motion)
+    return find_taken_by(program) is (takes or Motion)
 
 
-def _twice(kind: Kind[Any], identifier: str, offering: Sequence[PluginCandidate]) -> str:
+def _say_provided_twice(kind: Kind[Any], identifier: str, offering: Sequence[PluginCandidate]) -> str:
     """Return the sentence on what two plugins provide."""
     first, second = (each.plugin for each in offering[:2])
     return (
@@ -318,13 +318,13 @@ def _twice(kind: Kind[Any], identifier: str, offering: Sequence[PluginCandidate]
     )
 
 
-def _as_it_is(module: object) -> object:
+def _take_as_it_is(module: object) -> object:
     return module
 
 
 def collect(loaded: Iterable[tuple[Plugin, object]], disabled: Iterable[str] = ()) -> Registry:
     """Return the registry of modules, or of any objects that have hooks; raise `InputError` as it does."""
-    candidates = [PluginCandidate(plugin, partial(_as_it_is, module)) for plugin, module in loaded]
+    candidates = [PluginCandidate(plugin, partial(_take_as_it_is, module)) for plugin, module in loaded]
     registry = Registry(candidates, disabled)
     registry.offers()
     if registry.misspelt:

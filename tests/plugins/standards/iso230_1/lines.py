@@ -13,8 +13,8 @@ from numpy.typing import ArrayLike
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.error_symbol import error_named
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.error_symbol import find_error_named
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 
@@ -23,7 +23,7 @@ _HP = Path(__file__).parents[3] / "data" / "straightness" / "hp_5528a.csv"
 
 def axis_of(symbol: str, at: Sequence[tuple[str, float]] = ()) -> Axis:
     """Return the axis of an error; `at` in m."""
-    error = error_named(symbol)
+    error = find_error_named(symbol)
     return Axis(error.axis, quantity=error.measurand, error=symbol, at=tuple(at))
 
 
@@ -53,7 +53,7 @@ def hp(axis: int) -> tuple[list[float], list[float]]:
 def evaluated(measurements: MeasurementSet, **keys: Any) -> Evaluation:
     """Evaluate a measured line, or what follows from several."""
     axis = measurements.axis
-    standard = Iso230Part1(error_named(axis.error))
+    standard = Iso230Part1(find_error_named(axis.error))
     return evaluate(standard, measurements, standard.options.model_validate(keys), {})
 
 
@@ -68,4 +68,4 @@ def values(measurements: MeasurementSet, **keys: Any) -> dict[str, float]:
 
 def together(symbol: str, **tests: MeasurementSet) -> MeasurementSet:
     """Return what follows from measured lines."""
-    return joined(axis_of(symbol), tests)
+    return join_lines(axis_of(symbol), tests)

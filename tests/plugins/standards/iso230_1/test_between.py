@@ -8,12 +8,12 @@ import pytest
 from plugins.standards.iso230_1.lines import evaluated, hp, line, together, values
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.budget import Acts
-from zlmreport.evaluation.uncertainty.joined_budget import joined_budget
+from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.language import Language
 from zlmreport.machines.kinematics import Chain, deviation
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.error_symbol import error_named
-from zlmreport.measurement.measurement_set import joined
+from zlmreport.measurement.error_symbol import find_error_named
+from zlmreport.measurement.measurement_set import join_lines
 from zlmreport_plugins.standards.iso230_1 import Iso230Part1
 from zlmreport_plugins.standards.iso230_1.quantities import PARALLELISM
 
@@ -73,7 +73,7 @@ def test_parallel_axes_have_the_difference_of_their_slopes() -> None:
     positions = np.linspace(0.0, 500.0, 6)
     first, second = line("EXZ", positions, 0.03 * positions), line("EXW", positions, 0.01 * positions)
     standard = Iso230Part1(PARALLELISM)
-    both = joined(Axis("Z", quantity=PARALLELISM), {"a": first, "b": second})
+    both = join_lines(Axis("Z", quantity=PARALLELISM), {"a": first, "b": second})
     found = evaluate(standard, both, standard.options(), {})
     assert found.value("parallelism") == pytest.approx(20e-6)
 
@@ -92,11 +92,11 @@ def test_lines_that_do_not_meet_are_told() -> None:
 
 
 def test_the_square_tilts_the_second_line_by_its_uncertainty() -> None:
-    standard = Iso230Part1(error_named("C0Y"))
+    standard = Iso230Part1(find_error_named("C0Y"))
     lines = together("C0Y", x=line("EYX", *hp(1)), y=line("EXY", *hp(2)))
     options = standard.options.model_validate({"square": {"error": 0, "expanded_uncertainty": 0.5}})
     ((name, (found,)),) = standard.contributions(lines, options).items()
     assert name == "y"
     assert found.acts is Acts.ALONG_THE_LENGTH
     assert found.standard_uncertainty == pytest.approx(0.25 * ARCSECOND * 0.45)
-    assert joined_budget({}, (), ["square"]).missing == ("square",)
+    assert join_budgets({}, (), ["square"]).missing == ("square",)

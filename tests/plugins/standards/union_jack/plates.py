@@ -9,7 +9,7 @@ import numpy as np
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet, joined
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.testing import bidirectional_test
 from zlmreport_plugins.standards.union_jack import UnionJack
 from zlmreport_plugins.union_jack_lines import FLATNESS, LINE, LINES, PLACES
@@ -42,7 +42,7 @@ def read(
 def evaluated(lines: Mapping[str, MeasurementSet]) -> Evaluation:
     """Return the evaluation of lines by the standard."""
     standard = UnionJack()
-    return evaluate(standard, joined(Axis("plate", quantity=FLATNESS), lines), standard.options(), {})
+    return evaluate(standard, join_lines(Axis("plate", quantity=FLATNESS), lines), standard.options(), {})
 
 
 def values(lines: Mapping[str, MeasurementSet]) -> dict[str, float]:

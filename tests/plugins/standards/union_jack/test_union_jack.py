@@ -15,8 +15,8 @@ from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.testing import bidirectional_test
-from zlmreport_plugins.standards.union_jack.heights import plate_of
-from zlmreport_plugins.union_jack_lines import LINE, LINES, reversed_name
+from zlmreport_plugins.standards.union_jack.heights import find_plate_of
+from zlmreport_plugins.union_jack_lines import LINE, LINES, reverse_name
 
 DATA = Path(__file__).parents[3] / "data" / "flatness" / "moody_1955.csv"
 
@@ -39,7 +39,7 @@ def test_moodys_plate_of_1955() -> None:
 
 
 def test_moodys_corners() -> None:
-    plate = plate_of(evaluated(moody()).statistics.tests)
+    plate = find_plate_of(evaluated(moody()).statistics.tests)
     assert plate is not None
     arc_seconds = {name: each.heights * 1e6 / 0.49257 for name, each in plate.profiles.items()}
     assert arc_seconds["NW-SE"][[0, -1]] == pytest.approx([-3.6, -3.6], abs=1e-4)
@@ -72,7 +72,7 @@ def test_a_line_may_be_measured_the_other_way(turned: set[str]) -> None:
         return 3e-6 * (x - 300) ** 2 + 5e-6 * (x - 400) * (y - 200)
 
     usual = values(read(height))
-    names = [reversed_name(name) if name in turned else name for name in LINES]
+    names = [reverse_name(name) if name in turned else name for name in LINES]
     assert values(read(height, names)) == pytest.approx(usual)
 
 
