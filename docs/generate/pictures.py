@@ -1,11 +1,13 @@
 """Makes the pictures of the documentation from real output: ``python docs/generate/pictures.py``.
 
-Needs ``pdftoppm`` and ``chromium`` (Debian, Ubuntu: apt-get install poppler-utils chromium) and ``zlmreport``
-beside this Python.
+Those of the workbench are made by the tests that use it, which this calls last. Needs ``pdftoppm`` and
+``chromium`` (Debian, Ubuntu: apt-get install poppler-utils chromium), and ``zlmreport`` and its tests beside
+this Python.
 """
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -75,11 +77,18 @@ def overview(folder: Path) -> Path:
     return folder / "out" / "fleet" / "fleet.html"
 
 
+def workbench() -> None:
+    """Make the pictures of the workbench: the tests take them on their way."""
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "tests/browser"]
+    subprocess.run(command, cwd=_ROOT, check=True, env={**os.environ, "ZLMREPORT_PICTURES": "1"})  # noqa: S603 - of our own files
+
+
 def main() -> None:
     """Make all pictures."""
     _PICTURES.mkdir(exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         example = certificate(_ROOT / "configs" / "linear-axis" / "certificate.yaml", Path(folder, "example"))
+        shutil.copyfile(example, _ROOT / "docs" / "sample-certificate.pdf")
         make("certificate-cover", example, 1)
         make("certificate-results", example, page_with(example, "Results by ISO 230-2:2014", after=1))
         make("certificate-graphs", example, page_with(example, "Results by VDI/DGQ 3441", after=1))
@@ -92,6 +101,7 @@ def main() -> None:
         german = certificate(job, first / "de")
         make("tutorial-german", german, page_with(german, "Ergebnisse nach ISO 230-2:2014", after=1))
         make_of_screen("fleet-overview", overview(Path(folder, "fleet")), 1180, 1380)
+    workbench()
 
 
 if __name__ == "__main__":

@@ -393,6 +393,14 @@ def test_all_graphs_that_a_standard_prescribes_are_drawn() -> None:
     plt.close("all")
 
 
+def test_all_graphs_of_a_model_are_drawn() -> None:
+    mpl.use("Agg")
+    drawn = z.fit(simulated(), ["offset"]).plots()
+    assert tuple(drawn) == ("model", "estimate", "residuals-run", "residuals-time")
+    assert all(axes.get_ylabel() for panels in drawn.values() for axes in panels)
+    plt.close("all")
+
+
 def test_a_graph_that_there_is_not_is_answered_with_those_there_are() -> None:
     with pytest.raises(KeyError, match="has no graph 'x'"):
         z.evaluate(data(), "iso230-2:2014").plot(graph="x")

@@ -82,6 +82,9 @@ def test_all_visits_are_taken_into_the_journal_and_the_job_can_be_read(desk: Des
     assert [each["state"] for each in found["visits"]] == ["taken"] * 4
     assert found["visits"][1]["deviation"] == "+3.00 µm"
     assert (found["problems"], found["steps"]) == ([], [])
+    told = desk.get(lang="de")["lines"]
+    assert told[0] == {"name": "Bezug", "text": "der Messwert gilt als −5,000 mm"}
+    assert "Durchlauf 1 ↑" in told[1]["text"]
     history = read_history(tmp_path / "x.journal")
     assert history is not None
     assert history.progress.is_over
@@ -95,8 +98,12 @@ def test_what_the_operator_sees_to_is_asked_and_then_it_goes_on(desk: Desk) -> N
     while (asked := desk.get()["asked"]) is None:
         assert time.monotonic() < ends
         time.sleep(0.05)
-    assert "the beam is broken" in asked["message"]
+    assert "The beam is broken" in asked["message"]
     assert asked["choices"] == []
+    asked = desk.get(lang="de")["asked"]
+    assert asked["message"].endswith("Was vorher genommen wurde, bleibt.")
+    begin = "Das Programm bei Messpunkt 1 beginnen: 0,000 mm von unten, Durchlauf 1, Versuch 2."
+    assert asked["steps"][1] == begin
     desk.do("order", "")
     assert [each["state"] for each in desk.until(isOver=True)["visits"]] == ["taken"] * 4
 

@@ -260,6 +260,9 @@ def test_the_pitch_is_asked_for_and_written_into_the_job(
     assert "travel: [0, 600], screw_pitch: 10}" in job.read_text(encoding="utf-8")
     assert "screw-pitch" in [each["effect"] for each in after["others"]]
     assert after["undo"] == "axis.screw_pitch stated"
+    german = browser.get("/api/job", params={"lang": "de"}).json()
+    assert german["undo"] == "Spindelsteigung angegeben"
+    assert german["steps"][0]["text"] == "Spindelsteigung angegeben"
 
 
 @pytest.mark.parametrize(

@@ -57,7 +57,7 @@ class CapturePage {
     this.#fillIfNew("orders", this.orders, [found.runs, found.isOver, found.hasBegun, found.next, found.taken], () => this.#orders(found));
     this.#fillIfNew("visits", this.visits, [found.visits, found.runs], () => this.#visits(found));
     this.#fillIfNew("events", this.events, found.lines, () => found.lines.length > 0 && [
-      h("h2", {}, texts.captureEvents), h("ol", { class: "capture-lines", reversed: true }, found.lines.toReversed().map((each) => h("li", {}, each)))]);
+      h("h2", {}, texts.captureEvents), h("ol", { class: "capture-lines", reversed: true }, found.lines.toReversed().map(({ name, text }) => h("li", {}, name && h("strong", {}, name), name && " ", text)))]);
     this.#say(found.problems);
   }
 

@@ -12,14 +12,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
-from zlmreport.cli.capture_lines import (
-    SIDES,
-    AxisWriter,
-    list_what_to_do,
-    tell_event,
-    tell_halted,
-    write_duration,
-)
 from zlmreport.cli.terminal import Colour, make_visible
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
@@ -43,6 +35,14 @@ from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.of_job import Assignment
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import MOMENTARY, to_record
+from zlmreport.live.capture.told import (
+    SIDES,
+    AxisWriter,
+    list_what_to_do,
+    say_halted,
+    tell_event,
+    write_duration,
+)
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.live.ports.reading import LiveReading
 
@@ -190,9 +190,9 @@ class PlainLines:
 
     def tell(self, event: Event) -> None:
         """Print a line on an event."""
-        line = tell_event(event, len(self._assignment.visits), self._writer)
+        line = write_terminal_line(event, self._assignment, self._writer)
         if line:
-            self._line(make_visible(line))
+            self._line(line)
 
     def keys(self) -> AbstractContextManager[None]:
         """Take no orders."""
@@ -205,14 +205,14 @@ class PlainLines:
     def see_to(self, event: Event | None, progress: Progress) -> None:
         """Raise `AccessError` with what is to be seen to."""
         steps = ", then ".join(list_what_to_do(progress, self._writer, event))
-        raise AccessError.at(Place("zlmreport capture"), f"{tell_halted(event, self._writer)}; {steps}")
+        raise AccessError.at(Place("zlmreport capture"), f"{say_halted(event, self._writer)}; {steps}")
 
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:  # noqa: ARG002
         """Raise `AccessError` with what may be answered."""
         raise AccessError.at(
             Place("zlmreport capture"),
-            f"{tell_halted(question, self._writer)}; nothing is filed: stop the program, look where it is, "
-            "and state --answer with the number of the visit, or none",
+            f"{say_halted(question, self._writer)}; nothing is filed: stop the program, look where it is, and "
+            "state --answer with the number of the visit, or none",
         )
 
     def leave(self, message: str) -> None:
@@ -256,7 +256,7 @@ class LiveDisplay(PlainLines):
 
     def tell(self, event: Event) -> None:
         """Print a line on an event, and ring: once for a reading, twice and in colour for what is wrong."""
-        line = make_visible(tell_event(event, len(self._assignment.visits), self._writer))
+        line = write_terminal_line(event, self._assignment, self._writer)
         is_wrong = isinstance(event, _WRONG) or (isinstance(event, Elsewhere) and event.factor is not None)
         if line:
             self._line(Colour.RED.of(line) if is_wrong else line)
@@ -283,7 +283,7 @@ class LiveDisplay(PlainLines):
         """Print what is wrong, and what to do, and wait until the operator has done it."""
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
-        self._say(tell_halted(event, self._writer))
+        self._say(say_halted(event, self._writer))
         self._line(f"First {list_what_to_do(progress, self._writer, event)[0]}.")
         try:
             input("Press Enter when that is done, Ctrl-C to stop: ")
@@ -293,7 +293,7 @@ class LiveDisplay(PlainLines):
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
         """Ring, and ask which visit a stop is until there is an answer."""
         print(_BELL, end="", flush=True)
-        self._say(tell_halted(question, self._writer))
+        self._say(say_halted(question, self._writer))
         self._line("Stop the program and look where it is.")
         while True:
             try:
@@ -322,6 +322,14 @@ class LiveDisplay(PlainLines):
         return (_UP.format(self._shown) if self._shown else "") + "\r" + _CLEAR_BELOW
 
 
+def write_terminal_line(event: Event, assignment: Assignment, writer: AxisWriter) -> str:
+    """Return what a terminal shows of an event; nothing for one of the moment."""
+    line = tell_event(event, len(assignment.visits), writer)
+    if line is None:
+        return ""
+    return make_visible(f"{line.name:8} {line.text}" if line.name else line.text)
+
+
 def show_panel(
     reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter
 ) -> Iterator[str]:
@@ -329,7 +337,7 @@ def show_panel(
     progress = follower.progress
     visit = progress.next
     yield ""
-    yield f"next   {writer.visit(visit)} {SIDES[visit.approach]}"
+    yield f"next   {writer.visit(visit)} {writer.say(SIDES[visit.approach])}"
     yield f"now    {_now(reading, follower, assignment, writer)}"
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)

@@ -10,8 +10,7 @@ from queue import Empty, SimpleQueue
 from threading import Thread
 from typing import Any
 
-from zlmreport.cli.capture_display import JsonLines, order_of, visit_named
-from zlmreport.cli.capture_lines import list_what_to_do, tell_event, tell_halted
+from zlmreport.cli.capture_display import JsonLines, order_of, visit_named, write_terminal_line
 from zlmreport.errors import InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.live.capture.events import Event, Order, TooSlow, Unclear
@@ -19,6 +18,7 @@ from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.of_job import Assignment
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import MOMENTARY, to_record
+from zlmreport.live.capture.told import list_what_to_do, say_halted
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.live.ports.reading import LiveReading
 
@@ -49,8 +49,9 @@ class SteeredLines(JsonLines):
     def tell(self, event: Event) -> None:
         """Print an event."""
         if not isinstance(event, MOMENTARY):
-            line = tell_event(event, len(self._assignment.visits), self._writer)
-            self._print({**to_record(event), "line": line})
+            self._print(
+                {**to_record(event), "line": write_terminal_line(event, self._assignment, self._writer)}
+            )
 
     def show(self, follower: Follower, reading: LiveReading) -> Iterator[Order]:
         """Print the present moment, five times a second at most; yield what was ordered and can be done."""
@@ -76,15 +77,15 @@ class SteeredLines(JsonLines):
         if isinstance(event, TooSlow):  # nothing that is done at the machine helps
             super().see_to(event, progress)
         steps = list_what_to_do(progress, self._writer, event)
-        self._say("awaits", message=tell_halted(event, self._writer), steps=steps)
+        happened = None if event is None else to_record(event)
+        self._say("awaits", message=say_halted(event, self._writer), steps=steps, event=happened)
         while self._answer():
             self._say("refused", message=f"first {steps[0]}; then send an empty line")
 
     def ask(self, question: Unclear, progress: Progress) -> ListedVisit | None:
         """Print what may be answered, and wait for an answer that is one."""
         while True:
-            candidates = [[visit and visit.number, share] for visit, share in question.candidates]
-            self._say("asks", message=tell_halted(question, self._writer), candidates=candidates)
+            self._say("asks", message=say_halted(question, self._writer), event=to_record(question))
             try:
                 return visit_named(self._answer(), progress, Place("answer"))
             except InputError as error:

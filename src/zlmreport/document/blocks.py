@@ -128,7 +128,7 @@ class RowGroup:
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table; `dense` asks for small type, for many columns, `symbols` are those its caption speaks of."""
+    """A table; `dense` asks for small type, for many columns, `symbols` are those its words speak of."""
 
     caption: str
     columns: tuple[Column, ...]
@@ -172,12 +172,14 @@ class Paragraph:
 class Notice:
     """A statement that nobody may overlook: a deviation from the standard, missing readings.
 
-    One that is quoted has words of somebody else, in a frame of their own: they are no results.
+    One that is quoted has words of somebody else, in a frame of their own: they are no results. `symbols` are
+    those that its items speak of.
     """
 
     heading: str
     items: tuple[str, ...]
     is_quoted: bool = False
+    symbols: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

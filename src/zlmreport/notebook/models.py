@@ -445,6 +445,23 @@ class Model:
 
         return drawn(estimate(ModelDiagram(self.fit, self._error)), ax)[0]
 
+    def plots(self) -> dict[str, list[Axes]]:
+        """Draw all graphs of the model, each in a figure of its own.
+
+        Returns the axes of their panels: ``model`` (readings and model, and the residuals below),
+        ``estimate``, ``residuals-run`` and ``residuals-time``.
+        """
+        from zlmreport.document.figures.model_diagram import ModelDiagram, estimate  # noqa: PLC0415 - drawn on demand
+        from zlmreport.document.figures.model_residuals import (  # noqa: PLC0415 - drawn on demand
+            draw_over_position,
+            draw_over_run,
+            draw_over_time,
+        )
+
+        diagram = ModelDiagram(self.fit, self._error)
+        figures = [each(diagram) for each in (draw_over_position, estimate, draw_over_run, draw_over_time)]
+        return {figure.key: drawn(figure, None) for figure in figures}
+
     def to_dict(self) -> dict[str, Any]:
         """Return effects, parameters and error as the results file has them."""
         error = report_error(self._error, self.fit.design.axis)

@@ -13,6 +13,7 @@ from zlmreport.evaluation.uncertainty.job_budget import INSTRUMENT
 from zlmreport.evaluation.uncertainty.wording import DEVICE, name_contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
+from zlmreport.model.diagnosis.asking import length_called
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
 
@@ -30,6 +31,9 @@ class Field:
     unit: str = ""  #: Symbol of the unit of a number.
     reason: str = ""  #: The key that says instead why it is negligible; empty where it cannot be.
 
+
+#: What people call the table that a control takes away.
+COMPENSATION_TABLE = Words("Compensation table")
 
 #: Of the items that clause 7.8 demands, by the keys that its check names.
 _FIELDS: Mapping[str, Field] = MappingProxyType(
@@ -137,6 +141,17 @@ def _list_lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Fiel
                 _UNITS.get(name, unit),
                 f"uncertainty.negligible.{name}",
             )
+
+
+def key_called(key: str) -> Words | None:
+    """Return what people call a key that the page asks for; None for one that has no name but its own."""
+    group, _, name = key.partition(".")
+    if group == "axis":
+        return COMPENSATION_TABLE if name == "compensation_table" else length_called(name)
+    if group == "uncertainty":
+        return name_contributor(name.removeprefix("negligible."))
+    field = _FIELDS.get(key.removesuffix(".kind"))
+    return field.name if field else None
 
 
 def collect_field(field: Field, language: Language) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,33 +11,27 @@ from zlmreport import pipeline
 from zlmreport.errors import InputError, ZlmreportError
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
-from zlmreport.language import Language, Words
-from zlmreport.language.formatting import MINUS, write_fixed_number, write_percentage
-from zlmreport.live.capture.events import Recorded
+from zlmreport.language import Language
+from zlmreport.language.formatting import write_percentage
+from zlmreport.live.capture.events import Recorded, Resumed, Unclear
 from zlmreport.live.capture.journal import History, read_history
 from zlmreport.live.capture.of_job import Assignment, find_options_of, make_assignment_of
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.visits import ListedVisit
-from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.units import with_unit
+from zlmreport.live.capture.records import Record, from_record
+from zlmreport.live.capture.told import (
+    WORTH_NAMING,
+    AxisWriter,
+    CaptureLine,
+    candidate,
+    list_what_to_do,
+    say_halted,
+    tell_event,
+)
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench
 from zlmreport.web.capturing import CaptureProcess, CaptureRequest
 
-_SIDES = {
-    Approach.POSITIVE: Words("from below"),
-    Approach.NEGATIVE: Words("from above"),
-}
-_DATUM = Words("Let the axis stand still at {position}, for the datum.")
-_CHECK = Words("Let the axis come once more to {position} {side}, to check the datum.")
-_START = Words("Start the program at visit {number}: {position} {side}, run {run}.")
-_GO_ON = Words("Go on with the program at visit {number}: {position} {side}, run {run}.")
-_CANDIDATE = Words("visit {number} (run {run}): {share} %")
-_NO_VISIT = Words("no visit: {share} %")
-#: The least probability of a visit that is offered as the answer to a question.
-_WORTH_NAMING = 0.005
 _SECONDS_A_MINUTE = 60
 
 
@@ -81,7 +75,7 @@ class CapturePage:
             return {"isCaptured": False}
         job, assignment = found
         history, state = _read_history(assignment), self.process.state()
-        progress, writer = _find_progress(assignment, history), _CaptureWriter(job.axis, language)
+        progress, writer = _find_progress(assignment, history), AxisWriter(job.axis, language)
         rest = assignment.remaining_time(progress.taken)
         return {
             "isCaptured": True,
@@ -96,10 +90,10 @@ class CapturePage:
             "next": None if progress.is_over else progress.next.number,
             "taken": progress.taken,
             "minutes": round(rest / _SECONDS_A_MINUTE),
-            "steps": [] if progress.is_over else list(writer.steps(progress)),
+            "steps": [] if progress.is_over else list(map(_sentence, list_what_to_do(progress, writer))),
             "moment": _show_moment(state["now"], progress, assignment, writer),
-            "asked": _show_question(state["asked"], progress, language),
-            "lines": state["lines"],
+            "asked": _show_question(state["asked"], progress, writer),
+            "lines": list(_lines(state["events"], progress, writer)),
             "problems": state["problems"],
         }
 
@@ -115,42 +109,6 @@ class CapturePage:
         return self._known[1:]
 
 
-@dataclass(frozen=True, slots=True)
-class _CaptureWriter:
-    """Writes positions and deviations of an axis in the language of the page."""
-
-    axis: Axis
-    language: Language
-
-    def position(self, value: float, decimals: int = 3) -> str:
-        return self._length(self.axis.position_unit.from_si(value), self.axis.position_unit.symbol, decimals)
-
-    def deviation(self, value: float) -> str:
-        text = self.fine(value)
-        return text if text.startswith(MINUS) else f"+{text}"
-
-    def fine(self, value: float) -> str:
-        return self._length(self.axis.deviation_unit.from_si(value), self.axis.deviation_unit.symbol, 2)
-
-    def _length(self, value: float, symbol: str, decimals: int) -> str:
-        return with_unit(write_fixed_number(value, decimals, self.language.decimal_sign), symbol)
-
-    def steps(self, progress: Progress) -> Iterator[str]:
-        """Yield what an operator does before readings are taken, one after the other."""
-        if progress.zero is None and progress.datum is not None:
-            yield _DATUM.given(position=self.position(progress.datum)).in_language(self.language)
-        elif progress.must_check:
-            last = max((read.visit for read in progress.read.values()), key=lambda visit: visit.number)
-            yield self._said(_CHECK, last)
-        yield self._said(_GO_ON if progress.taken else _START, progress.next)
-
-    def _said(self, phrase: Words, visit: ListedVisit) -> str:
-        position, side = self.position(visit.position), _SIDES[visit.approach]
-        return phrase.given(number=visit.number, position=position, side=side, run=visit.run).in_language(
-            self.language
-        )
-
-
 def _read_history(assignment: Assignment) -> History | None:
     path = assignment.options.journal
     return read_history(path) if path.exists() else None
@@ -160,7 +118,7 @@ def _find_progress(assignment: Assignment, history: History | None) -> Progress:
     return history.progress if history else Progress.begin(assignment.visits, assignment.datum)
 
 
-def _rows(progress: Progress, history: History | None, writer: _CaptureWriter) -> Iterator[dict[str, Any]]:
+def _rows(progress: Progress, history: History | None, writer: AxisWriter) -> Iterator[dict[str, Any]]:
     """Yield the visits in their order, each with the reading that counts."""
     events = [each.event for each in history.entries] if history else []
     read = {each.visit.number: each for each in events if isinstance(each, Recorded)}
@@ -189,7 +147,7 @@ def _state(number: int, progress: Progress, *, is_read: bool) -> str:
 
 
 def _show_moment(
-    now: dict[str, Any] | None, progress: Progress, assignment: Assignment, writer: _CaptureWriter
+    now: dict[str, Any] | None, progress: Progress, assignment: Assignment, writer: AxisWriter
 ) -> dict[str, Any] | None:
     """Return what the instrument shows now; nothing as long as it does not run."""
     if now is None:
@@ -207,21 +165,41 @@ def _show_moment(
     }
 
 
-def _show_question(
-    asked: dict[str, Any] | None, progress: Progress, language: Language
-) -> dict[str, Any] | None:
+def _lines(records: Iterable[Record], progress: Progress, writer: AxisWriter) -> Iterator[dict[str, str]]:
+    """Yield what has happened, each by its name and in words; a line of none that is known as it was said."""
+    for record in records:
+        try:
+            line = tell_event(from_record(record, progress.visits), len(progress.visits), writer)
+        except KeyError:
+            line = CaptureLine("", str(record["line"]))
+        if line is not None:
+            yield {"name": line.name, "text": line.text}
+
+
+def _show_question(asked: Record | None, progress: Progress, writer: AxisWriter) -> dict[str, Any] | None:
     """Return what the capture waits for, with the answers that may be given."""
     if asked is None:
         return None
-    choices = []
-    for number, share in asked.get("candidates", ()):
-        if share < _WORTH_NAMING:
-            continue
-        shown = write_percentage(share, language.decimal_sign)
-        phrase = (
-            _CANDIDATE.given(number=number, run=progress.visits[number - 1].run, share=shown)
-            if number
-            else _NO_VISIT.given(share=shown)
-        )
-        choices.append({"label": phrase.in_language(language), "answer": str(number or "none")})
-    return {"message": asked["message"], "steps": asked.get("steps", []), "choices": choices}
+    event = None if asked["event"] is None else from_record(asked["event"], progress.visits)
+    is_question = isinstance(event, Unclear)
+    return {
+        "message": _sentence(say_halted(event, writer)),
+        "steps": []
+        if is_question
+        else list(map(_sentence, list_what_to_do(progress.after(Resumed()), writer, event))),
+        "choices": list(_choices(event, writer)) if isinstance(event, Unclear) else [],
+    }
+
+
+def _choices(question: Unclear, writer: AxisWriter) -> Iterator[dict[str, str]]:
+    """Yield the visits that an unclear stop may be, and what is answered for each."""
+    for visit, share in question.candidates:
+        if share >= WORTH_NAMING:
+            shown = write_percentage(share, writer.language.decimal_sign)
+            label = writer.say(candidate(visit, shown))
+            yield {"label": label, "answer": str(visit.number) if visit else "none"}
+
+
+def _sentence(text: str) -> str:
+    """Return what is said as a sentence of its own."""
+    return f"{text[0].upper()}{text[1:]}."

@@ -22,6 +22,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from zlmreport.errors import InputError
+from zlmreport.live.capture.records import Record
 from zlmreport.web.bench import PLACE
 
 #: Lines on what happened that the page shows.
@@ -60,10 +61,9 @@ class CaptureProcess:
     plugins: Sequence[Path] = ()  #: Files that are plugins, from the command line.
     _process: subprocess.Popen[str] | None = None
     _lock: Lock = field(default_factory=Lock)
-    _now: dict[str, Any] | None = None
-    _steps: list[str] = field(default_factory=list)
-    _asked: dict[str, Any] | None = None
-    _lines: deque[str] = field(default_factory=lambda: deque(maxlen=_KEPT_LINES))
+    _now: Record | None = None
+    _asked: Record | None = None
+    _events: deque[Record] = field(default_factory=lambda: deque(maxlen=_KEPT_LINES))
     _problems: list[str] = field(default_factory=list)
 
     def do(self, request: CaptureRequest, *, has_begun: bool) -> None:
@@ -86,14 +86,13 @@ class CaptureProcess:
                 self.end()
 
     def state(self) -> dict[str, Any]:
-        """Return whether it runs, the present moment, what it awaits, and what has happened."""
+        """Return whether it runs, the present moment, what it awaits, and what has happened, as records."""
         with self._lock:
             return {
                 "runs": self._process is not None,
                 "now": self._now,
-                "steps": self._steps,
                 "asked": self._asked,
-                "lines": list(self._lines),
+                "events": list(self._events),
                 "problems": list(self._problems),
             }
 
@@ -115,8 +114,8 @@ class CaptureProcess:
         with self._lock:
             if self._process is not None:
                 raise InputError.at(PLACE, "a capture of this job is under way already")
-            self._now, self._asked, self._steps = None, None, []
-            self._lines.clear()
+            self._now, self._asked = None, None
+            self._events.clear()
             self._problems.clear()
             plugins = (part for each in self.plugins for part in ("--plugin", str(each.resolve())))
             self._process = subprocess.Popen(  # noqa: S603 - this program itself
@@ -161,16 +160,14 @@ class CaptureProcess:
         try:
             record = json.loads(line)
         except ValueError:
-            record = {"record": "", "line": line.strip()}
+            record = {"record": "", "line": line.strip()}  # of a command that tells no events
         with self._lock:
             match record["record"]:
                 case "now":
                     self._now = record
-                case "to-do":
-                    self._steps = record["steps"]
                 case "awaits" | "asks":
                     self._asked = record
                 case "refused":
-                    self._lines.append(record["message"])
+                    self._events.append({"record": "", "line": record["message"]})
                 case _ if record.get("line"):
-                    self._lines.append(record["line"])
+                    self._events.append(record)

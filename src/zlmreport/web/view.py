@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from zlmreport.document.figures.model_diagram import ModelDiagram
@@ -11,13 +12,13 @@ from zlmreport.document.subjects.fit import say_no_table_takes_away
 from zlmreport.document.subjects.linked import collect_failure, collect_graphs, collect_model_curves
 from zlmreport.errors import InputError
 from zlmreport.job.job import Job
-from zlmreport.language import Language, Words, same
+from zlmreport.language import Language, Said, Words, same
 from zlmreport.model.diagnosis.asking import list_lengths_asked
 from zlmreport.model.diagnosis.diagnosis import Diagnosis
 from zlmreport.model.diagnosis.faults import DataFault
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.effect import Effect
-from zlmreport.web.asked import collect_field, list_what_is_lacking
+from zlmreport.web.asked import collect_field, key_called, list_what_is_lacking
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import list_offered
 from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, find_redoable, find_undoable
@@ -137,6 +138,19 @@ def step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str
     return {"at": entry.at[11:19], "text": names.text(words.in_language(language))}
 
 
+@dataclass(frozen=True, slots=True)
+class _StatedKeys:
+    """Keys of a job that were stated: as they stand on a page in English, by their names on any other."""
+
+    keys: tuple[str, ...]
+
+    def in_language(self, language: Language) -> str:
+        """Return the keys in one language, parted by commas."""
+        if language is Language.ENGLISH:
+            return ", ".join(self.keys)
+        return ", ".join((key_called(key) or same(key)).in_language(language) for key in self.keys)
+
+
 def say_done_by(entry: JournalStep) -> Words:
     """Return what a step did; of one that took another back or brought it back, what that did."""
     action, subject = entry.action, entry.subject
@@ -145,7 +159,9 @@ def say_done_by(entry: JournalStep) -> Words:
     parts = subject.split(" ")
     if action in {"exclude", "include"} and len(parts) == len(("target", "direction", "run")):
         target, direction, run = parts
-        named: str | Words = _READING.given(target=target, arrow=_ARROWS.get(direction, direction), run=run)
+        named: str | Said = _READING.given(target=target, arrow=_ARROWS.get(direction, direction), run=run)
+    elif action == "state":
+        named = _StatedKeys(tuple(subject.split(", ")))
     else:
         named = subject
     return _STEPS.get(action, same("{subject}")).given(subject=named)

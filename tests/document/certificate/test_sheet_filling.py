@@ -14,6 +14,8 @@ from zlmreport.document.writer import Writer
 from zlmreport.language import Language
 from zlmreport.measurement import units
 
+#: Of a page, points.
+PAGE = 650.0
 WRITER = Writer(Language.ENGLISH, units.MILLIMETRE, units.MICROMETRE, 1, 1)
 
 WHO = (("Customer", "Works Ltd, Lane 2, Town"), ("Item calibrated", "Maker M1"), ("Serial number", "S-1"))
@@ -75,9 +77,19 @@ def test_a_page_that_another_one_follows_has_more_room() -> None:
 
 def test_details_say_once_what_several_pages_lack() -> None:
     lacking = Said(who=WHO, law=(Paragraph("Decision rule."),))
-    title, blocks = lay_out_details((lacking, lacking, Said(who=WHO[:1])), WRITER)
+    title, blocks = lay_out_details((lacking, lacking, Said(who=WHO[:1])), WRITER, PAGE)
     assert title == "Details"
     assert blocks == (Facts(WHO), Paragraph("Decision rule."))
+
+
+def test_details_that_are_too_long_for_a_page_stand_in_small_type() -> None:
+    remark = ("Remarks", "Words of a remark. " * 100)
+    lacking = Said((), WHO, (Paragraph("Decision rule."),), (Facts((remark,)),))
+    _, blocks = lay_out_details((lacking,), WRITER, PAGE)
+    assert Facts((*WHO, remark)) in blocks
+    title, blocks = lay_out_details((lacking,), WRITER, 260.0)
+    assert columns.estimate_heading_height(title) + columns.estimate_height(blocks) <= 260.0
+    assert all(isinstance(each, Paragraph) and each.fine for each in blocks)
 
 
 _TEXTS = st.text(st.sampled_from("abcdefg äöü-"), min_size=1, max_size=200).map(lambda text: f"x{text}x")
@@ -96,7 +108,7 @@ _SAID = st.builds(
 def test_nothing_is_lost_and_nothing_runs_over_whatever_the_lengths(said: Said, room: float) -> None:
     filled = fill(said, room, WRITER)
     shown = text(filled)
-    _, left = lay_out_details((filled.left,), WRITER)
+    _, left = lay_out_details((filled.left,), WRITER, PAGE)
     printed = f"{shown} {' '.join(line for block in left for line in lines_of(block))}"
     stated = [*said.who, *(pair for group in said.conditions for pair in group.pairs)]
     for words in (

@@ -10,6 +10,7 @@ import pytest
 
 from document.typesetting.samples import NUMBER, certificate, measurements
 from zlmreport.document.blocks import (
+    Block,
     Column,
     Facts,
     Graph,
@@ -276,10 +277,21 @@ def test_the_same_certificate_is_set_the_same() -> None:
     assert compose(certificate()) == compose(certificate())
 
 
-@pytest.mark.parametrize("block", [Table("Umax, Umaximum", (), (), symbols=("U_{max}",)), None])
-def test_a_symbol_of_which_a_text_speaks_is_set_as_one(block: Table | None) -> None:
-    said = block or Paragraph("Umax, Umaximum", symbols=("U_{max}",))
-    document = compose(replace(certificate(), sections=(Section("s", "S", (said,)),)))
+_SYMBOLS = ("U_{max}",)
+
+
+@pytest.mark.parametrize(
+    "block",
+    [
+        Table("Umax, Umaximum", (), (), symbols=_SYMBOLS),
+        Table("Found", (Column("Found"),), (RowGroup((("Umax, Umaximum",),)),), symbols=_SYMBOLS),
+        Notice("To be noted", ("Umax, Umaximum",), symbols=_SYMBOLS),
+        Paragraph("Umax, Umaximum", symbols=_SYMBOLS),
+    ],
+    ids=["caption", "cell", "notice", "paragraph"],
+)
+def test_a_symbol_of_which_a_text_speaks_is_set_as_one(block: Block) -> None:
+    document = compose(replace(certificate(), sections=(Section("s", "S", (block,)),)))
     assert "<i>U</i><sub>max</sub></span>, Umaximum" in document
 
 

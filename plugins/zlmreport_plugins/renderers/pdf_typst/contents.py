@@ -76,8 +76,7 @@ _WHOLE = 2000
 def collect_contents(certificate: Certificate) -> Data:
     """Return all that is printed, and what the file says of itself."""
     cover, *sections = (
-        [_make_block(each, certificate.language) for each in blocks]
-        for blocks in numbered_blocks(certificate)
+        [_make_block(each, certificate) for each in blocks] for blocks in numbered_blocks(certificate)
     )
     letterhead, words = certificate.letterhead, certificate.page_words
     ended = endings(certificate)
@@ -137,12 +136,15 @@ def list_enclosures(certificate: Certificate) -> list[Data]:
     ]
 
 
-def _make_block(numbered: NumberedBlock, language: Language) -> Data:
+def _make_block(numbered: NumberedBlock, certificate: Certificate) -> Data:
+    language, is_compact = certificate.language, certificate.is_compact
     match numbered.block:
         case Table(caption=caption, symbols=symbols) as table:
-            return {"kind": "table", **_make_captioned(numbered, caption, symbols), **collect_table(table)}
+            data = collect_table(table, is_compact=is_compact)
+            return {"kind": "table", **_make_captioned(numbered, caption, symbols), **data}
         case Formulas(caption=caption) as formulas:
-            return {"kind": "formulas", **_make_captioned(numbered, caption), **collect_formulas(formulas)}
+            data = collect_formulas(formulas, is_compact=is_compact)
+            return {"kind": "formulas", **_make_captioned(numbered, caption), **data}
         case Graph(figure):
             return {
                 "kind": "graph",
@@ -157,12 +159,12 @@ def _make_block(numbered: NumberedBlock, language: Language) -> Data:
                 "fine": fine,
                 "verdict": _make_cell(verdict, _PAGE) if verdict else None,
             }
-        case Notice(heading, items, is_quoted):
+        case Notice(heading, items, is_quoted, symbols):
             return {
                 "kind": "notice",
                 "quoted": is_quoted,
                 "heading": fit_text(heading, _NOTICE, FontFace.REGULAR if is_quoted else FontFace.SEMIBOLD),
-                "items": [fit_text(item, _NOTICE) for item in items],
+                "items": [fit_text_with_symbols(item, symbols, _NOTICE) for item in items],
                 "whole": len(heading) + sum(map(len, items)) <= _WHOLE,
             }
         case facts:
@@ -233,10 +235,12 @@ _GROUP = 50.0
 _LONG_CELL = 400
 
 
-def collect_table(table: Table) -> dict[str, Any]:
+def collect_table(table: Table, *, is_compact: bool) -> dict[str, Any]:
     """Return the columns and rows of a table."""
     rows = [row for group in table.groups for row in group.rows]
-    columns, rooms = _share_columns(table, rows, [column.align for column in table.columns])
+    columns, rooms = _share_columns(
+        table, rows, [column.align for column in table.columns], is_compact=is_compact
+    )
     padding = iter(decimal_padding(table))
     return {
         **columns,
@@ -250,27 +254,27 @@ def collect_table(table: Table) -> dict[str, Any]:
                 "heading": fit_text(group.heading, _GROUP, FontFace.SEMIBOLD),
                 "note": fit_text(group.note, _GROUP),
                 "section": group.section,
-                "rows": [_make_row(row, rooms, next(padding)) for row in group.rows],
+                "rows": [_make_row(row, rooms, next(padding), table.symbols) for row in group.rows],
             }
             for group in table.groups
         ],
     }
 
 
-def collect_formulas(formulas: Formulas) -> dict[str, Any]:
+def collect_formulas(formulas: Formulas, *, is_compact: bool) -> dict[str, Any]:
     """Return definitions, which are set as a table without headings."""
-    columns, rooms = _share_columns(formulas, formulas.rows, [Align.LEFT] * 3)
+    columns, rooms = _share_columns(formulas, formulas.rows, [Align.LEFT] * 3, is_compact=is_compact)
     return {**columns, "rows": [_make_row(row, rooms) for row in formulas.rows]}
 
 
 def _share_columns(
-    block: Table | Formulas, rows: Iterable[Sequence[Cell]], alignments: Sequence[Align]
+    block: Table | Formulas, rows: Iterable[Sequence[Cell]], alignments: Sequence[Align], *, is_compact: bool
 ) -> tuple[Data, list[float]]:
     """Return how columns share the page, and the width that each leaves for words, in em.
 
     Columns of numbers were made wide enough for each of them, and never part one.
     """
-    layout = table_layout(block)
+    layout = table_layout(block, is_compact=is_compact)
     rooms = [
         inf if align is Align.RIGHT else room - _PADDING - (_APART if apart else 0.0)
         for room, align, apart in zip(layout.rooms, alignments, layout.apart, strict=True)
@@ -293,11 +297,25 @@ def _list_words_of(cell: Cell) -> str:
     return cell if isinstance(cell, str) else ""
 
 
-def _make_row(row: Sequence[Cell], rooms: Sequence[float], padding: Iterable[str] = repeat("")) -> list[Any]:
-    return [_make_cell(cell, room, lacking) for cell, room, lacking in zip(row, rooms, padding, strict=False)]
+def _make_row(
+    row: Sequence[Cell],
+    rooms: Sequence[float],
+    padding: Iterable[str] = repeat(""),
+    symbols: tuple[str, ...] = (),
+) -> list[Any]:
+    return [
+        _make_cell(cell, room, lacking, symbols=symbols)
+        for cell, room, lacking in zip(row, rooms, padding, strict=False)
+    ]
 
 
-def _make_cell(cell: Cell, room: float, padding: str = "", face: FontFace = FontFace.REGULAR) -> Any:
+def _make_cell(
+    cell: Cell,
+    room: float,
+    padding: str = "",
+    face: FontFace = FontFace.REGULAR,
+    symbols: tuple[str, ...] = (),
+) -> Any:
     """Return a cell: a text as it stands, and what is more than a text with its kind."""
     match cell:
         case Symbol(notation):
@@ -316,6 +334,8 @@ def _make_cell(cell: Cell, room: float, padding: str = "", face: FontFace = Font
             }
         case text if padding:
             return {"kind": "number", "text": text, "gap": _measure_gap(padding)}
+        case text if symbols:
+            return fit_text_with_symbols(text, symbols, room)
         case text:
             return fit_text(text, room, face)
 

@@ -203,7 +203,7 @@ def _gather_said_by_parts(parts: Mapping[str, Certificate], writer: Writer) -> I
                 found.setdefault(block, []).append(name)
     for block, names in found.items():
         heading = _NAMED.given(names=", ".join(names), heading=block.heading)
-        yield Notice(writer.say(heading), block.items)
+        yield Notice(writer.say(heading), block.items, symbols=block.symbols)
 
 
 def _lay_out_on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:

@@ -69,6 +69,8 @@ class Size:
 
 #: From large to small, as the style sheet has them.
 SIZES = (Size("regular", 56.0), Size("dense", 66.0), Size("finest", 78.0))
+#: How many more em a page is wide in a compact document, whose type is smaller.
+_IN_COMPACT = 9.0 / 8.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,13 +100,17 @@ class TableLayout:
     in_fives: bool
 
 
-def lay_out_table(block: Table | Formulas) -> TableLayout:
-    """Return how a table stands on a page, or definitions, which are a table without headings."""
+def lay_out_table(block: Table | Formulas, *, is_compact: bool = False) -> TableLayout:
+    """Return how a table stands on a page, or definitions, which are a table without headings.
+
+    The type of a compact document is smaller, and its page so many more em wide.
+    """
     table = block if isinstance(block, Table) else Table("", (Column(""),) * 3, (RowGroup(block.rows),))
     needs = measure_columns(table)
     chosen = choose_size(table, needs)
-    shares = share_widths(needs, chosen.page_em)
-    rooms = tuple(chosen.page_em * share / 100 for share in shares)
+    page_em = chosen.page_em * (_IN_COMPACT if is_compact else 1.0)
+    shares = share_widths(needs, page_em)
+    rooms = tuple(page_em * share / 100 for share in shares)
     body = count_table_lines(table, rooms)
     return TableLayout(
         size=chosen.name,
@@ -336,8 +342,6 @@ PAGES = {
 _OF_FIRST = 6 * MILLIMETRE
 #: Of the type and its lines, and of smaller types in parts of it.
 _TYPE = 8.1
-#: How many more em of it a page is wide than of the type of a document that is not compact.
-_IN_COMPACT = 9.0 / _TYPE
 _LINE = 1.3 * _TYPE
 _SMALL_TYPE = 0.944
 _DENSE = 0.811
@@ -425,7 +429,7 @@ def _estimate_paragraph(paragraph: Paragraph) -> float:
 
 
 def _estimate_table(table: Table) -> float:
-    layout = lay_out_table(table)
+    layout = lay_out_table(table, is_compact=True)
     rows = [row for group in table.groups for row in group.rows]
     em = (_SMALL_TYPE if layout.size == "regular" else _DENSE) * _TYPE
     head_lines = 2 if any(column.unit for column in table.columns) else 1
@@ -435,11 +439,10 @@ def _estimate_table(table: Table) -> float:
         + head_lines * 1.25 * em
         + 5.0
     )
-    body = count_table_lines(table, [_IN_COMPACT * room for room in layout.rooms])
     between = len(rows) * (3.0 if layout.size == "regular" else 1.4)
     between += len(rows) // 5 * (_FIVE_FINEST if layout.size == "finest" else _FIVE) * layout.in_fives
     between += _MARK * sum(any(isinstance(cell, Verdict) for cell in row) for row in rows)
-    return head + body * 1.3 * em + between + 8.0
+    return head + layout.lines * 1.3 * em + between + 8.0
 
 
 def _estimate_facts(groups: tuple[Facts, ...], *, is_wide: bool) -> float:

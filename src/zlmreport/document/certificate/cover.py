@@ -20,7 +20,7 @@ from zlmreport.document.certificate.conditions import (
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import list_missing_readings
-from zlmreport.document.certificate.results import Evaluated, make_section_key
+from zlmreport.document.certificate.results import Evaluated, make_section_key, subscripted
 from zlmreport.document.certificate.statements import make_amendment_notice, write_person
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.evaluation.evaluation import Group
@@ -80,7 +80,7 @@ def lay_out_cover(
         *(each for each in of_uncertainty if isinstance(each, Notice) or not behind.explains_uncertainty),
         *conformity.say_rule(job.keys.decision_rule, evaluations, writer),
         *_say_elsewhere(of, behind),
-        *list_unlikely(of, writer),
+        *list_unlikely(of, writer, evaluations),
         *list_missing_readings(measurements, writer),
         *measured_lines.list_notices(of.tests, writer),
         *_list_shortfalls(evaluations, writer, in_a_line=pages is not None),
@@ -120,7 +120,7 @@ def _lay_out_part(of: Material) -> Iterator[Block]:
         if key != "machine":
             yield group
     yield from uncertainty.say_uncertainty(of.evaluated[0].budget, evaluations, writer)
-    yield from list_unlikely(of, writer)
+    yield from list_unlikely(of, writer, evaluations)
     yield from list_missing_readings(measurements, writer)
     yield from measured_lines.list_notices(of.tests, writer)
     yield from _say_as_found(job, writer)
@@ -131,11 +131,14 @@ _UNUSUAL = Words("Values that are unusual in the unit in which they are stated")
 _EVIDENCE = Words("What readings and calibrations show")
 
 
-def list_unlikely(of: Material | Certificate, writer: Writer) -> Iterator[Notice]:
+def list_unlikely(
+    of: Material | Certificate, writer: Writer, evaluations: Sequence[Evaluation] = ()
+) -> Iterator[Notice]:
     """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
     for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
         if sentences:
-            yield Notice(writer.say(heading), tuple(map(writer.say, sentences)))
+            told = tuple(map(writer.say, sentences))
+            yield Notice(writer.say(heading), told, symbols=subscripted(evaluations))
 
 
 def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:

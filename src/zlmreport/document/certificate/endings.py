@@ -45,7 +45,7 @@ def find_endings(certificate: Certificate) -> tuple[Ending, ...]:
         for number in range(last, -1, -1):
             section = sections[number]
             blocks = tuple(columns.gather_facts(section.blocks))
-            kept, taken = _count_kept(blocks, taken, page)
+            kept, taken = _count_kept(blocks, taken, page, is_compact=certificate.is_compact)
             is_joined = kept == len(blocks) and taken < _LEAST * page and number > 0 and not section.new_page
             found[number] = Ending(kept, is_joined)
             if not is_joined:
@@ -54,20 +54,29 @@ def find_endings(certificate: Certificate) -> tuple[Ending, ...]:
     return tuple(found)
 
 
-def _count_kept(blocks: Sequence[GatheredBlock], taken: float, page: float) -> tuple[int, float]:
+def _count_kept(
+    blocks: Sequence[GatheredBlock], taken: float, page: float, *, is_compact: bool
+) -> tuple[int, float]:
     """Return how many blocks stay together before what is taken of a page, and what then is."""
     kept = 0
     for block in reversed(blocks):
         height = columns.estimate_height(block if isinstance(block, tuple) else (block,))
-        if taken >= _LEAST * page or taken + height > _MOST * page or _is_parted(block):
+        if (
+            taken >= _LEAST * page
+            or taken + height > _MOST * page
+            or _is_parted(block, is_compact=is_compact)
+        ):
             break
         kept, taken = kept + 1, taken + height
     return kept, taken
 
 
-def _is_parted(block: GatheredBlock) -> bool:
+def _is_parted(block: GatheredBlock, *, is_compact: bool) -> bool:
     """Return whether pages may part a block."""
-    return isinstance(block, Table | Formulas) and not columns.lay_out_table(block).is_whole
+    return (
+        isinstance(block, Table | Formulas)
+        and not columns.lay_out_table(block, is_compact=is_compact).is_whole
+    )
 
 
 def is_all_of(section: Section, ending: Ending) -> bool:

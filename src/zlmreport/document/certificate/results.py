@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -105,7 +105,7 @@ def lay_out_results(evaluated: Evaluated, writer: Writer) -> Section:
     blocks: list[Block] = [
         Paragraph(writer.say(evaluation.title)),
         *(
-            [make_shortfall(evaluation.designation, items, writer)]
+            [make_shortfall(evaluation.designation, items, [evaluation], writer)]
             if (items := list_unmet(evaluation, writer))
             else []
         ),
@@ -142,10 +142,20 @@ def list_unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
     )
 
 
-def make_shortfall(designations: str, items: tuple[str, ...], writer: Writer) -> Notice:
-    """Return the notice of requirements that are not met."""
+def subscripted(evaluations: Iterable[Evaluation]) -> tuple[str, ...]:
+    """Return the notations of parameters that sentences speak of by name, and that have a subscript."""
+    notations = (each.quantity.notation for evaluation in evaluations for each in evaluation.parameters)
+    return tuple(dict.fromkeys(each for each in notations if "_" in each))
+
+
+def make_shortfall(
+    designations: str, items: tuple[str, ...], evaluations: Iterable[Evaluation], writer: Writer
+) -> Notice:
+    """Return the notice of requirements that evaluations do not meet."""
     heading = Words("The test deviates from {designation}")
-    return Notice(writer.say(heading.given(designation=designations)), items)
+    return Notice(
+        writer.say(heading.given(designation=designations)), items, symbols=subscripted(evaluations)
+    )
 
 
 def say_parameters(evaluation: Evaluation) -> Words:
@@ -287,6 +297,7 @@ def lay_out_requirements(evaluations: Sequence[Evaluation], writer: Writer) -> T
         tuple(
             RowGroup(rows, ", ".join(names) if of_several else "") for rows, names in groups.items() if rows
         ),
+        symbols=subscripted(evaluations),
     )
 
 

@@ -89,20 +89,33 @@ def fill(said: Said, room: float, writer: Writer, gained: float = 0.0) -> Filled
     return _fill_with_what_matters(said, room + gained, writer, filled.left.names)
 
 
-def lay_out_details(left: Iterable[Said], writer: Writer) -> tuple[str, tuple[Block, ...]]:
-    """Return title and blocks of the page of what sheets do not hold; what several lack stands there once."""
+def lay_out_details(left: Iterable[Said], writer: Writer, page: float) -> tuple[str, tuple[Block, ...]]:
+    """Return title and blocks of the page of what sheets do not hold; what several lack stands there once.
+
+    What is too long for a page of so many points stands there in small type.
+    """
     lacking = tuple(left)
     groups: dict[str, dict[Pair, None]] = {"": dict.fromkeys(pair for each in lacking for pair in each.who)}
     for each in lacking:
         for group in each.conditions:
             groups.setdefault(group.heading, {}).update(dict.fromkeys(group.pairs))
-    blocks: tuple[Block, ...] = (
-        *(notice for each in lacking for notice in each.notices),
-        *(Facts(tuple(pairs), heading) for heading, pairs in groups.items() if pairs),
-        *(paragraph for each in lacking for paragraph in each.law),
-        *(block for each in lacking for block in each.corrections),
-    )
-    return writer.say(_DETAILS), tuple(dict.fromkeys(blocks))
+    facts = [Facts(tuple(pairs), heading) for heading, pairs in groups.items() if pairs]
+    law = [paragraph for each in lacking for paragraph in each.law]
+    small_facts = [block for each in facts for block in _set_fine(_write_in_running_text([each]))]
+    small_law = [replace(each, fine=True) for each in law]
+    title = writer.say(_DETAILS)
+    ways: list[tuple[Block, ...]] = [
+        (
+            *(notice for each in lacking for notice in each.notices),
+            *stated,
+            *sentences,
+            *(block for each in lacking for block in each.corrections),
+        )
+        for stated, sentences in ((facts, law), (facts, small_law), (small_facts, small_law))
+    ]
+    once = [tuple(dict.fromkeys(blocks)) for blocks in ways]
+    room = page - columns.estimate_heading_height(title)
+    return title, next((blocks for blocks in once if columns.estimate_height(blocks) <= room), once[-1])
 
 
 def _fill_with_all(said: Said, room: float, writer: Writer) -> Filled | None:
@@ -243,7 +256,9 @@ def _box_notices(notices: tuple[Notice, ...], writer: Writer) -> tuple[Notice, .
     """Return several notices as one: frames take room."""
     if len(notices) < 2:
         return notices
-    return (Notice(writer.say(_TO_BE_NOTED), tuple(_write_as_item(each, writer) for each in notices)),)
+    symbols = tuple(dict.fromkeys(symbol for each in notices for symbol in each.symbols))
+    items = tuple(_write_as_item(each, writer) for each in notices)
+    return (Notice(writer.say(_TO_BE_NOTED), items, symbols=symbols),)
 
 
 def _write_as_item(notice: Notice, writer: Writer) -> str:

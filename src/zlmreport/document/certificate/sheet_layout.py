@@ -56,7 +56,7 @@ _GRAPH_OF_A_LINE = 46.0
 _GAINED = columns.END_MARK - 9.0
 #: For a line on what is to be noted, one on what stands elsewhere, and customer and machine in small type, in
 #: points.
-_LEAST_ROOM = 63.0
+_LEAST_ROOM = 57.0
 #: What a graph leaves that grows beyond its usual height, points: how high all else is, is an estimate.
 _SPARE = 6.0
 #: Of its caption and of the space around it, mm.
@@ -109,7 +109,7 @@ def lay_out(of: Material) -> LaidOut:
     }
     left = [each.left for each in (*sheets, *before.values())]
     first, *others = _lay_out_beside_as_found(of, [each.section for each in sheets], before, whole)
-    title, lacking = lay_out_details(left, of.writer)
+    title, lacking = lay_out_details(left, of.writer, whole)
     last_pages = (
         *([Section("details", title, lacking)] if lacking else []),
         *statements.lay_out_opinions(keys, of.writer),
@@ -239,7 +239,7 @@ def _gather_said(of: Material, page: _Page) -> Said:
     notices = (
         *statements.make_amendment_notice(job.keys.certificate, writer),
         *(each for each in said if isinstance(each, Notice)),
-        *cover.list_unlikely(of, writer),
+        *cover.list_unlikely(of, writer, evaluations),
         *list_missing_readings(evaluations[0].measurements, writer),
         *measured_lines.list_notices(of.tests, writer),
         *statements.list_notices(job.keys, writer, names_all=True),

@@ -320,7 +320,7 @@ def _list_shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Itera
         if items := results.list_unmet(each, writer):
             found.setdefault(items, []).append(each.designation)
     for items, names in found.items():
-        yield results.make_shortfall(", ".join(names), items, writer)
+        yield results.make_shortfall(", ".join(names), items, evaluations, writer)
 
 
 def lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import repeat
 
 from markupsafe import Markup
 
@@ -37,6 +38,7 @@ from zlmreport.document.typesetting.templates import (
     GraphContext,
     LetterheadContext,
     LinkedContext,
+    NoticeContext,
     ParagraphContext,
     RowGroupContext,
     SectionContext,
@@ -144,10 +146,9 @@ def _make_context(numbered: NumberedBlock, certificate: Certificate, setting: Se
     label = numbered.label
     match numbered.block:
         case Table() as table:
-            page = certificate.page_words.page
-            return _make_table_context(table, label, page, is_for_screens=setting.is_for_screens)
+            return _make_table_context(table, label, certificate, is_for_screens=setting.is_for_screens)
         case Formulas() as formulas:
-            return _make_formulas_context(formulas, label)
+            return _make_formulas_context(formulas, label, certificate)
         case Graph(figure):
             number = numbered.number - 1
             return GraphContext(
@@ -162,8 +163,10 @@ def _make_context(numbered: NumberedBlock, certificate: Certificate, setting: Se
             return ParagraphContext(
                 set_text_with_symbols(text, symbols), fine, shape, verdict.word if verdict else ""
             )
-        case Notice() as block:
-            return block
+        case Notice(heading, items, is_quoted, symbols):
+            return NoticeContext(
+                heading, tuple(set_text_with_symbols(each, symbols) for each in items), is_quoted
+            )
         case facts:
             return FactsContext(columns.balance_facts(facts))
 
@@ -176,8 +179,10 @@ def _name_shape(verdict: Verdict) -> str:
 _ALIGNMENT = {Align.LEFT: "", Align.RIGHT: "right", Align.CENTRE: "centre"}
 
 
-def _make_table_context(table: Table, label: str, page: str, *, is_for_screens: bool) -> TableContext:
-    layout = columns.lay_out_table(table)
+def _make_table_context(
+    table: Table, label: str, certificate: Certificate, *, is_for_screens: bool
+) -> TableContext:
+    layout = columns.lay_out_table(table, is_compact=certificate.is_compact)
     styles = tuple(
         "apart" if apart else _ALIGNMENT[column.align]
         for column, apart in zip(table.columns, layout.apart, strict=True)
@@ -201,16 +206,19 @@ def _make_table_context(table: Table, label: str, page: str, *, is_for_screens: 
                 heading=group.heading,
                 note=group.note,
                 section=group.section,
-                rows=tuple(tuple(map(_make_cell_context, row, styles, next(padding))) for row in group.rows),
+                rows=tuple(
+                    tuple(map(_make_cell_context, row, styles, next(padding), repeat(table.symbols)))
+                    for row in group.rows
+                ),
             )
             for group in table.groups
         ),
-        page=page,
+        page=certificate.page_words.page,
     )
 
 
-def _make_formulas_context(formulas: Formulas, label: str) -> FormulasContext:
-    layout = columns.lay_out_table(formulas)
+def _make_formulas_context(formulas: Formulas, label: str, certificate: Certificate) -> FormulasContext:
+    layout = columns.lay_out_table(formulas, is_compact=certificate.is_compact)
     return FormulasContext(
         label=label,
         caption=formulas.caption,
@@ -237,8 +245,10 @@ def _write_per_cent(widths: Iterable[float]) -> tuple[str, ...]:
     return tuple(f"{width:.2f}" for width in widths)
 
 
-def _make_cell_context(cell: Cell, style: str, padding: str) -> CellContext:
+def _make_cell_context(cell: Cell, style: str, padding: str, symbols: tuple[str, ...]) -> CellContext:
     if isinstance(cell, Verdict):
         return CellContext(cell.word, f"verdict {_name_shape(cell)} {style}".strip())
+    if isinstance(cell, str) and symbols:
+        return CellContext(set_text_with_symbols(cell, symbols), f"{style} {padding}".strip())
     note = cell.meaning if isinstance(cell, Explained) else ""
     return CellContext(write_cell_text(cell, set_symbol), f"{style} {padding}".strip(), note=note)

@@ -24,7 +24,7 @@ from jinja2 import (
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from markupsafe import Markup
 
-from zlmreport.document.blocks import Facts, Notice, Symbol, split_at_symbols
+from zlmreport.document.blocks import Facts, Symbol, split_at_symbols
 from zlmreport.document.certificate.document import Certificate, Letterhead
 from zlmreport.document.typesetting.overview import (
     OverviewContext,
@@ -120,6 +120,16 @@ class ParagraphContext:
 
 
 @dataclass(frozen=True, slots=True)
+class NoticeContext:
+    """A statement that nobody may overlook, or words of somebody else."""
+
+    template: ClassVar[str] = "notice.html"
+    heading: str
+    items: tuple[Markup, ...]
+    is_quoted: bool
+
+
+@dataclass(frozen=True, slots=True)
 class GraphContext:
     """A graph with its caption."""
 
@@ -204,7 +214,7 @@ Context: TypeAlias = (
     | FormulasContext
     | FactsContext
     | ParagraphContext
-    | Notice
+    | NoticeContext
     | GraphContext
     | LinkedContext
     | SymbolContext
@@ -219,13 +229,9 @@ Context: TypeAlias = (
 )
 
 
-#: Blocks of a document that stand in their templates as they are.
-_OF_BLOCKS: dict[type, str] = {Notice: "notice.html"}
-
-
 def name_template_of(context: type[Context]) -> str:
     """Return the name of the template that belongs to a kind of context."""
-    return _OF_BLOCKS.get(context) or str(vars(context)["template"])
+    return str(vars(context)["template"])
 
 
 #: Characters that XML 1.0 has no place for, not even escaped.

@@ -33,6 +33,11 @@ class AskedLength:
     effects: tuple[str, ...]  #: Identifiers of the effects that can be tried once it is stated.
 
 
+def length_called(key: str) -> Words | None:
+    """Return what people call a length of the job's `axis`; None if it is none that is asked for."""
+    return _LENGTHS[key][0] if key in _LENGTHS else None
+
+
 def list_lengths_asked(
     design: Design, present: Sequence[str], effects: Sequence[Effect]
 ) -> tuple[AskedLength, ...]:

@@ -1,0 +1,108 @@
+"""What an operator reads: each event has its sentence, in every language."""
+
+from __future__ import annotations
+
+import pytest
+
+from zlmreport.language import Language
+from zlmreport.live.capture.events import (
+    BeamHeld,
+    Closed,
+    DatumHolds,
+    DatumMoved,
+    DatumTaken,
+    Elsewhere,
+    Event,
+    Frozen,
+    Mean,
+    Missed,
+    MovedBeforeDatum,
+    NotChecked,
+    NotNext,
+    Passed,
+    Placed,
+    Presumed,
+    Recorded,
+    Repeated,
+    Retake,
+    ScaleChanged,
+    Skipped,
+    TooSlow,
+    TrackLost,
+    Unclear,
+    WrongDirection,
+    ZeroLost,
+)
+from zlmreport.live.capture.told import AxisWriter, say_halted, tell_event
+from zlmreport.live.capture.visits import ListedVisit
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.axis import Axis, AxisKind
+
+AXIS = Axis("X", AxisKind.LINEAR, 0.0, 0.1)
+UP, DOWN = Approach.POSITIVE, Approach.NEGATIVE
+FIRST, SECOND = (ListedVisit(number, number, 0.02 * number, UP, 1, 1, 0.0) for number in (1, 2))
+MEAN = Mean(0.02, 2e-7, 20, 0, 1.0, 1.0, {})
+
+LINES: tuple[Event, ...] = (
+    DatumTaken(0.0, MEAN),
+    DatumHolds(FIRST, 1e-6),
+    Closed(1e-6, holds=True),
+    Closed(1e-3, holds=False),
+    NotChecked(1, UP),
+    Recorded(FIRST, 1, 0.020001, MEAN),
+    Passed(FIRST, 0.3),
+    Passed(FIRST, 0.3, 1e-6),
+    Missed(FIRST, 1),
+    Repeated(FIRST),
+    WrongDirection(FIRST, None),
+    WrongDirection(FIRST, DOWN),
+    NotNext(1, DOWN, SECOND),
+    TrackLost(2.0),
+    BeamHeld("", 1.0),
+    Frozen(60.0),
+    Elsewhere(0.031),
+    *(Elsewhere(0.031, factor) for factor in (-1.0, 25.4, 1 / 25.4, 1000.0, 2.0)),
+    Unclear(1, UP, ((FIRST, 0.7), (None, 0.3)), 0.021, MEAN),
+    Unclear(1, UP, ((FIRST, 1.0),), 0.021, MEAN, 0.02),
+    Presumed(FIRST, 0.99),
+    Placed(FIRST),
+    Placed(None),
+    Retake(FIRST, FIRST),
+    Retake(FIRST, SECOND),
+    Skipped(FIRST),
+)
+HALTED: tuple[Event | None, ...] = (
+    MovedBeforeDatum(0.0),
+    DatumMoved(FIRST, 1e-3, (FIRST, SECOND)),
+    ZeroLost("", (SECOND,)),
+    *(ScaleChanged(factor, visit) for factor in (25.4, 1 / 25.4, 2.0) for visit in (None, FIRST)),
+    TooSlow(2.0, 0.5),
+    Unclear(1, UP, ((FIRST, 0.7), (None, 0.3)), 0.021, MEAN),
+    Unclear(1, UP, ((FIRST, 1.0),), 0.021, MEAN, 0.02),
+    None,
+)
+OTHERS = [each for each in Language if each is not Language.ENGLISH]
+
+
+@pytest.mark.parametrize("language", OTHERS)
+@pytest.mark.parametrize("event", LINES, ids=repr)
+def test_a_line_is_in_the_language_that_is_asked_for(event: Event, language: Language) -> None:
+    english, other = (tell_event(event, 4, AxisWriter(AXIS, each)) for each in (Language.ENGLISH, language))
+    assert english is not None
+    assert other is not None
+    assert other.text != english.text
+
+
+@pytest.mark.parametrize("language", OTHERS)
+@pytest.mark.parametrize("event", HALTED, ids=repr)
+def test_why_nothing_more_is_taken_is_in_the_language_that_is_asked_for(
+    event: Event | None, language: Language
+) -> None:
+    english, other = (say_halted(event, AxisWriter(AXIS, each)) for each in (Language.ENGLISH, language))
+    assert other != english
+
+
+def test_a_terminal_reads_a_visit_with_its_numbers_in_columns() -> None:
+    line = tell_event(Recorded(FIRST, 1, 0.020001, MEAN), 4, AxisWriter(AXIS))
+    assert line is not None
+    assert (line.name, line.text) == ("1/4", "run 1 ↑    20.000 mm      +1.00 µm  range 0.20 µm")
