@@ -34,6 +34,8 @@ OTHERS = {
     "worlds": ("coverage_of_worlds", "main"),
     "circles": ("circle_coverage", "main"),
     "machines": ("machines_hidden", "main"),
+    "machine-bands": ("machine_bands", "main"),
+    "machine-circles": ("circles_on_linuxcnc", "main"),
     "closed-loops": ("closed_loops", "main"),
     "step-gauge": ("step_gauge_coverage", "main"),
     "kills": ("kills", "main"),
@@ -68,6 +70,7 @@ def _parser() -> argparse.ArgumentParser:
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
         epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, circles, machines, "
+        "machine-bands, machine-circles, "
         "step-gauge, kills have options of their own: see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))

@@ -26,6 +26,7 @@ from zlmreport.plugin.registry import find_plugins
 
 sys.path.append(str(Path(__file__).parents[1] / "tests"))
 sys.path.append(str(Path(__file__).parent))
+import circles_on_linuxcnc
 import on_linuxcnc
 from live.capture.virtual import PORT, World, inhabited
 
@@ -147,19 +148,24 @@ def _on_linuxcnc() -> int:
     with TemporaryDirectory() as name:
         try:
             found = on_linuxcnc.closed(Path(name), PORT, _run, _capture)
+            for key, value in found.items():
+                print(f"{key:20}{value:8.2f} µm" if isinstance(value, float) else f"{key:20}{value}")
+            faults, folder = circles_on_linuxcnc.Faults(), Path(name) / "plane"
+            seen = circles_on_linuxcnc.record(folder, faults)
         except on_linuxcnc.DoesNotRunError as error:
             print(f"skipped: LinuxCNC does not run here:\n{error}")
             return 0
-    for key, value in found.items():
-        print(f"{key:20}{value:8.2f} µm" if isinstance(value, float) else f"{key:20}{value}")
-    return 0 if on_linuxcnc.is_as_it_should_be(found) else 1
+        circles = circles_on_linuxcnc.of_one_machine(folder, seen, faults, seed=1)
+    print(*circles_on_linuxcnc.lines_of(circles), sep="\n")
+    is_right = on_linuxcnc.is_as_it_should_be(found) and circles_on_linuxcnc.is_as_it_should_be(circles)
+    return 0 if is_right else 1
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Close the loop, and say what came of it."""
     parser = argparse.ArgumentParser(prog="./run closed-loop", description=__doc__)
     parser.add_argument("--record", type=Path, metavar="DIR", help="leave journals and table in a folder")
-    parser.add_argument("--on-linuxcnc", action="store_true", help="then on the real control, too: 6 minutes")
+    parser.add_argument("--on-linuxcnc", action="store_true", help="then on the real control, too: 8 minutes")
     options = parser.parse_args(arguments)
     record = options.record
     with TemporaryDirectory() as name:

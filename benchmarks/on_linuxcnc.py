@@ -69,10 +69,21 @@ def moved(folder: Path, program: str, table: Path | None = None, kind: int = 0) 
         If it does not come to its end, with what it said.
     """
     shutil.copytree(_MACHINE, folder)
-    ini = folder / "machine.ini"
     if table is not None:
         shutil.copy(table, folder / "table.comp")
+        ini = folder / "machine.ini"
         ini.write_text(ini.read_text(encoding="ascii") + _TABLE.format(kind=kind), encoding="ascii")
+    return ScrewDriven.behind(carried_out(folder, program))
+
+
+def carried_out(folder: Path, program: str) -> Path:
+    """Let the LinuxCNC of a folder carry out a program, and return what was written down of its motors.
+
+    Raises
+    ------
+    DoesNotRunError
+        If it does not come to its end, with what it said.
+    """
     (folder / "program.ngc").write_text(program, encoding="ascii")
     for name in ("machine.tbl", "machine.var"):
         (folder / name).touch()
@@ -88,7 +99,7 @@ def moved(folder: Path, program: str, table: Path | None = None, kind: int = 0) 
     motor = folder / "motor.txt"
     if not motor.exists() or not motor.stat().st_size:
         raise DoesNotRunError(f"{done.stdout}{done.stderr}")
-    return ScrewDriven.behind(motor)
+    return motor
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Stands in for LinuxCNC's screen: lets program.ngc run, and writes down where the motor is told to be.
+"""Stands in for LinuxCNC's screen: lets program.ngc run, and writes down where each motor is.
 
-LinuxCNC starts it under the system's Python, which has its modules. The motor is looked at in each cycle of
-the control, so that a busy computer shows in no reading: motor.txt has a position a millisecond, mm.
+LinuxCNC starts it under the system's Python, which has its modules. Motors are looked at in each cycle of
+the control, so that a busy computer shows in no reading: motor.txt has a line a millisecond with the position
+of each, mm.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ def main() -> None:
     for state in (linuxcnc.STATE_ESTOP_RESET, linuxcnc.STATE_ON):
         command.state(state)
         command.wait_complete()
-    command.home(0)
-    until(lambda: status.homed[0])
+    command.home(-1)
+    until(lambda: all(status.homed[: status.joints]))
     command.mode(linuxcnc.MODE_AUTO)
     command.wait_complete()
     command.program_open("program.ngc")

@@ -2,16 +2,28 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
+import numpy as np
 import pytest
 
-from machines_hidden import Case, run
+from machines_hidden import Case, run, simulated
 
 
 def test_a_hidden_lag_is_named_and_measured_within_its_uncertainty() -> None:
     found = run(Case("both senses", "servo-mismatch", 2.0, seed=0))
     assert (found.outcome, found.named) == ("right", ["servo-mismatch"])
-    assert found.miss is not None
-    assert abs(found.miss) < 2.0
+    assert abs(found.misses["T_X-T_Y"]) < 2.0
+
+
+def test_no_two_cases_share_their_noise() -> None:
+    circles = [
+        simulated(Case("both senses", "squareness", rho, seed))[0].deviation
+        for rho, seed in ((1.0, 0), (1.0, 1), (2.0, 0))
+    ]
+    assert all(
+        abs(np.corrcoef(np.diff(one), np.diff(other))[0, 1]) < 0.5 for one, other in combinations(circles, 2)
+    )
 
 
 @pytest.mark.parametrize(

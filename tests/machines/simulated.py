@@ -44,9 +44,9 @@ def circle(move, seed=0, **how):
     """A circle of which `move` says how far the tool is off in both axes, m.
 
     `move` gets the coordinates about the centre, the velocities of both axes, and the sense. `how`: radius
-    (m), feed (m/s), plane, noise (RMS, m), name, and what `turns` takes."""
+    (m), feed (m/s), plane, noise (RMS, m), scatter (its kind), name, and what `turns` takes."""
     radius, feed, plane = how.pop("radius", 0.15), how.pop("feed", 1 / 60), how.pop("plane", "XY")
-    noise, name = how.pop("noise", 0.5e-6), how.pop("name", "circle")
+    noise, name, scatter = how.pop("noise", 0.5e-6), how.pop("name", "circle"), how.pop("scatter", Scatter())
     angle, sense, run = turns(**how)
     path = Path(
         radius * np.cos(angle), radius * np.sin(angle),
@@ -56,7 +56,7 @@ def circle(move, seed=0, **how):
     random = np.random.default_rng(seed)
     deviation = off_u * np.cos(angle) + off_v * np.sin(angle)
     deviation = deviation + 3e-6 * np.cos(angle) - 2e-6 * np.sin(angle) + 4e-6
-    deviation = deviation + noise * healthy_noise(angle, sense, run, random)
+    deviation = deviation + noise * healthy_noise(angle, sense, run, random, scatter)
     step = np.abs(angle[1] - angle[0]) * radius / feed
     nominal = NominalCircle(plane, radius, feed, CENTRES[plane])
     return CircularTest(name, nominal, angle, sense, run, deviation, step * np.arange(len(angle)))
@@ -73,26 +73,36 @@ class Path(NamedTuple):
     sense: np.ndarray
 
 
-def healthy_noise(angle, sense, run, random):
-    """RMS 1: white 0.80, along the path 0.50 (6°), irregular geometry 0.33 (10°), as in the prototype."""
-    found = 0.8 * random.standard_normal(len(angle))
+class Scatter(NamedTuple):
+    """Root mean squares of what scatters, and its correlation lengths in degrees: as in the prototype."""
+
+    white: float = 0.80
+    path: float = 0.50
+    geometry: float = 0.33
+    path_length: float = 6.0
+    geometry_length: float = 10.0
+
+
+def healthy_noise(angle, sense, run, random, scatter):
+    """White noise, noise along the path, and irregular geometry that is alike in all turns."""
+    found = scatter.white * random.standard_normal(len(angle))
     for way in np.unique(sense):
         for number in np.unique(run):
             own = np.flatnonzero((sense == way) & (run == number))
             if len(own):
                 step = float(np.abs(np.diff(angle[own])).mean())
-                keep = np.exp(-step / np.radians(6.0))
+                keep = np.exp(-step / np.radians(scatter.path_length))
                 path = np.empty(len(own))
                 path[0] = random.standard_normal()
                 for index in range(1, len(own)):
                     path[index] = keep * path[index - 1] + np.sqrt(1 - keep**2) * random.standard_normal()
-                found[own] += 0.5 * path
+                found[own] += scatter.path * path
     orders = np.arange(1, 60)
-    size = np.exp(-0.25 * (orders * np.radians(10.0)) ** 2)
+    size = np.exp(-0.25 * (orders * np.radians(scatter.geometry_length)) ** 2)
     size /= np.sqrt(np.sum(size**2))
     a, b = random.standard_normal((2, len(orders)))
     waves = np.outer(angle, orders)
-    return found + 0.33 * (np.cos(waves) @ (size * a) + np.sin(waves) @ (size * b))
+    return found + scatter.geometry * (np.cos(waves) @ (size * a) + np.sin(waves) @ (size * b))
 
 
 def nothing(path):

@@ -136,3 +136,46 @@ def test_the_notebook_says_the_same(folder):
     assert built.machine.effects == ("centre-offset", "radius", "servo-mismatch")
     with pytest.raises(z.InputError, match="did you mean"):
         machine.add("servo-missmatch")
+
+
+def test_where_the_bar_stands_belongs_into_every_model(folder, capsys):
+    """A file without a model finds the same: neither centre nor length of the bar hides what is missing."""
+    path = folder / "machine.yaml"
+    stated = _diagnosis(path, capsys)
+    text = path.read_text("utf-8")
+    path.write_text(text[: text.index("model:")], "utf-8")
+    found = _diagnosis(path, capsys)
+    assert found["set"] == stated["set"] == ["servo-mismatch"]
+    assert found["model"]["effects"] == ["centre-offset", "radius"]
+    assert main(["machine", "add", str(path), "servo-mismatch"]) == 0
+    assert main(["machine", "remove", str(path), "radius"]) == 2
+    assert "radius belongs into every model" in capsys.readouterr().err
+
+
+def _diagnosis(path, capsys):
+    assert main(["machine", "diagnose", str(path), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_files_that_are_not_there_are_told_with_all_other_mistakes(folder, capsys):
+    path = folder / "machine.yaml"
+    path.write_text(
+        "schema: zlmreport/machine/1\nchain: XYZW\n"
+        "errors: [gone.yaml, {COY: 1, expanded_uncertainty: 1}]\ntests: [lost.yaml]\n",
+        "utf-8",
+    )
+    assert main(["machine", "check", str(path)]) == 2
+    said = capsys.readouterr().err
+    assert "machine.yaml:2:8: chain: 'XYZW'" in said
+    assert "machine.yaml:3:10: " in said
+    assert "gone.yaml: cannot be read" in said
+    assert "'COY' is none of the 21 errors; with a zero it is C0Y" in said
+    assert "machine.yaml:4:9: " in said
+    assert "lost.yaml: cannot be read" in said
+
+
+def test_what_lies_beyond_its_uncertainty_is_not_said_to_be_absent(folder, capsys):
+    beside = _diagnosis(folder / "machine.yaml", capsys)["beside"]
+    parameters = [each for effect in beside for each in effect["parameters"]]
+    assert parameters
+    assert all(abs(each["value"]) <= each["expanded_uncertainty"] for each in parameters)

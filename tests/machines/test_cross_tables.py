@@ -1,14 +1,17 @@
 """Tables across axes: what was entered goes, no sign is guessed, what a control cannot take is said."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from machines.simulated import bare_machine
+import zlmreport as z
+from machines.simulated import added, bare_machine, circle, lagging, out_of_square as turned
 from zlmreport.cli import main
 from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import Course
+from zlmreport.machines.cross_confirmation import CrossVerdict, confirm_circles
 from zlmreport.machines.cross_tables import compensate_machine, plan_tables
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import ErrorLine
@@ -150,3 +153,67 @@ def test_what_a_control_cannot_take_is_said_by_its_name(folder, capsys, control,
 def test_a_key_of_compensate_belongs_to_no_other_action(folder, capsys):
     assert main(["machine", "predict", str(folder / "machine.yaml"), "--moves", "plus"]) == 2
     assert "--moves belongs to compensate, not to predict" in capsys.readouterr().err
+
+
+LAG = lagging(0.0, 0.5e-3)
+
+
+@pytest.mark.parametrize(
+    ("left", "verdict"),
+    [
+        (0.0, CrossVerdict.HELD),
+        (80e-6, CrossVerdict.WRONG_SIGN),
+        (40e-6, CrossVerdict.NOT_IN_EFFECT),
+        (20e-6, CrossVerdict.HALF),
+        (130e-6, CrossVerdict.OTHER),
+    ],
+)
+def test_circles_run_again_tell_what_became_of_the_tables(left, verdict):
+    """The drive's lag, the centre and the bar are what they are: they belong to no table."""
+    machine = bare_machine([square("C0Y", 40e-6), *(curve(f"E{each}{each}", 0 * BOW) for each in "XY")])
+    tables = plan_tables(machine, PLACE).tables
+    before = circle(added(turned(40e-6), LAG), seed=1)
+    after = circle(added(turned(left), LAG), seed=2)
+    after = replace(after, deviation=after.deviation + 20e-6 * np.cos(after.angle) + 7e-6)
+    found = confirm_circles(machine, tables, [before], [after], PLACE)
+    assert found.verdict is verdict
+    assert found.applied == pytest.approx(1 - left / 40e-6, abs=found.expanded_uncertainty)
+
+
+def test_a_circle_that_does_not_see_the_tables_decides_nothing():
+    machine = bare_machine([square("C0Y", 40e-6), *(curve(f"E{each}{each}", 0 * BOW) for each in "XYZ")])
+    tables = plan_tables(machine, PLACE).tables
+    before, after = (circle(LAG, seed=seed, plane="ZX") for seed in (1, 2))
+    found = confirm_circles(machine, tables, [before], [after], PLACE)
+    assert found.verdict is CrossVerdict.NOT_SEEN
+
+
+def test_a_circle_on_another_path_is_refused():
+    machine = bare_machine([square("C0Y", 40e-6), *(curve(f"E{each}{each}", 0 * BOW) for each in "XY")])
+    tables = plan_tables(machine, PLACE).tables
+    with pytest.raises(InputError, match="was run on no path of a circle before"):
+        confirm_circles(machine, tables, [circle(LAG)], [circle(LAG, radius=0.1)], PLACE)
+
+
+def test_the_command_confirms_a_circle_and_its_exit_code_says_so(folder, capsys):
+    command = [
+        "machine", "compensate", folder / "machine.yaml", "--controller", "siemens-840d-cec", "--moves",
+        "minus", "--confirm", folder / "circle-xy.yaml",
+    ]  # fmt: skip
+    assert main([*map(str, command), "--json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert (found["schema"], found["verdict"]) == ("zlmreport/machine-confirmation/1", "not-in-effect")
+    assert main(list(map(str, command))) == 1
+    assert "Were they loaded and switched on?" in " ".join(capsys.readouterr().out.split())
+
+
+def test_tables_are_made_saved_and_confirmed_in_python(folder, tmp_path):
+    machine = z.machine(folder / "machine.yaml")
+    with pytest.raises(InputError, match='state moves="plus" or moves="minus"'):
+        machine.compensate("siemens-840d-cec")
+    tables = machine.compensate("siemens-840d-cec", moves="minus")
+    before, after = tables.forecast["largest"]
+    assert after < before
+    assert tables.save(tmp_path / "out") == tmp_path / "out"
+    assert [each.name for each in (tmp_path / "out").iterdir()] == list(tables.files)
+    assert tables.confirm(folder / "circle-xy.yaml")["verdict"] == "not-in-effect"

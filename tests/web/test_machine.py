@@ -96,7 +96,7 @@ def test_the_numbers_say_what_of_the_axes_makes_what(page: TestClient) -> None:
     assert (kinds[0], kinds[-1], "notice" in kinds) == ("table", "graph", False)
     said = [each["text"] for each in found["tests"]["circle-xy"] if each["kind"] == "paragraph"]
     assert said[0].startswith("Of the prediction, root mean square: EYY ")
-    assert [each["key"] for each in found["sections"]] == ["work-space", "errors"]
+    assert [each["key"] for each in found["sections"]] == ["work-space", "cross-tables", "errors"]
 
 
 def test_a_step_is_seen_before_it_is_taken(page: TestClient) -> None:

@@ -52,6 +52,7 @@ class Radius(CircleEffect):
     explains = Words("the bar is not as long as stated, or machine and bar differ in temperature")
     law = Law(Parity.EVEN, radius=None)
     is_base = True
+    is_length_of_bar = True
 
     def terms(self, design: CircleDesign, _: Searched) -> list[CircleTerm]:
         """Return r₀ of each radius."""

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.machine_compensate import compensate
+from zlmreport.cli.machine_compensate import compensate, exit_code
 from zlmreport.cli.terminal import Colour, print_json, show_path
 from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import Place
@@ -43,7 +43,7 @@ def run(options: Namespace) -> int:
         print_json(values)
     else:
         print(*lines, sep="\n")
-    return 0
+    return exit_code(values)
 
 
 def _lay_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:
@@ -136,9 +136,12 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
 
 
 def _compensate(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:
+    """Write tables across axes with their forecast, or hold circles that were run with them against it."""
     sections, files, values = compensate(machine, registry, options)
     further = [f"written: {', '.join(files)}"] if files else ["--output DIR writes it"]
-    return _lay_out(machine, sections, "", *further), values
+    if not options.trial:
+        further.append("next: load it, run the circles again, then the same with --confirm CIRCLE.yaml")
+    return _lay_out(machine, sections, *([] if options.confirm else ["", *further])), values
 
 
 def _add(machine: MachineFile, registry: Registry, options: Namespace) -> tuple[Iterable[str], Any]:

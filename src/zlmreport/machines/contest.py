@@ -27,7 +27,7 @@ from zlmreport.model.effects.circle_design import AXES
 from zlmreport.model.effects.circle_effect import CircleEffect
 
 #: Root mean squares that an effect may have, in units of σ.
-_SIZES = np.array([0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 12.8, 25.6, 100.0])
+SIZES = np.array([0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 12.8, 25.6, 100.0])
 #: Simulated tests.
 TRIALS = 200
 #: Of a column's length that the base model must leave, for the column to be seen.
@@ -202,7 +202,7 @@ class _Arena:
         if not len(strengths):
             return np.zeros(len(self._squares))
         explained = np.sum(products**2 / strengths[:, np.newaxis], axis=0) / self._squares
-        worth = _SIZES**2 * float(strengths.mean())
+        worth = SIZES**2 * float(strengths.mean())
         share = worth / (1.0 + worth)
         inside = 1.0 - np.minimum(explained, 1.0 - _LEAST) * share[:, np.newaxis]
         logs = -0.5 * len(strengths) * np.log1p(worth)[:, np.newaxis] - 0.5 * self._freedom * np.log(inside)
@@ -213,7 +213,7 @@ class _Arena:
         own = self._whitened.of(columns)
         strengths, products = _make_independent(own, self._whitened.taken.T @ own, own.T @ self._left)
         logs = []
-        for size in _SIZES:
+        for size in SIZES:
             shrunk = size**2 / (1.0 + size**2 * strengths)
             explained = np.sum(products**2 * shrunk[:, np.newaxis], axis=0) / self._squares
             inside = 1.0 - np.minimum(explained, 1.0 - _LEAST)

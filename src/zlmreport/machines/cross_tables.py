@@ -67,6 +67,14 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
     return CrossPlan(tuple(tables), tuple(taken), tuple(sorted(small)))
 
 
+def worthwhile(machine: Machine) -> CrossPlan | None:
+    """Return the tables of a machine; None if no error is known that is worth one."""
+    try:
+        return plan_tables(machine, Place("machine"))
+    except InputError:
+        return None
+
+
 def _is_acting_across(error: str, moving: str, off: str) -> bool:
     """Return whether an error puts one axis aside while the other moves."""
     if error in SQUARENESS:

@@ -10,9 +10,17 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.machines.choosing import add_effect, add_form, refine_form
-from zlmreport.machines.contest import CircleContest, Contender, Held, contest, make_nameless_curves
+from zlmreport.machines.contest import (
+    SIZES,
+    CircleContest,
+    Contender,
+    Held,
+    Nameless,
+    contest,
+    make_nameless_curves,
+)
 from zlmreport.machines.forms import CircleForm, list_forms_of, make_whole_form, split_parts_of
-from zlmreport.machines.noise import Whitened
+from zlmreport.machines.noise import NoiseModel, Whitened, found_anew
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Verdict
@@ -95,11 +103,12 @@ class _Stage:
     shown: tuple[CircleCandidate, ...]
     hidden: tuple[str, ...]
     gathered: float  #: Evidence of all effects that came in, less what each further one must bring.
+    curve: float  #: Evidence of the best curve without a name; 0 where nothing is left.
 
     @property
     def is_something_left(self) -> bool:
         """Whether something is left that chance does not explain."""
-        return self.outcome.p_value.value <= LEVEL
+        return _is_left(self.outcome)
 
     @property
     def leader(self) -> CircleCandidate | None:
@@ -109,9 +118,8 @@ class _Stage:
     @property
     def worth(self) -> float:
         """Evidence of the model so far, with a curve without a name beside it where something is left."""
-        beside = max(self.outcome.shape_evidence, 0.0) if self.is_something_left else 0.0
-        price = FURTHER if self.gathered and beside else 0.0
-        return self.gathered + max(beside - price, 0.0)
+        price = FURTHER if self.gathered and self.curve else 0.0
+        return self.gathered + max(self.curve - price, 0.0)
 
 
 def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDiagnosis:
@@ -159,8 +167,10 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
     stages: list[_Stage] = []
     current, gathered = study, 0.0
     while True:
-        outcome, hidden = _hold_effects(current, catalogue, len(stages))
-        stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered)
+        curves = make_nameless_curves(current.design)
+        outcome, hidden = _hold_effects(current, catalogue, curves, len(stages))
+        beside = _evidence_of_curve(current, outcome, curves)
+        stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered, beside)
         stages.append(stage)
         leader = stage.leader
         needed = FURTHER + NAMED if len(stages) > 1 else NAMED
@@ -169,11 +179,32 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
         if len(stages) > _MOST_EFFECTS:
             return stages
         gathered += leader.evidence - (FURTHER if len(stages) > 1 else 0.0)
+        kept = current.noise.shapes
         current = add_effect(current, leader.effect, leader.form)
+        gathered += found_anew(current.model, current.deviation, kept)
+
+
+def _is_left(outcome: CircleContest) -> bool:
+    return outcome.p_value.value <= LEVEL
+
+
+def _evidence_of_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
+    """Return the evidence of the best curve without a name, its noise found anew; 0 where nothing is left."""
+    if outcome.shape_evidence <= 0 or not _is_left(outcome):
+        return 0.0
+    shapes, deviation = study.noise.shapes, study.deviation
+    models = [
+        NoiseModel(study.shared, study.base, np.column_stack([study.known, size * each.columns]))
+        for each in curves
+        if each.shape == outcome.shape
+        for size in SIZES
+    ]
+    likeliest = max(models, key=lambda each: each.log_likelihood(shapes[0], deviation)[0])
+    return outcome.shape_evidence + found_anew(likeliest, deviation, shapes)
 
 
 def _hold_effects(
-    study: CircleStudy, catalogue: Sequence[CircleEffect], seed: int
+    study: CircleStudy, catalogue: Sequence[CircleEffect], curves: Sequence[Nameless], seed: int
 ) -> tuple[CircleContest, list[str]]:
     """Hold all effects that are not in the model against what it leaves."""
     tried, unseen = [], []
@@ -187,7 +218,6 @@ def _hold_effects(
             tried.append((effect, forms))
         else:
             unseen.append(effect.identifier)
-    curves = make_nameless_curves(study.design)
     return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
 
 

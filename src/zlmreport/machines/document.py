@@ -35,6 +35,7 @@ from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space, say_known
+from zlmreport.machines.subjects.cross_tables import promised_section
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -106,7 +107,7 @@ def make_machine_document(
             paper=stated.paper,
             letterhead=make_letterhead(laboratory, logo),
             cover=cover,
-            sections=() if is_sheet else tuple(_lay_out_sections(material, say)),
+            sections=() if is_sheet else tuple(_lay_out_sections(material, registry, say)),
             page_words=PageWords.said(stated.language, f"{title} {machine.number}"),
             description=f"{title}: {name}",
             measurements=_make_empty_measurement(),
@@ -203,10 +204,13 @@ def _lay_out_first(material: _Material, say: Sayer) -> Iterator[Block]:
         yield tests.lay_out_sizes(material.by_axes, say)
 
 
-def _lay_out_sections(material: _Material, say: Sayer) -> Iterator[Section]:
+def _lay_out_sections(material: _Material, registry: Registry, say: Sayer) -> Iterator[Section]:
     machine, diagnosis = material.machine.machine, material.diagnosis
     yield lay_out_errors(machine, say, is_full=True)
     yield lay_out_space(machine, say)
+    promised = promised_section(material.machine, registry, say)
+    if promised:
+        yield promised
     if diagnosis:
         yield findings.lay_out_model(diagnosis.complete, say)
         candidates = findings.lay_out_candidates(diagnosis, say)

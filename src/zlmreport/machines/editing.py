@@ -20,7 +20,7 @@ from zlmreport.job.list_edits import (
 from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Scalar
 from zlmreport.machines.keys import MachineKeys
-from zlmreport.machines.reading import MachineFile
+from zlmreport.machines.reading import MachineFile, always_belongs
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
 
@@ -50,7 +50,14 @@ def list_effects_without(machine: MachineFile, name: str) -> tuple[CircleEffect,
             machine.file.place_of("model", "effects"),
             f"{quoted(name)} does not stand in the model; {did_you_mean(name, machine.effect_names)}",
         )
-    return tuple(each for each in machine.effects if each.identifier != name)
+    left = tuple(each for each in machine.effects if each.identifier != name)
+    if any(always_belongs(each, machine.circles) for each in machine.effects if each.identifier == name):
+        raise InputError.at(
+            machine.file.place_of("model", "effects"),
+            f"{name} belongs into every model: where a bar stands, and how long it is, are no errors of the "
+            "machine",
+        )
+    return left
 
 
 def put_back(machine: MachineFile, content: bytes) -> None:
@@ -62,12 +69,12 @@ def put_back(machine: MachineFile, content: bytes) -> None:
 
 
 def edit_effects(machine: MachineFile, effects: tuple[str, ...]) -> None:
-    """Write a list of effects into a machine file that has one effect more or less than before.
+    """Write a list of effects into a machine file.
 
     Raises `InputError` if the file has changed since it was read, or its list cannot be changed without
     changing more; `AccessError` if it cannot be written.
     """
-    path, before = machine.path, machine.effect_names
+    path, before = machine.path, machine.stated_effects
     content = demand(path, LARGEST)
     _refuse_changed(path, content, machine)
     text = decode(content, str(path))

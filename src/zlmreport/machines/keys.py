@@ -46,7 +46,12 @@ def _take_as_list(value: Any) -> Any:
 class ModelKeys(JobPart):
     """Effects of the drives and the structure, beside what the axes predict."""
 
-    effects: list[Text] = Field([], description="Names of effects.", examples=[["centre-offset", "radius"]])
+    effects: list[Text] = Field(
+        [],
+        description="Names of effects. Where the bar stands and, unless it is calibrated, how long it is "
+        "(centre-offset, radius) belong into every model, stated or not.",
+        examples=[["servo-mismatch"]],
+    )
 
 
 class DocumentKeys(JobPart):

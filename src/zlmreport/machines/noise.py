@@ -267,6 +267,17 @@ class NoiseFound:
         )
 
 
+def found_anew(model: NoiseModel, deviation: FloatArray, kept: Sequence[NoiseShape]) -> float:
+    """Return 2·ln of what a model gains if its noise may have any shape, and not only some.
+
+    Evidence is weighed under the noise that readings show without an effect. Where the effect is many times
+    the noise, they show another beside it.
+    """
+    logs = np.array([model.log_likelihood(shape, deviation)[0] for shape in SHAPES])
+    own = [index for index, shape in enumerate(SHAPES) if shape in kept]
+    return 2.0 * float(np.logaddexp.reduce(logs) - np.logaddexp.reduce(logs[own]))
+
+
 def find_noise(model: NoiseModel, deviation: FloatArray) -> NoiseFound:
     """Return the noise by restricted likelihood, over a grid of shapes; those are kept that count."""
     found = np.array([model.log_likelihood(shape, deviation) for shape in SHAPES])

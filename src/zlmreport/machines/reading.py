@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport import pipeline
-from zlmreport.errors import InputError, Place, Problem
+from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import demand
 from zlmreport.job.extends import MACHINE
 from zlmreport.job.loading import KeysFile, load, read_keys_file
@@ -45,7 +45,8 @@ class MachineFile:
     measured: tuple[MeasuredCircle, ...]  #: The circles, each with its job.
     lines: tuple[StraightTest, ...]
     sources: tuple[SourceFile, ...]
-    effects: tuple[CircleEffect, ...]  #: Of its model.
+    #: Of its model: those that it states, before them where each bar stands and how long it is.
+    effects: tuple[CircleEffect, ...]
     catalogue: tuple[CircleEffect, ...]  #: All that are installed.
 
     @property
@@ -54,9 +55,14 @@ class MachineFile:
         return tuple(each.circle for each in self.measured)
 
     @property
+    def stated_effects(self) -> tuple[str, ...]:
+        """The effects that the file states, by name."""
+        return tuple(self.file.keys.model.effects)
+
+    @property
     def effect_names(self) -> tuple[str, ...]:
         """The effects of its model, by name."""
-        return tuple(self.file.keys.model.effects)
+        return tuple(each.identifier for each in self.effects)
 
     def study(self, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
         """Return the study of its circles with the effects of its model, or with others.
@@ -106,6 +112,9 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
         except InputError as error:
             problems += error.problems
             continue
+        except AccessError as error:
+            problems.append(Problem(file.place_of("tests", index), str(error)))
+            continue
         sources += read
         if test.stem in names:
             problems.append(
@@ -128,9 +137,25 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
         list_missing_errors(curves, bounds),
     )
     return MachineFile(
-        path, file, machine, tuple(circles), tuple(lines), (file.file, *file.extended, *sources), effects,
+        path, file, machine, tuple(circles), tuple(lines), (file.file, *file.extended, *sources),
+        (*_of_every_bar(effects, [each.circle for each in circles], registry), *effects),
         registry.circle_effects,
     )  # fmt: skip
+
+
+def _of_every_bar(
+    stated: Sequence[CircleEffect], circles: Sequence[CircularTest], registry: Registry
+) -> Iterator[CircleEffect]:
+    """Yield the effects that belong into every model of circles, and are not stated."""
+    for each in registry.circle_effects:
+        if circles and each not in stated and always_belongs(each, circles):
+            yield each
+
+
+def always_belongs(effect: CircleEffect, circles: Sequence[CircularTest]) -> bool:
+    """Tell whether an effect belongs into every model of some circles, stated or not."""
+    is_calibrated = all(each.nominal.is_calibrated for each in circles)
+    return effect.is_base and not (effect.is_length_of_bar and is_calibrated)
 
 
 def _choose_effects(
@@ -176,6 +201,9 @@ def _read_curves(
                 curves, sources = [curve], sources + read
         except InputError as error:
             problems += error.problems
+            continue
+        except AccessError as error:
+            problems.append(Problem(place, str(error)))
             continue
         for each in curves:
             if each.name in found:

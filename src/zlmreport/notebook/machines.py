@@ -8,13 +8,18 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
+from zlmreport.files import Document, write_new
 from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
+from zlmreport.machines.cross_confirmation import confirmed
+from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross
+from zlmreport.machines.cross_report import confirmation_values, cross_values
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
+from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.plugin.registry import Registry, find_plugins
 from zlmreport.verification.carrier import find_results_in
 
@@ -54,6 +59,62 @@ class BuiltMachine:
     machine: Machine  #: With all effects that were found.
     steps: tuple[Mapping[str, Any], ...]  #: Each effect with the RMS before and after it, µm.
     verdict: str
+
+
+@dataclass(frozen=True)
+class MachineTables:
+    """Tables across the axes of a machine in the words of a control; lengths in µm."""
+
+    machine: Machine = field(repr=False)
+    made: CrossMade = field(repr=False)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        """As ``zlmreport machine compensate --json`` has it."""
+        return cross_values(self.made)
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The text of each file by its name."""
+        return {f"{self.machine.file.number}{end}": text for end, text in self.made.files.items()}
+
+    @property
+    def forecast(self) -> dict[str, Any]:
+        """Circles, diagonals and the largest error of the work space, before and after.
+
+        A forecast is no measurement.
+        """
+        return dict(self.values["forecast"])
+
+    def save(self, folder: str | Path) -> Path:
+        """Write the files; none that is there already is touched.
+
+        Raises `AccessError` if they cannot be written, or are there.
+        """
+        write_new([Document(Path(folder) / name, text.encode("ascii")) for name, text in self.files.items()])
+        return Path(folder)
+
+    def confirm(self, *jobs: str | Path) -> dict[str, Any]:
+        """Hold circles that were run again, with the tables in effect, against the forecast.
+
+        Parameters
+        ----------
+        *jobs
+            Of the circles; each on the path of one of the machine file.
+
+        Returns
+        -------
+        As ``--confirm --json`` has it: ``verdict``, what part was ``applied`` with its
+        ``expanded_uncertainty``, and each circle before, as forecast and after.
+
+        Raises `InputError` if one of them is no circle, or was not run before.
+        """
+        if not jobs:
+            raise InputError.at(_PLACE, "confirm takes the job of a circle that was run again")
+        file, registry = self.machine.file, self.machine.registry
+        return confirmation_values(
+            confirmed(file, self.made, [Path(each) for each in jobs], registry, _PLACE)
+        )
 
 
 @dataclass(frozen=True)
@@ -112,6 +173,30 @@ class Machine:
         return BuiltMachine(
             Machine(self.file, self.registry, found.complete), tuple(values["steps"]), values["verdict"]
         )
+
+    def compensate(
+        self, controller: str, moves: str | None = None, step: float | None = None
+    ) -> MachineTables:
+        """Make tables across axes for a control: straightness and squareness go, as far as it takes them.
+
+        Parameters
+        ----------
+        controller
+            Of which control: ``siemens-840d-cec``, ``linuxcnc``.
+        moves
+            Which way a positive value moves an axis, ``plus`` or ``minus``, where that is not known: a trial
+            shows it (``zlmreport machine compensate --trial``).
+        step
+            Between rows, mm; without it as measured.
+
+        Raises `InputError` if the control takes no such tables, its sign is neither known nor stated, or
+        nothing is known that they could hold.
+        """
+        if step is not None and not step > 0:
+            raise InputError.at(_PLACE, f"step is {step:g}: rows are more than 0 mm apart, such as 25")
+        spacing = None if step is None else MILLIMETRE.to_si(step)
+        wanted = CrossWanted(controller, moves, spacing, _PLACE, is_command=False)
+        return MachineTables(self, make_cross(self.file, self.registry, wanted))
 
     def _diagnosis(self) -> MachineDiagnosis:
         return diagnosed(self.study, self.file.catalogue)

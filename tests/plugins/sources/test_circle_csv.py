@@ -251,3 +251,21 @@ def test_a_radius_in_metres_is_read_in_metres(file: File) -> None:
     content = table(deviation=lambda _: 0.150003).replace("deviation", "radius (m)")
     assert read(file, content).deviation[0] == pytest.approx(3 * UM)
     assert XY.circle.radius == MM * 150
+
+
+@pytest.mark.parametrize(("way", "sense"), [(1, "ccw"), (-1, "cw")])
+def test_a_turn_that_names_no_sense_is_known_by_its_radial_deviations(
+    tmp_path: Path, way: int, sense: str
+) -> None:
+    path = tmp_path / "run.csv"
+    turn = [f"{(way * step * 10) % 360},{math.cos(step):.3f}" for step in range(36)]
+    path.write_text("\n".join(["Angle [deg],Radial deviation [um]", *turn]) + "\n", encoding="utf-8")
+    (found,) = CircleCsv().proposals(path)
+    assert dict(found.keys) == {"sense": sense, "columns": {"deviation": "Radial deviation [um]"}}
+    assert found.circle is not None
+
+
+def test_angles_of_a_rotary_axis_are_no_circle(tmp_path: Path) -> None:
+    path = tmp_path / "rotary.csv"
+    path.write_text("angle,deviation\n" + "".join(f"{10 * n},{n}\n" for n in range(36)), encoding="utf-8")
+    assert not list(CircleCsv().proposals(path))

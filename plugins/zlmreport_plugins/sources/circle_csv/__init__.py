@@ -11,6 +11,7 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -37,7 +38,7 @@ from zlmreport.plugin.source import (
     collect_readings,
     read_text,
 )
-from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_table
+from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_headings, read_table
 from zlmreport_plugins.sources.circle_csv.averaging import average_turns, count_arcs_of, look_at_averages
 from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, CircleCsvOptions
 from zlmreport_plugins.sources.circle_csv.rows import (
@@ -100,20 +101,22 @@ class CircleCsv:
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a file may be read, if it has the columns of a circular test."""
-        options = CircleCsvOptions(file=file)
-        circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
-        try:
-            cells, layout = _read_table_of(
-                options, SourceContext(Axis("XY", circle=circle), Place(str(file)))
-            )
-        except InputError:
-            return []
-        if layout.sense is None:
-            return []
-        if layout.value.name == "radius":
-            radii = [each for row in cells.table.rows if (each := cells.number(row, layout.value))]
-            circle = replace(circle, radius=round(float(np.nanmedian(radii)), 3))
-        return [SourceProposal(asks=(_say_asked(layout),), circle=circle)]
+        for keys in ({}, _of_one_turn(file)):
+            options = CircleCsvOptions(file=file, **keys)
+            circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
+            try:
+                cells, layout = _read_table_of(
+                    options, SourceContext(Axis("XY", circle=circle), Place(str(file)))
+                )
+            except InputError:
+                continue
+            if layout.sense is None and not keys:
+                continue
+            if layout.value.name == "radius":
+                radii = [each for row in cells.table.rows if (each := cells.number(row, layout.value))]
+                circle = replace(circle, radius=round(float(np.nanmedian(radii)), 3))
+            return [SourceProposal(keys, asks=(_say_asked(layout),), circle=circle)]
+        return []
 
     def read(self, options: CircleCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read a table; raise `InputError` with every defect and its place."""
@@ -156,6 +159,35 @@ def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[C
         table, [column.index for column in layout.number_columns()], options.thousands_signs
     )
     return Cells(table, sign, options.thousands_signs, options.words_for_missing), layout
+
+
+def _of_one_turn(file: Path) -> dict[str, Any]:
+    """Return the keys by which a table of one turn is read that does not name its sense; none for others.
+
+    It has angles and a column that is called radial; the sense is that in which the angles go on.
+    """
+    options = CircleCsvOptions(file=file, sense="ccw")
+    try:
+        text = read_text(options.file, options.encoding, options.sheet)
+        table = read_table(text, options, lambda name: _is_column_name(name, options) or _is_radial(name))
+        among = read_headings(table, options)
+        radial = [each.text for each in among if _is_radial(each.text)]
+        if len(radial) != 1:
+            return {}
+        options = CircleCsvOptions(file=file, sense="ccw", columns={"deviation": radial[0]})
+        circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
+        cells, layout = _read_table_of(options, SourceContext(Axis("XY", circle=circle), Place(str(file))))
+    except InputError:
+        return {}
+    if layout.angle is None:
+        return {}
+    angles = np.array([cells.number(row, layout.angle) or 0.0 for row in cells.table.rows])
+    way = "ccw" if float(np.median(np.diff(angles))) > 0 else "cw"
+    return {"sense": way, "columns": {"deviation": radial[0]}}
+
+
+def _is_radial(text: str) -> bool:
+    return "radial" in folded(text)
 
 
 def _say_asked(layout: CircleColumns) -> str:

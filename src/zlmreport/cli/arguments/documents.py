@@ -302,6 +302,14 @@ def machine(command: str) -> CommandParser:
         choices=("plus", "minus"),
         help="of compensate: which way a positive value moves an axis, where that is not known",
     )
+    parser.add_argument(
+        "--confirm",
+        type=Path,
+        action="append",
+        metavar="CIRCLE.yaml",
+        help="of compensate: job of a circle that was run again with the tables in effect; may be given "
+        "several times",
+    )
     parser.flag("--trial", "of compensate: a file with one value, which shows that way")
     parser.add_argument(
         "--step",
@@ -325,7 +333,7 @@ def demand_machine_action(options: argparse.Namespace, parser: CommandParser) ->
         parser.error(f"{options.action} needs the name of an effect, such as servo-mismatch")
     if not takes_effect and options.effect:
         parser.error(f"{options.action} takes no effect, but {options.effect!r} is given")
-    named = ("controller", "moves", "trial", "step")
+    named = ("controller", "moves", "confirm", "trial", "step")
     if options.action != "compensate" and (given := [each for each in named if getattr(options, each)]):
         parser.error(f"--{given[0]} belongs to compensate, not to {options.action}")
     if options.dry_run and options.action != "build":

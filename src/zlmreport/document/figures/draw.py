@@ -63,6 +63,7 @@ from zlmreport.document.figures.shapes import (
     join_lines,
     outline_area,
 )
+from zlmreport.document.figures.tiles import tile_shapes
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import BoolArray, FloatArray
@@ -107,6 +108,9 @@ def _draw_over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Sh
     frame, panel = layout.frame, layout.panel
 
     yield from _draw_grid(frame)
+    if panel.tiles:
+        yield from tile_shapes(panel.tiles, frame)
+        yield from layout.tile_values
     yield from _draw_bars(layout)
     for band in panel.bands:
         yield from _draw_band(band, frame)

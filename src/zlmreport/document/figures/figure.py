@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from enum import Enum
 from typing import Literal
 
+import numpy as np
+
 from zlmreport.language import Words
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
@@ -154,6 +156,37 @@ class Note:
 
 
 @dataclass(frozen=True, slots=True)
+class Tiles:
+    """Values over a grid, each as a tile about its place: the darker, the larger.
+
+    Attributes
+    ----------
+    x, y
+        Places along both axes, rising, (n,) and (m,).
+    values
+        Not negative, (n, m), in the unit that is printed; every other one is written on its tile.
+    darkest
+        The value of the darkest tile: that of several panels is one.
+    """
+
+    x: FloatArray
+    y: FloatArray
+    values: FloatArray
+    darkest: float
+
+    @property
+    def edges(self) -> tuple[FloatArray, FloatArray]:
+        """Where tiles end along both axes, (n + 1,) and (m + 1,): half-way to the next place."""
+        return _edges(self.x), _edges(self.y)
+
+
+def _edges(places: FloatArray) -> FloatArray:
+    between = (places[1:] + places[:-1]) / 2.0
+    ends = (2.0 * places[0] - between[0], 2.0 * places[-1] - between[-1])
+    return np.concatenate([[ends[0]], between, [ends[1]]])
+
+
+@dataclass(frozen=True, slots=True)
 class Panel:
     """One pair of axes.
 
@@ -170,6 +203,8 @@ class Panel:
         of the picture, both on one scale, without axes; only curves and notes have a place.
     notes
         Of a wire picture: what stands at places of it.
+    tiles
+        Values over both axes, behind all else; None for none.
     directions
         Of a panel about a circle: angles, degrees, and what stands at them beside the angle, such as the
         letter of the axis that turns round there; a point on the nominal circle marks each.
@@ -187,6 +222,7 @@ class Panel:
     levels: tuple[Level, ...] = ()
     bars: tuple[Bar, ...] = ()
     notes: tuple[Note, ...] = ()
+    tiles: Tiles | None = None
     projection: Literal["straight", "polar", "wire"] = "straight"
     directions: tuple[tuple[float, str], ...] = ()
     y_title: Words | None = None

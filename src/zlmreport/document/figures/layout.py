@@ -260,11 +260,13 @@ def _collect_positions(panels: Iterable[Panel]) -> FloatArray:
         found += [readings.x for readings in panel.readings]
         found.append(np.array([arrow.x for arrow in panel.arrows]))
         found.append(np.array([(bracket.low_at, bracket.high_at) for bracket in panel.brackets]))
+        found += [panel.tiles.edges[0]] if panel.tiles else []
     return _join_arrays(found)
 
 
 def _collect_values(panel: Panel) -> FloatArray:
     found = [curve.y for curve in panel.curves]
+    found += [panel.tiles.edges[1]] if panel.tiles else []
     found += [limit for band in panel.bands for limit in (band.lower, band.upper)]
     found += [readings.y for readings in panel.readings]
     found.append(np.array([(arrow.low, arrow.high) for arrow in panel.arrows]))

@@ -24,7 +24,8 @@ from zlmreport.document.figures.dimensions import (
 from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level, Panel, Readings
 from zlmreport.document.figures.metrics import make_plain_label, make_symbol_label
 from zlmreport.document.figures.polar import PolarGrid, find_largest_square, make_polar_grid
-from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, PlacedLabel
+from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, Lettering, PlacedLabel
+from zlmreport.document.figures.tiles import tile_values
 from zlmreport.document.figures.wire import make_wire_frame, place_notes
 from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray
@@ -53,6 +54,7 @@ class PanelLayout:
     bar_values: tuple[PlacedLabel, ...]  #: What is written at the end of each bar.
     grid: PolarGrid | None = None  #: Of a panel about a circle; None for the usual ones.
     notes: tuple[PlacedLabel, ...] = ()  #: Of a wire picture.
+    tile_values: tuple[Lettering, ...] = ()  #: What is written on tiles.
 
 
 def lay_out_panel(
@@ -81,7 +83,8 @@ def lay_out_panel(
         spans, box, _collect_marks(panel, frame), _collect_lines(panel, frame, brackets)
     )
     levels, values = _place_levels(panel, frame), _place_bar_values(panel, frame, language)
-    return PanelLayout(panel, frame, legend, brackets, arrows, levels, values)
+    written = tuple(tile_values(panel.tiles, frame, language)) if panel.tiles else ()
+    return PanelLayout(panel, frame, legend, brackets, arrows, levels, values, tile_values=written)
 
 
 def select_drawable_brackets(panel: Panel) -> list[Bracket]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Graph, Paragraph, Section, Symbol
-from zlmreport.document.figures.figure import Curve, Figure, Panel, Role
+from zlmreport.document.figures.figure import Curve, Figure, Panel, Role, Tiles
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_general_number
 from zlmreport.machines.kinematics import ERRORS
@@ -104,29 +104,43 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
 
 
 def _draw_slices(found: VolumeMap) -> Figure:
-    """Return the length of Δ over X, at the lowest, middle and highest Y, in slices of Z."""
-    size = MICROMETRE.from_si(found.length)
-    x, y, z = (MILLIMETRE.from_si(grid) for grid in found.grids)
-    heights = sorted({0, len(z) // 2, len(z) - 1})
-    rows = sorted({0, len(y) // 2, len(y) - 1})
-    roles = (Role.MEAN_POSITIVE, Role.MEAN_BIDIRECTIONAL, Role.MEAN_NEGATIVE)
-    panels = tuple(
-        Panel(
-            heading=same(f"Z = {write_general_number(float(z[height]))} mm"),
-            curves=tuple(
-                Curve(f"Y = {write_general_number(float(y[row]))}", role, x, size[:, row, height])
-                for row, role in zip(rows, roles, strict=False)
-            ),
-        )
-        for height in heights
-    )
-    largest = _SEEN.given(largest=float(np.round(size.max(), 2)))
+    """Return the length of Δ in slices: maps over two axes, or curves where but one was measured."""
+    moving = [index for index, grid in enumerate(found.grids) if len(grid) > 1]
+    return _maps(found, moving) if len(moving) > 1 else _curve(found, moving[0])
+
+
+def _curve(found: VolumeMap, axis: int) -> Figure:
+    size, place = MICROMETRE.from_si(found.length).ravel(), MILLIMETRE.from_si(found.grids[axis])
+    panel = Panel(curves=(Curve("", Role.MEAN_BIDIRECTIONAL, place, size),))
+    largest = _SEEN_ON_A_LINE.given(largest=float(np.round(size.max(), 2)))
     return Figure(
-        "work-space", _SLICES, largest, same("X"), _LENGTH_OF, "mm", "µm", panels,
-        height=40.0 * len(panels) + 20.0,
+        "work-space", _LENGTH_OF, largest, same(AXES[axis]), _LENGTH_OF, "mm", "µm", (panel,), height=60.0
+    )
+
+
+def _maps(found: VolumeMap, moving: list[int]) -> Figure:
+    """Return maps over the first two axes that move: at both ends and in the middle of the third."""
+    first, second, *third = moving
+    size = MICROMETRE.from_si(found.length)
+    across, upwards = (MILLIMETRE.from_si(found.grids[each]) for each in (first, second))
+    darkest = float(size.max()) or 1.0
+    panels = []
+    for slice_ in sorted({0, size.shape[third[0]] // 2, size.shape[third[0]] - 1}) if third else (0,):
+        still = ({0, 1, 2} - {first, second}).pop()
+        place = write_general_number(float(MILLIMETRE.from_si(found.grids[still][slice_])))
+        values = np.take(size, slice_, axis=still)
+        panels.append(
+            Panel(heading=same(f"{AXES[still]} = {place} mm"), tiles=Tiles(across, upwards, values, darkest))
+        )
+    largest = _SEEN.given(count=len(panels), largest=float(np.round(darkest, 2)))
+    return Figure(
+        "work-space", _SLICES, largest, same(AXES[first]), same(AXES[second]), "mm", "mm", tuple(panels),
+        height=_MAP_HEIGHT, is_wide=True,
     )  # fmt: skip
 
 
+#: Of maps beside each other, mm.
+_MAP_HEIGHT = 72.0
 _ERRORS = Words("The 21 errors of the axes")
 _KNOWN = Words("{known} of {all} errors are known")
 _OF = Words("{known} of {all}")
@@ -153,8 +167,7 @@ _DIAGONALS_NOTE = Words(
     "E is the span of what the errors predict along a body diagonal, U its largest uncertainty there. A "
     "small diagonal error does not mean a small volumetric error: opposite scales cancel."
 )
-_SLICES = Words("Length of the error in slices of the work space")
-_SEEN = Words(
-    "Curves over X for three places in Y in each of three slices in Z; the largest value is {largest} µm."
-)
+_SLICES = Words("Length of the error in slices of the work space, in µm: the darker, the larger")
+_SEEN = Words("Maps of {count} slices, values written on them; the largest value is {largest} µm.")
+_SEEN_ON_A_LINE = Words("A curve over the axis; the largest value is {largest} µm.")
 _LENGTH_OF = Words("Length of the error")

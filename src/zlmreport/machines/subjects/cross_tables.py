@@ -8,9 +8,13 @@ import numpy as np
 
 from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Section, Symbol
 from zlmreport.language import Words
-from zlmreport.machines.cross_tables import CrossForecast, CrossPlan
+from zlmreport.language.formatting import round_pair
+from zlmreport.machines.cross_confirmation import CrossConfirmation, CrossVerdict
+from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, worthwhile
+from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.model.compensation.cross import CrossTable
+from zlmreport.plugin.registry import Registry
 
 
 def lay_out_tables(
@@ -41,6 +45,18 @@ def lay_out_tables(
     return Section("cross-tables", say(_TABLES), tuple(blocks))
 
 
+def promised_section(machine: MachineFile, registry: Registry, say: Sayer) -> Section | None:
+    """Return what tables across axes would leave, whatever the control; None where nothing is worth one."""
+    plan = worthwhile(machine.machine)
+    if plan is None:
+        return None
+    found = forecast(machine.machine, plan.tables, machine.measured, registry)
+    blocks: list[Block] = [Paragraph(say(_WOULD_HOLD.given(errors=", ".join(plan.taken))))]
+    if plan.within_uncertainty:
+        blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))
+    return Section("cross-tables", say(_PROMISED), (*blocks, *forecast_section(found, say).blocks))
+
+
 def sign_section(moves: int, say: Sayer) -> Section:
     """Return which way a positive value acts, as it was stated, with what shows that it does."""
     return Section("sign", say(_SIGN), (Paragraph(say(_STATED[moves])), Paragraph(say(_CHECK))))
@@ -67,6 +83,27 @@ def forecast_section(found: CrossForecast, say: Sayer) -> Section:
     return Section("forecast", say(_FORECAST), (table, Paragraph(say(_NO_MEASUREMENT))))
 
 
+def confirmation_section(found: CrossConfirmation, say: Sayer) -> Section:
+    """Return what became of tables by circles that were run again."""
+    verdict = found.verdict
+    said = _BECAME[verdict]
+    if verdict is not CrossVerdict.NOT_SEEN:
+        part, u = round_pair(found.applied, found.expanded_uncertainty, say.language.decimal_sign)
+        said = said.given(part=part, u=u)
+    rows = [
+        (each.name, *map(say.micrometres, (each.before, each.forecast, each.after))) for each in found.circles
+    ]
+    columns = (
+        Column(say(_CIRCLE)), make_right_column(say(_BEFORE), "µm"), make_right_column(say(_EXPECTED), "µm"),
+        make_right_column(say(_AFTER), "µm"),
+    )  # fmt: skip
+    return Section(
+        "confirmation",
+        say(_CONFIRMATION),
+        (Paragraph(say(said)), make_plain_table(say(_ROUND), columns, rows)),
+    )
+
+
 def _forecast_rows(found: CrossForecast, say: Sayer) -> Iterator[tuple[Cell, ...]]:
     for each in found.circles:
         yield f"{each.name}, RMS", say.micrometres(each.before), say.micrometres(each.after)
@@ -84,6 +121,11 @@ _RANGE, _ROWS, _SPAN = (
     Words("from–to"),
     Words("rows"),
     Words("span"),
+)
+_PROMISED = Words("What tables across axes would leave")
+_WOULD_HOLD = Words(
+    "A control that moves one axis aside while another moves could take away {errors}; zlmreport machine "
+    "compensate writes such tables."
 )
 _HELD = Words("They hold {errors}.")
 _SMALL = Words("Left out, for they are no larger than their uncertainty: {errors}.")
@@ -112,3 +154,25 @@ _NOW, _WITH = Words("now"), Words("with the tables")
 _DIAGONAL = Words("diagonal {name}, E, predicted")
 _LARGEST = Words("largest error of the work space, predicted")
 _NO_MEASUREMENT = Words("A forecast is no measurement: run the circle again with the tables in effect.")
+_CONFIRMATION, _ROUND = Words("Confirmation"), Words("Root mean squares about the centre")
+_CIRCLE, _BEFORE, _EXPECTED, _AFTER = Words("Circle"), Words("before"), Words("forecast"), Words("after")
+_BECAME = {
+    CrossVerdict.HELD: Words("Held: the circles show {part} ± {u} of the tables in effect."),
+    CrossVerdict.WRONG_SIGN: Words(
+        "Wrong sign: the circles show {part} ± {u} of the tables. State the other way for moves, and write "
+        "them again."
+    ),
+    CrossVerdict.HALF: Words(
+        "Half: the circles show {part} ± {u} of the tables. The control halves them, or reads other units."
+    ),
+    CrossVerdict.NOT_IN_EFFECT: Words(
+        "Not in effect: the circles show {part} ± {u} of the tables. Were they loaded and switched on?"
+    ),
+    CrossVerdict.OTHER: Words(
+        "Not as forecast: the circles show {part} ± {u} of the tables. Something else has changed, too."
+    ),
+    CrossVerdict.NOT_SEEN: Words(
+        "Not decided: these circles hardly see what the tables hold. Run one in the plane of the axes that "
+        "they correct, with a larger radius."
+    ),
+}

@@ -105,7 +105,9 @@ class CircleEffect(Protocol):
     searched
         The parameters θ; empty for most effects.
     is_base
-        Whether it belongs into every model: where the bar stands, and how long it is.
+        Whether it belongs into every model, stated or not: where the bar stands, and how long it is.
+    is_length_of_bar
+        Whether it is what a calibrated bar has none of: then it belongs in only where it is stated.
     is_single
         Whether one group of its terms comes in at a time: two bent guides may look like axes out of square.
     is_asked_for
@@ -119,6 +121,7 @@ class CircleEffect(Protocol):
     law: Law
     searched: tuple[SearchedParameter, ...] = ()
     is_base: bool = False
+    is_length_of_bar: bool = False
     is_single: bool = False
     is_asked_for: bool = False
 
