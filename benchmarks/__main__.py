@@ -32,7 +32,7 @@ OTHERS = {
     "priors": ("hidden_effects.command", "main_of_priors"),
     "coverage": ("coverage_of_u", "main"),
     "worlds": ("coverage_of_worlds", "main"),
-    "circles": ("circle_coverage", "main"),
+    "quantities": ("coverage_of_quantities", "main"),
     "machines": ("machines_hidden", "main"),
     "machine-bands": ("machine_bands", "main"),
     "machine-circles": ("circles_on_linuxcnc", "main"),
@@ -69,9 +69,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
-        epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, circles, machines, "
-        "machine-bands, machine-circles, "
-        "step-gauge, kills have options of their own: see their --help.",
+        epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, worlds, quantities, "
+        "machines, machine-bands, machine-circles, step-gauge, kills have options of their own: see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

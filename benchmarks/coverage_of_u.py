@@ -9,13 +9,13 @@ axis is held against what the second finds.
 from __future__ import annotations
 
 import argparse
-from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
+from shares import Held, print_table, share_held
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.axis_interval import compute_axis_intervals
 from zlmreport.evaluation.uncertainty.budget import (
@@ -83,10 +83,9 @@ def of_this_test(
 ) -> dict[str, float]:
     """Return the share of trials in which y ± U holds the true value, by symbol."""
     budget, kind = world
-    generator = np.random.default_rng(20260101)
     times = compute_reading_times(axis)
-    held: Counter[str] = Counter()
-    for _ in range(trials):
+
+    def trial(generator: np.random.Generator) -> Held:
         truth = replace(axis, deviation=_scattered(axis, generator, np.ones_like(axis.deviation)))
         errors = sample_singly(budget.acting(Acts.AT_EACH_READING), truth.deviation.shape, generator)
         along = sample_singly(budget.acting(Acts.ALONG_THE_LENGTH), (), generator)
@@ -101,10 +100,13 @@ def of_this_test(
         found = _evaluated(replace(truth, deviation=truth.deviation + errors), standard)
         true = _evaluated(truth, standard)
         (expanded,) = propagate(budget, [(found, partial(standard.arithmetic, options=Options()))], simulated)
-        for each in found.parameters:
-            symbol = each.quantity.symbol
-            held[symbol] += abs(each.value - true.value(symbol)) <= expanded[symbol].uncertainty
-    return {symbol: count / trials for symbol, count in held.items()}
+        return {
+            each.quantity.symbol: abs(each.value - true.value(each.quantity.symbol))
+            <= expanded[each.quantity.symbol].uncertainty
+            for each in found.parameters
+        }
+
+    return share_held(trial, trials, 20260101)
 
 
 def _alike(axis: MeasurementSet, _: np.random.Generator) -> FloatArray:
@@ -138,18 +140,19 @@ SCATTERS: Mapping[str, tuple[Callable[[MeasurementSet, np.random.Generator], Flo
 def of_this_axis(scatter: str, axis: MeasurementSet, standard: Standard, trials: int) -> dict[str, float]:
     """Return the share of trials in which the interval of one test holds what the next finds."""
     relative, of_runs = SCATTERS[scatter]
-    generator = np.random.default_rng(20260102)
-    held: Counter[str] = Counter()
-    for _ in range(trials):
+
+    def trial(generator: np.random.Generator) -> Held:
         sizes = relative(axis, generator)
         first, second = (
             _evaluated(replace(axis, deviation=_scattered(axis, generator, sizes, of_runs)), standard)
             for _ in range(2)
         )
         (intervals,) = compute_axis_intervals([(first, partial(standard.arithmetic, options=Options()))])
-        for symbol, (low, high) in intervals.items():
-            held[symbol] += low <= (second.value(symbol) or 0.0) <= high
-    return {symbol: count / trials for symbol, count in held.items()}
+        return {
+            symbol: low <= (second.value(symbol) or 0.0) <= high for symbol, (low, high) in intervals.items()
+        }
+
+    return share_held(trial, trials, 20260102)
 
 
 def _scattered(
@@ -186,9 +189,5 @@ def main(arguments: list[str] | None = None) -> None:
             ),
             ("this axis", SCATTERS, lambda name: of_this_axis(name, axis, standard, sizes.trials)),  # noqa: B023
         ):
-            print(f"| {identifier}, {title} |", *(f"{symbol} |" for symbol in symbols))
-            print("|---|", *("--:|" for _ in symbols), sep="")
-            for name in worlds:
-                found = measured(name)
-                print(f"| {name} |", *(f"{100 * found[symbol]:.1f} |" for symbol in symbols), flush=True)
-            print()
+            rows = ((name, measured(name)) for name in worlds)
+            print_table(f"{identifier}, {title}", symbols, rows)

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import argparse
 import tempfile
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -22,6 +21,7 @@ from typing import Any
 import numpy as np
 import yaml
 
+from shares import Held, print_table, share_held
 from zlmreport import pipeline
 from zlmreport.evaluation.correction.corrections import correct, find_corrections_of
 from zlmreport.evaluation.evaluate import evaluate
@@ -41,6 +41,8 @@ _RUNS = 5
 #: Of the machine, µm/(m·K), and the full ranges of its error and of that of the measured temperature, K.
 _ALPHA, _ALPHA_RANGE, _SENSOR_RANGE = 11.5, 1.0, 0.1
 _SEED = 20260103
+#: What is asked: whether y ± U holds, and the interval of the axis.
+_TEST, _AXIS = "this test", "this axis"
 
 
 @dataclass(frozen=True)
@@ -189,9 +191,6 @@ def measured(
 ) -> tuple[dict[str, float], dict[str, float]]:
     """Return the shares of tests in which y ± U and the interval of the axis hold, by symbol."""
     standard = registry.standard("iso230-2:2014")
-    generator = np.random.default_rng(_SEED)
-    held: Counter[str] = Counter()
-    found_again: Counter[str] = Counter()
     with tempfile.TemporaryDirectory() as folder:
         job, frame = _frame(Path(folder), world, registry)
 
@@ -202,7 +201,7 @@ def measured(
         corrections = find_corrections_of(job, shown)
         return correct(shown, corrections) if corrections else shown
 
-    for _ in range(tests):
+    def trial(generator: np.random.Generator) -> Held:
         axis = Axis(world, frame, generator)
         truth, shown = axis.tested()
         stated = as_stated(shown)
@@ -212,12 +211,20 @@ def measured(
         arithmetic = partial(standard.arithmetic, options=Options())
         (found,) = add_uncertainty([(evaluated(stated), arithmetic)], budget, simulated)
         true, again = evaluated(truth), evaluated(as_stated(axis.tested()[1]))
+        held: dict[tuple[str, str], bool] = {}
         for each in found.parameters:
             symbol = each.quantity.symbol
-            held[symbol] += abs(each.value - true.value(symbol)) <= each.expanded_uncertainty
+            held[_TEST, symbol] = abs(each.value - true.value(symbol)) <= each.expanded_uncertainty
             low, high = each.axis_interval
-            found_again[symbol] += low <= again.value(symbol) <= high
-    return tuple({symbol: counts[symbol] / tests for symbol in counts} for counts in (held, found_again))
+            held[_AXIS, symbol] = low <= again.value(symbol) <= high
+        return held
+
+    shares = share_held(trial, tests, _SEED)
+    of_test, of_axis = (
+        {symbol: share for (asked, symbol), share in shares.items() if asked == question}
+        for question in (_TEST, _AXIS)
+    )
+    return of_test, of_axis
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -229,14 +236,10 @@ def main(arguments: list[str] | None = None) -> None:
     sizes = parser.parse_args(arguments)
     registry = find_plugins()
     names = [name for name in WORLDS if name.startswith(tuple(sizes.worlds) or "")]
-    rows: dict[str, list[tuple[str, dict[str, float]]]] = {"this test": [], "this axis": []}
+    rows: dict[str, list[tuple[str, dict[str, float]]]] = {_TEST: [], _AXIS: []}
     for name in names:
         of_both = measured(WORLDS[name], sizes.tests, sizes.simulated, registry)
         for question, shares in zip(rows, of_both, strict=True):
             rows[question].append((name, shares))
     for question, of_worlds in rows.items():
-        symbols = list(of_worlds[0][1])
-        print(f"\n| {question} |", *(f"{symbol} |" for symbol in symbols))
-        print("|---|", *("--:|" for _ in symbols), sep="")
-        for name, shares in of_worlds:
-            print(f"| {name} |", *(f"{100 * shares[symbol]:.1f} |" for symbol in symbols))
+        print_table(question, list(of_worlds[0][1]), of_worlds)

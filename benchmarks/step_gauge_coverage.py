@@ -10,10 +10,12 @@ from __future__ import annotations
 import argparse
 import sys
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 
+from shares import Held, share_held
 from zlmreport.errors import Place
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.uncertainty.budget import (
@@ -27,7 +29,6 @@ from zlmreport.evaluation.uncertainty.budget import (
 from zlmreport.evaluation.uncertainty.expanded import compute_mean_uncertainty
 from zlmreport.job.types import Options
 from zlmreport.language import same
-from zlmreport.measurement.arrays import BoolArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.plugin.registry import find_plugins
@@ -84,13 +85,11 @@ def coverage(trials: int, *, radius_is_determined: bool, seed: int = 20260512) -
     seed
         Of everything random.
     """
-    generator = np.random.default_rng(seed)
-    held = np.array([_trial(generator, radius_is_determined) for _ in range(trials)])
-    by_face = held.mean(axis=0)
-    return Coverage(float(held.mean()), float(by_face.min()), float(by_face.max()))
+    by_face = share_held(partial(_trial, radius_is_determined), trials, seed)
+    return Coverage(sum(by_face.values()) / len(by_face), min(by_face.values()), max(by_face.values()))
 
 
-def _trial(generator: np.random.Generator, radius_is_determined: bool) -> BoolArray:  # noqa: FBT001 - as above
+def _trial(radius_is_determined: bool, generator: np.random.Generator) -> Held:  # noqa: FBT001 - as above
     direction = generator.normal(size=3) * (1.0, 1.0, 0.3)
     test = SimulatedTest(
         gauge=_GAUGE,
@@ -112,8 +111,7 @@ def _trial(generator: np.random.Generator, radius_is_determined: bool) -> BoolAr
     evaluation = evaluate(_STANDARD, measurements, Options(), {})
     expanded = np.nanmax(compute_mean_uncertainty(evaluation, budget).by_approach, axis=0)
     found = np.nansum(evaluation.statistics.mean, axis=0)
-    held: BoolArray = np.abs(found - simulated.truth)[1:] <= expanded[1:]
-    return held
+    return dict(enumerate((np.abs(found - simulated.truth)[1:] <= expanded[1:]).tolist()))
 
 
 def _set_up(test: SimulatedTest, simulated: Simulated, stated: StatedRadius | None) -> GaugeSetUp:

@@ -80,7 +80,9 @@ FLATNESS = Measurand(
     sign=Words("heights, positive upwards"),
     joins_tests=True,
     of_lines=LINE,
+    contributors=("foot_spacing",),
     test_names=tuple(called for name in LINES for called in (name, reverse_name(name))),
     subject=Words("{name}"),
     bearer=Words("Lines {axis}"),
+    item=Words("surface plate"),
 )

@@ -40,16 +40,12 @@ class Looked:
     standard: str  #: By which a job that is begun evaluates it.
 
     def block(self, file: str, indent: str = "") -> Iterator[str]:
-        """Yield the lines of the ``source:`` block of a job that names the file so; of tests that of each."""
+        """Yield the lines of the ``source:`` block of a job that names the file so, and of its tests."""
         keys = {"plugin": self.source.identifier, "file": file, **self.proposal.keys}
-        if self.proposal.tests:
-            yield f"{indent}tests:"
-            yield from (
-                f"{indent}  {name}: {_write_in_yaml({'source': keys})}" for name in self.proposal.tests
-            )
-            return
         yield f"{indent}source:"
         yield from (f"{indent}  {name}: {_write_in_yaml(value)}" for name, value in keys.items())
+        if self.proposal.tests:
+            yield f"{indent}tests: {_write_in_yaml({name: {} for name in self.proposal.tests})}"
 
 
 def look_at(path: Path, registry: Registry, sheet: str = "") -> Looked:

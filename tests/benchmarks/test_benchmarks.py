@@ -93,3 +93,16 @@ def test_the_coverage_of_whole_jobs_is_counted_for_each_world() -> None:
             "steps of 1 µm, s = 0.05 µm",
             "20 to 24 °C, corrected",
         ]
+
+
+def test_the_coverage_of_each_quantity_is_counted_in_its_worlds_and_kept(tmp_path: Path) -> None:
+    file = tmp_path / "kept.jsonl"
+    sizes = ("--trials", "2", "--simulated", "50", "--world", "instrument", "--keep", file)
+    done = run("quantities", *sizes, "angle", "flatness")
+    assert done.returncode == 0, done.stderr
+    angle, flatness = done.stdout.strip().split("\n\n")
+    assert angle.splitlines()[0] == "| angle | EBX | EBX_fwd | EBX_bwd | EBX_both |"
+    assert flatness.splitlines()[0] == "| flatness | t | t_LS | t_MZ | closure_WE | closure_NS |"
+    kept = [json.loads(line) for line in file.read_text("utf-8").splitlines()]
+    assert {row["title"] for row in kept} == {"angle", "flatness"}
+    assert all(row["trials"] == 2 and set(row["held"].values()) <= {0.0, 0.5, 1.0} for row in kept)

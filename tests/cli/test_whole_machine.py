@@ -162,3 +162,10 @@ def test_commands_of_one_measurement_ask_for_one(shop: Shop, command: tuple[str,
     run = shop.run(*command, str(shop.write("whole.yaml", whole())))
     assert run.code == 2
     assert "this document has several; take one of their jobs" in run.messages
+
+
+def test_a_part_states_each_fact_once_in_the_full_layout(shop: Shop) -> None:
+    pages = shop.folder / "MACHINE-1.html"
+    run = shop.run(str(shop.write("whole.yaml", whole("html", "full"))))
+    assert run.code == 0, run.messages
+    assert pages.read_text(encoding="utf-8").count("Angular interferometer") == 1

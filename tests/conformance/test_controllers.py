@@ -9,7 +9,7 @@ import pytest
 
 from zlmreport.plugin.controller import Controller
 from zlmreport.plugin.registry import find_plugins
-from zlmreport.testing import CONTROLLER_CHECKS, ControlExample
+from zlmreport.testing import CONTROLLER_CHECKS, ControlExample, CrossExample
 
 CONTROLLERS = find_plugins().controllers
 _UP, _DOWN = (0.0, 3.25, -2.5), (1.5, 4.75, -1.0)
@@ -23,6 +23,10 @@ EXAMPLES = {
         {".comp": "-10 -10 -10\n0 0 -0.01\n100 100.05 100.02\n200 199.97 199.95\n"},
         ((-10, 0, 0), (0, 0, -10), (100, 50, 20), (200, -30, -50)),
         deviation_step=0.001,
+        # By LinuxCNC's own test of matrixkins C_xy moves X by so much for each unit of Y: X was off by −e.
+        across=CrossExample(
+            {"-square.hal": "setp matrixkins.C_xy 0.000040000\n"}, "Y", "X", ((0, 0), (100, -4))
+        ),
     ),
     "csv": ControlExample(
         {

@@ -49,6 +49,24 @@ def test_a_rotary_axis_has_no_metres(tmp_path: Path) -> None:
     )
 
 
+def test_a_formula_with_a_length_is_none_of_a_rotary_axis(tmp_path: Path) -> None:
+    instrument = {**COMPLETE["instrument"], "expanded_uncertainty": "0.2 + 0.5*L"}
+
+    message = refused(tmp_path, axis=ROTARY, evaluate=["nmtba"], instrument=instrument)
+
+    assert message == "instrument.expanded_uncertainty: belongs to a linear axis: a rotary one has no metres"
+
+
+def test_a_scale_of_the_instrument_is_named_in_per_cent_of_the_reading(tmp_path: Path) -> None:
+    message = refused(tmp_path, uncertainty={"instrument_acts": "with-the-reading"})
+
+    assert message == (
+        "uncertainty.instrument_acts: with-the-reading is stated in % of the reading: name it under "
+        "uncertainty.contributions, as {name: Scale of the instrument, acts: with-the-reading, "
+        "expanded_uncertainty: …}"
+    )
+
+
 @pytest.mark.parametrize(
     ("sizes", "found"),
     [

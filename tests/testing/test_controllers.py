@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -15,8 +15,15 @@ from zlmreport.errors import InputError, Place
 from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.model.compensation.cross import CrossTable
 from zlmreport.model.compensation.curve import CompensationTable
-from zlmreport.testing import CONTROLLER_CHECKS, ControlExample, check_controller, controllers
+from zlmreport.testing import (
+    CONTROLLER_CHECKS,
+    ControlExample,
+    CrossExample,
+    check_controller,
+    controllers,
+)
 
 COUNTER = itertools.count()
 
@@ -47,10 +54,45 @@ class ExemplaryController:
             reverse=read_only_floats(-rows[:, 2] / 1e6),
         )
 
+    cross_sign = "known"
+    cross_notes: Any = (Words(en="Copy that file, too.", de="Auch diese Datei kopieren."),)
+
+    def cross_files(self, tables: Sequence[CrossTable], moves: int) -> Mapping[str, str]:
+        """A line for each row: both axes, the position (mm), and what is added to the second axis (µm)."""
+        rows = [
+            f"{each.input} {each.output} {p * 1e3:.4f} {-moves * e * 1e6 + 0.0:.2f}\n"
+            for each in tables
+            for p, e in zip(each.positions, each.values, strict=True)
+        ]
+        return {".across": "".join(rows)}
+
+    def read_cross(
+        self, files: Mapping[str, str], tables: Sequence[CrossTable], moves: int
+    ) -> tuple[CrossTable, ...]:
+        words = [line.split() for line in files[".across"].splitlines()]
+        pairs = dict.fromkeys((moving, aside) for moving, aside, *_ in words)
+        found = []
+        for (moving, aside), table in zip(pairs, tables, strict=False):
+            own = np.array(
+                [[float(p), float(e)] for one, two, p, e in words if (one, two) == (moving, aside)]
+            )
+            at, values = read_only_floats(own[:, 0] / 1e3), read_only_floats(-moves * own[:, 1] / 1e6)
+            found.append(CrossTable(moving, aside, at, values, table.slope))
+        return tuple(found)
+
+
+class StatedSign(ExemplaryController):
+    """The same of which nobody knows which way a positive value moves an axis."""
+
+    cross_sign = "stated"
+
 
 EXEMPLARY = ExemplaryController()
 EXAMPLE = ControlExample(
-    {".tab": "0 0 -1.5\n50.25 -3.25 -4.75\n"}, ((0, 0, 1.5), (50.25, 3.25, 4.75)), deviation_step=0.01
+    {".tab": "0 0 -1.5\n50.25 -3.25 -4.75\n"},
+    ((0, 0, 1.5), (50.25, 3.25, 4.75)),
+    deviation_step=0.01,
+    across=CrossExample({".across": "X Y 0 0\nX Y 50 -2.5\n"}, "X", "Y", ((0, 0), (50, 2.5))),
 )
 
 
@@ -98,6 +140,35 @@ def meaning(change: Callable[[CompensationTable], CompensationTable]) -> dict[st
     return {"files": lambda _, table, options: EXEMPLARY.files(change(table), options)}
 
 
+def across(change: Callable[[CrossTable], CrossTable], *, read_too: bool = False) -> dict[str, Any]:
+    """Return the sin of a controller that writes other tables across axes, and may read them alike."""
+    sin: dict[str, Any] = {
+        "cross_files": lambda _, tables, moves: EXEMPLARY.cross_files([*map(change, tables)], moves)
+    }
+    if read_too:
+        sin["read_cross"] = lambda _, files, tables, moves: tuple(
+            map(change, EXEMPLARY.read_cross(files, tables, moves))
+        )
+    return sin
+
+
+def turned(table: CrossTable) -> CrossTable:
+    return replace(table, input=table.output, output=table.input)
+
+
+def negative(table: CrossTable) -> CrossTable:
+    return replace(table, values=-table.values)
+
+
+def across_written(change: Callable[[str], str]) -> dict[str, Any]:
+    """Return the sin of a controller whose file across axes is another one."""
+    return {
+        "cross_files": lambda _, tables, moves: {
+            name: change(text) for name, text in EXEMPLARY.cross_files(tables, moves).items()
+        }
+    }
+
+
 def careless(_self: object, table: CompensationTable, options: Any) -> Mapping[str, str]:
     try:
         return EXEMPLARY.files(table, options)
@@ -128,7 +199,8 @@ class Demanding(Options):
     grid: float = Field(description="Without a default.")
 
 
-TWO_WAYS = controllers.reads_what_its_maker_prints
+TWO_WAYS, ACROSS = controllers.reads_what_its_maker_prints, controllers.takes_tables_across_axes
+ENDS = itertools.cycle(("", "", "\n"))
 SINS = [
     (TWO_WAYS, alike(forward=-1, reverse=-1), "sign, direction and unit are the control's"),
     (
@@ -175,6 +247,37 @@ SINS = [
     ),
     (controllers.reads_what_it_writes, {"read": lambda *_: {}["x"]}, "raised KeyError: 'x'"),
     (controllers.writes_the_same_again, written(lambda text: f"{text}{next(COUNTER)}"), "gives other files"),
+    (ACROSS, across(negative), "is read 24 µm off"),
+    (ACROSS, across(negative, read_too=True), "the control takes [0.  2.5] µm away"),
+    (ACROSS, across(turned), "Y over X is read as X over Y"),
+    (ACROSS, across(lambda table: replace(table, values=table.values * 1e3)), "µm off"),
+    (
+        ACROSS,
+        across(lambda table: replace(table, positions=table.positions - table.positions[0])),
+        "positions",
+    ),
+    (ACROSS, across(lambda table: replace(table, values=np.round(table.values, 6))), "µm off"),
+    (
+        ACROSS,
+        {"cross_files": lambda _, tables, moves: EXEMPLARY.cross_files(tables[:1], moves)},
+        "must return the 2",
+    ),
+    (ACROSS, {"cross_files": lambda *_: {}}, "of tables with slopes nothing is written"),
+    (ACROSS, {"cross_files": lambda *_: None}, "must return texts in plain ASCII"),
+    (ACROSS, across_written(lambda text: f"{text}µ"), "must return texts in plain ASCII"),
+    (ACROSS, across_written(lambda text: text + next(ENDS)), "gives other files"),
+    (ACROSS, {"cross_sign": "guessed"}, "cross_sign is one of known, stated"),
+    (ACROSS, {"cross_notes": ()}, "cross_notes say what who loads the files must know"),
+    (ACROSS, {"read_cross": lambda *_: ()}, "must return the 2 tables"),
+    (
+        ACROSS,
+        {
+            "cross_sign": "stated",
+            "cross_files": lambda _, tables, _moves: EXEMPLARY.cross_files(tables, 1),
+            "read_cross": lambda _, files, tables, _moves: EXEMPLARY.read_cross(files, tables, 1),
+        },
+        "read by who states the other sign: Y over X is read 24 µm off",
+    ),
     (controllers.refuses_rows_that_do_not_rise, {"files": careless}, "are not refused"),
     (controllers.refuses_rows_that_do_not_rise, {"files": elsewhere}, "elsewhere than at table.place"),
 ]
@@ -196,6 +299,20 @@ def test_a_check_finds_its_sin(check: Callable[..., None], sin: dict[str, Any], 
     with pytest.raises(AssertionError) as failure:
         check(sinner(sin), {}, EXAMPLE)
     assert sentence in str(failure.value)
+
+
+def test_a_control_of_a_sign_that_is_stated_passes_without_an_example_of_it() -> None:
+    ACROSS(StatedSign(), {}, replace(EXAMPLE, across=None))
+
+
+def test_a_sign_that_is_known_needs_a_file_of_the_maker() -> None:
+    with pytest.raises(AssertionError, match="its sign is known: give a file as the maker prints it"):
+        ACROSS(EXEMPLARY, {}, replace(EXAMPLE, across=None))
+
+
+def test_nothing_is_asked_of_a_control_without_such_tables() -> None:
+    plain = type("Plain", (), {"identifier": "plain"})()
+    ACROSS(plain, {}, EXAMPLE)
 
 
 def test_every_check_has_a_sin() -> None:

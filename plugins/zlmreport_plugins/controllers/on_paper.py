@@ -124,7 +124,16 @@ def _read_cec(text: str, number: int, table: CrossTable, moves: int) -> CrossTab
     (step,) = re.findall(rf"STEP\[{number}\]={_NUMBER}", text)
     (first,) = re.findall(rf"MIN\[{number}\]={_NUMBER}", text)
     positions = (float(first) + float(step) * np.arange(len(values))) * 1e-3
-    return replace(table, positions=read_only_floats(positions), values=-moves * np.array(values) * 1e-3)
+    (moving,), (aside,) = (
+        re.findall(rf"{which}_AXIS\[{number}\]=\((\w+?)1\)", text) for which in ("INPUT", "OUTPUT")
+    )
+    return replace(
+        table,
+        input=moving,
+        output=aside,
+        positions=read_only_floats(positions),
+        values=-moves * np.array(values) * 1e-3,
+    )
 
 
 class SiemensOptions(Options):

@@ -36,7 +36,6 @@ from zlmreport.plugin.source import (
     SourceContext,
     SourceProposal,
     collect_readings,
-    read_text,
 )
 from zlmreport.plugin.table import (
     Cells,
@@ -45,13 +44,9 @@ from zlmreport.plugin.table import (
     TextColumn,
     TextTable,
     column_with_unit,
-    decimal_sign,
     find_heading,
-    folded,
-    heading_of,
     missing_column,
     read_headings,
-    read_table,
 )
 from zlmreport_plugins.union_jack_lines import FLATNESS, LINE as LINE_OF_A_PLATE, LINES
 
@@ -93,11 +88,10 @@ class PlateCsv:
         """Return the keys by which a file may be read, if it has readings of the lines of a plate."""
         options = PlateCsvOptions(file=file, foot=_USUAL_FOOT)
         try:
-            table = _read_table(options)
-            columns = _find_columns(table, options, Place(str(file)))
+            cells, columns = _table_of(options, Place(str(file)))
         except InputError:
             return []
-        cells = Cells(table, decimal_sign(table, [columns[READING].index], ""), "", options.words_for_missing)
+        table = cells.table
         said = (cells.word(row, columns[LINE], str) for row in table.rows)
         names = {_fold_line_name(name): name for name in said if name}
         tests = tuple(name for name in FLATNESS.test_names if name in names)
@@ -123,11 +117,8 @@ class PlateCsv:
                 context.place,
                 f"the feet of a carriage are not {options.foot:g} mm apart; 'foot' is in millimetres",
             )
-        table = _read_table(options)
-        columns = _find_columns(table, options, context.place)
-        numbers = [columns[READING].index]
-        sign = options.stated_decimal_sign or decimal_sign(table, numbers, options.thousands_signs)
-        cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
+        cells, columns = _table_of(options, context.place)
+        table = cells.table
         side = -1.0 if options.falls else 1.0
         readings, names = [], dict[str, str]()
         for row in table.rows:
@@ -160,9 +151,11 @@ def _say_no_line_asked(names: list[str]) -> Iterator[str]:
     yield f"What is {shown}? The lines of a union jack are {', '.join(LINES)}; other ones are left out."
 
 
-def _read_table(options: PlateCsvOptions) -> TextTable:
-    text = read_text(options.file, options.encoding, options.sheet)
-    return read_table(text, options, lambda name: folded(heading_of(name).name) in options.column_names)
+def _table_of(options: PlateCsvOptions, place: Place) -> tuple[Cells, dict[str, TextColumn]]:
+    """Return the cells of a table, and which columns it has."""
+    table = options.read_table()
+    columns = _find_columns(table, options, place)
+    return options.cells_of(table, [columns[READING].index]), columns
 
 
 def _find_columns(table: TextTable, options: PlateCsvOptions, place: Place) -> dict[str, TextColumn]:

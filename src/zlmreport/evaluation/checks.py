@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
@@ -31,6 +31,8 @@ _RELATIVE = Words(
     "both directions, brought together by means of the readings themselves: reversal values are relative to "
     "their mean"
 )
+_ON_EACH_LINE = Words("On each line: {requirement}")
+_ON_A_LINE = Words("{found} ({name})")
 #: Phases that agree within this part of a period show the same point of a periodic deviation.
 _SAME_PHASE = 0.01
 #: Intervals that agree within this part are alike: their digits were rounded.
@@ -371,3 +373,13 @@ def mean_interval(measurements: MeasurementSet, limit: float, basis: Basis) -> F
     requirement = requirement.given(limit=position_in_words(axis, limit))
     interval = float(targets[-1] - targets[0]) / max(1, len(targets) - 1)
     return Finding(requirement, position_in_words(axis, interval), interval <= limit * (1 + _ALIKE), basis)
+
+
+def worst_of_lines(lines: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSet], Finding]) -> Finding:
+    """Return what a rule finds on the one of some lines, one at least, that meets it least, with its name."""
+    found = {name: rule(line) for name, line in lines.items()}
+    gravity = {False: 0, None: 1, True: 2}
+    name = min(found, key=lambda each: gravity[found[each].met])
+    worst = found[name]
+    said = _ON_A_LINE.given(found=worst.found, name=name)
+    return Finding(_ON_EACH_LINE.given(requirement=worst.requirement), said, worst.met, worst.basis)

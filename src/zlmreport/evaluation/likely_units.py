@@ -38,8 +38,8 @@ _MOVES_STRAIGHT = Words(
     "axis.kind: linear"
 )
 _LARGE_ANGLES = Words(
-    "Angles that span {span}{unit} are unusual for an axis; if the file has another unit: source.units: "
-    "{{deviation: {meant}}}"
+    "Angles that span {span}{unit} are unusual; if the file has another unit, such as {meant}, state it "
+    "under measurement.source.units"
 )
 #: Of a machine tool's axis, rad: 1000 arc seconds.
 _LARGE_ANGLE = 1000 / 206264.80624709636

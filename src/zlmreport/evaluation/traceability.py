@@ -61,15 +61,18 @@ def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     return (*(each.words for each in found), *_say_out_of_scope(job, measurements))
 
 
-def is_shown(job: Job) -> bool:
-    """Return whether a job names a certificate of its instrument, and nothing it says breaks the chain."""
+def certificates(job: Job) -> tuple[str, ...]:
+    """Return the calibration certificates through which the results of a job are traceable, each once.
+
+    Of the instrument of every line of every part; none where one of them names no certificate, or where
+    something that the job says breaks the chain.
+    """
     lines = [line for part in job.parts for line in part.lines.values()]
     of_all = [each.keys for each in (job, *lines, *(one.as_found for one in lines if one.as_found))]
-    instrument = job.keys.instrument
-    is_named = instrument is not None and is_reference(instrument.certificate or "")
-    return is_named and not any(
-        each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)
-    )
+    named = [(each.keys.instrument and each.keys.instrument.certificate) or "" for each in lines]
+    if any(each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)):
+        return ()
+    return tuple(dict.fromkeys(named)) if all(map(is_reference, named)) else ()
 
 
 def find_broken_chain(job: Job) -> Iterator[Problem]:

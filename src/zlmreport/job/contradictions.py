@@ -154,12 +154,17 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         keys.uncertainty, keys.axis.kind, is_circle=keys.circle is not None
     ):
         yield ("uncertainty", *steps), message
-    per_metre = keys.instrument and keys.instrument.expanded_uncertainty_per_metre
-    if per_metre and keys.axis.kind is AxisKind.ROTARY:
-        yield (
-            ("instrument", "expanded_uncertainty_per_metre"),
-            "belongs to a linear axis: a rotary one has no metres",
-        )
+    yield from _per_metre(keys)
+
+
+def _per_metre(keys: JobKeys) -> Iterator[Contradiction]:
+    """Yield an uncertainty that grows with the length of an axis that has none."""
+    instrument = keys.instrument
+    stated = instrument.stated_uncertainty if instrument else None
+    if instrument and stated and stated[1] and keys.axis.kind is AxisKind.ROTARY:
+        is_own = instrument.expanded_uncertainty_per_metre is not None
+        name = "expanded_uncertainty_per_metre" if is_own else "expanded_uncertainty"
+        yield ("instrument", name), "belongs to a linear axis: a rotary one has no metres"
 
 
 def _find_wrong_days(keys: JobKeys) -> Iterator[Contradiction]:

@@ -282,7 +282,9 @@ class Capability(JobPart):
 
     constant: NotNegative = Field(0.0, description="Micrometres (arc seconds).", examples=[0.3])
     per_metre: NotNegative = Field(
-        0.0, description="What it gains with each metre of measured length, micrometres/m.", examples=[0.5]
+        0.0,
+        description="What it gains with each metre of measured length, micrometres/m (arc seconds/m).",
+        examples=[0.5],
     )
     length: Annotated[float, Field(gt=0)] | None = Field(
         None,

@@ -20,6 +20,7 @@ from zlmreport.measurement.axis import AxisKind
 ActsName: TypeAlias = Literal[
     "along-the-length",
     "between-directions",
+    "with-the-reading",
     "at-the-datum",
     "at-each-position",
     "round-the-circle",
@@ -41,6 +42,8 @@ ContributorName: TypeAlias = Literal[
     "relative_humidity",
     "calibrated_length",
     "centring",
+    "square",
+    "foot_spacing",
     "environmental_variation",
     "resolution",
 ]
@@ -51,19 +54,20 @@ class ContributionKeys(JobPart):
 
     name: Text = Field(description="What it comes from.", examples=["Dead path"])
     expanded_uncertainty: NotNegative | None = Field(
-        None, description="U with k = 2, micrometres (arc seconds)."
+        None, description="U with k = 2, micrometres (arc seconds); with-the-reading: % of the reading."
     )
     standard_uncertainty: NotNegative | None = Field(
-        None, description="Or u, micrometres (arc seconds).", examples=[0.2]
+        None, description="Or u, micrometres (arc seconds); likewise.", examples=[0.2]
     )
     range: NotNegative | None = Field(
-        None, description="Or the full range of the values that it may have, micrometres (arc seconds)."
+        None,
+        description="Or the full range of the values that it may have, micrometres (arc seconds); likewise.",
     )
     acts: ActsName = Field(
         description="Which readings share it: all in proportion to their distance from the first target, all "
-        "of the negative direction, all alike, those of a target, those of an angle and nearly those beside "
-        "it on a circle, those of a circle off its centre, those of a target in one direction, those that "
-        "are near in time (a drift of that range), or none.",
+        "of the negative direction, all in proportion to what was read, all alike, those of a target, those "
+        "of an angle and nearly those beside it on a circle, those of a circle off its centre, those of a "
+        "target in one direction, those that are near in time (a drift of that range), or none.",
         examples=["at-each-reading"],
     )
     distribution: Literal["normal", "rectangular", "triangular", "one-sided"] | None = Field(
@@ -165,6 +169,11 @@ _OF_CIRCLES = ("calibrated_length", "centring")
 #: Ways to share an error that only a circle has, and the one that it has not.
 _ACTS_OF_CIRCLES = ("round-the-circle", "off-centre")
 _ACTS_OF_LENGTHS = ("along-the-length",)
+_IN_PER_CENT = "with-the-reading"
+_A_SCALE = (
+    f"{_IN_PER_CENT} is stated in % of the reading: name it under uncertainty.contributions, as "
+    f"{{name: Scale of the instrument, acts: {_IN_PER_CENT}, expanded_uncertainty: …}}"
+)
 _SIZES = ("expanded_uncertainty", "standard_uncertainty", "range")
 
 
@@ -184,6 +193,8 @@ def _find_foreign_acts(
     """Yield ways to share an error that what was measured does not have."""
     foreign = _ACTS_OF_LENGTHS if is_circle else _ACTS_OF_CIRCLES
     what = "a circle has no length along an axis" if is_circle else "this job is on no circle"
+    if keys.instrument_acts == _IN_PER_CENT:
+        yield ("instrument_acts",), _A_SCALE
     if keys.instrument_acts in foreign:
         yield ("instrument_acts",), f"{keys.instrument_acts} does not fit: {what}"
     for index, each in enumerate(keys.contributions):

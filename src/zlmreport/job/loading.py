@@ -47,7 +47,17 @@ from zlmreport.job.quantity import (
     find_stated_error,
     find_tests_contradictions,
 )
-from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, find_at, make_keys_of, merge, place_of
+from zlmreport.job.tree import (
+    Items,
+    KeyEntry,
+    Keys,
+    Scalar,
+    find_at,
+    find_key_place,
+    make_keys_of,
+    merge,
+    place_of,
+)
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import (
@@ -62,6 +72,7 @@ from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.units import ANGLE_UNITS, MICRORADIAN, MILLIMETRE
 
 _SOURCE = ("measurement", "source")
+_TESTS = ("measurement", "tests")
 _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
 _CANDIDATES = ("model", "candidates")
@@ -144,7 +155,7 @@ def _check_job(
     composition: Composition, folder: Path, registry: Installed, formats: tuple[str, ...] = ()
 ) -> Job:
     """Return the job in a folder that files make together, without the further tests that its model names."""
-    tree = _add_axis(_share_keys(composition.keys, registry), registry)
+    tree = _add_axis(_share_keys(_with_shared_source(composition.keys), registry), registry)
     refuse_other_format(
         tree, JOB, lambda: [each for offered in registry.extensions for each in offered.formats]
     )
@@ -303,13 +314,49 @@ def _share_keys(tree: Keys, registry: Installed) -> Keys:
     return make_keys_of(tree.place, tuple(entries.values()))
 
 
+def _with_shared_source(tree: Keys) -> Keys:
+    """Return the keys of a job with the source of its measurement in each test that has none of its own."""
+    measurement, tests = find_at(tree, ("measurement",)), find_at(tree, _TESTS)
+    if (
+        not isinstance(measurement, Keys)
+        or not isinstance(tests, Keys)
+        or "source" not in measurement.entries
+    ):
+        return tree
+    source = measurement.entries["source"]
+    shared = {
+        name: entry
+        for name, entry in tests.entries.items()
+        if isinstance(entry.value, Keys) and "source" not in entry.value.entries
+    }
+    if not shared:
+        return tree
+    filled = {
+        name: replace(entry, value=make_keys_of(entry.value.place, (*entry.value.entries.values(), source)))
+        for name, entry in shared.items()
+        if isinstance(entry.value, Keys)
+    }
+    of_tests = make_keys_of(tests.place, tuple({**tests.entries, **filled}.values()))
+    entries = dict(measurement.without("source").entries)
+    entries["tests"] = replace(entries["tests"], value=of_tests)
+    whole = replace(
+        tree.entries["measurement"], value=make_keys_of(measurement.place, tuple(entries.values()))
+    )
+    return make_keys_of(tree.place, tuple({**tree.entries, "measurement": whole}.values()))
+
+
 def _test_sources(
     keys: JobKeys, tree: Keys, registry: Installed, problems: list[Problem]
 ) -> dict[str, SourceChoice]:
-    """Return the data source of each named test."""
+    """Return the data source of each named test; one that several share is checked once."""
     found = {}
+    checked: dict[Place, SourceChoice | None] = {}
     for name in keys.measurement.tests:
-        source = _choose_source(tree, ("measurement", "tests", name, "source"), registry, problems)
+        path = ("measurement", "tests", name, "source")
+        place = find_key_place(tree, path)
+        if place not in checked:
+            checked[place] = _choose_source(tree, path, registry, problems)
+        source = checked[place]
         if source:
             found[name] = source
     return found

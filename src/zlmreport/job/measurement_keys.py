@@ -104,8 +104,11 @@ class MachineUnderTest(JobPart):
     manufacturer: Text | None = Field(None, description="Who built it.")
     model: Text | None = Field(None, description="Type designation.")
     serial: Text | None = Field(None, description="Serial number or other identification.")
-    kind: Literal["machine tool", "coordinate measuring machine"] = Field(
-        "machine tool", description="What the results mean is said for a part made, or measured, on it."
+    kind: Literal["machine tool", "coordinate measuring machine", "surface plate"] | None = Field(
+        None,
+        description="What the results mean is said for a part made, or measured, on it. Without it a machine "
+        "tool, and of flatness a surface plate.",
+        examples=["machine tool"],
     )
     location: Text | None = Field(None, description="Where it stands.")
     condition: Text | None = Field(None, description="Condition in which it was found.")
@@ -205,7 +208,7 @@ class LineKeys(JobPart):
     )
     source: SourceKeys | None = Field(
         None,
-        description="Where the readings come from; not needed beside tests.",
+        description="Where the readings come from; beside tests that of each which has none of its own.",
         examples=[{"plugin": "laser-csv", "file": "x-axis.csv"}],
     )
     date: Date | None = Field(
@@ -295,7 +298,8 @@ class Instrument(JobPart):
     )
     expanded_uncertainty_per_metre: Positive | None = Field(
         None,
-        description="What the expanded uncertainty gains with each metre of measured length, micrometres/m.",
+        description="What the expanded uncertainty gains with each metre of measured length, micrometres/m "
+        "(arc seconds/m).",
         examples=[0.5],
     )
     expansion_coefficient: Finite | None = Field(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Annotated, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, Field, field_validator, model_validator
@@ -10,9 +10,9 @@ from pydantic import AfterValidator, Field, field_validator, model_validator
 from zlmreport.errors import did_you_mean
 from zlmreport.job.types import JobPath, Options
 from zlmreport.language.formatting import DecimalSign
-from zlmreport.measurement.columns import fold
-from zlmreport.measurement.table import BLANKS, THOUSANDS
-from zlmreport.measurement.text_file import require_known_encoding
+from zlmreport.measurement.columns import Cells, find_decimal_sign, fold, read_heading
+from zlmreport.measurement.table import BLANKS, THOUSANDS, TextTable, read_table
+from zlmreport.measurement.text_file import read_text, require_known_encoding
 from zlmreport.measurement.units import Scale, Unit, find_unit_named
 
 _DELIMITERS = {"comma": ",", "semicolon": ";", "tab": "\t", "blanks": BLANKS}
@@ -140,6 +140,26 @@ class TableOptions(TablePlace):
     def thousands_signs(self) -> str:
         """The characters that part groups of three digits; none without."""
         return THOUSANDS[self.thousands] if self.thousands else ""
+
+    def names_column(self, text: str) -> bool:
+        """Whether a header is the name of a column that the source knows, or of which the job speaks."""
+        named = read_heading(text)
+        return fold(named.name) in self.column_names or any(
+            named.is_called(name) for name in (*self.columns.values(), *self.ignore)
+        )
+
+    def read_table(self, names_column: Callable[[str], bool] | None = None) -> TextTable:
+        """Read the table; raise `InputError` if there is none, `AccessError` if the file cannot be read.
+
+        `names_column`: Whether a header is known, where more are than `names_column` of these keys tells.
+        """
+        text = read_text(self.file, self.encoding, self.sheet)
+        return read_table(text, self, names_column or self.names_column)
+
+    def cells_of(self, table: TextTable, numbers: Sequence[int]) -> Cells:
+        """Return what reads the cells of a table; `numbers` are the columns whose numbers have decimals."""
+        sign = self.stated_decimal_sign or find_decimal_sign(table, numbers, self.thousands_signs)
+        return Cells(table, sign, self.thousands_signs, self.words_for_missing)
 
     @property
     def words_for_missing(self) -> frozenset[str]:

@@ -106,6 +106,11 @@ class Measurand:
     is_continuous
         Whether it is read while the machine moves, or over time, without targets at which an axis stops:
         documents then show curves and carry the values, and print no table of them.
+    has_reference_body
+        Whether it is measured against a body that has a form of its own, a mirror, a square or a
+        straightedge: the instrument's error may then be a bend along the whole line.
+    item
+        What it is measured on, where that is usually no machine.
     """
 
     identifier: str
@@ -126,6 +131,8 @@ class Measurand:
     target: Words = _TARGET
     senses: tuple[Words, Words] = _SENSES
     is_continuous: bool = False
+    has_reference_body: bool = False
+    item: Words | None = None
 
     @property
     def units(self) -> Mapping[str, Unit]:
@@ -169,6 +176,7 @@ STRAIGHTNESS = Measurand(
     title=Words("Straightness error"),
     definition=Words("the displacement perpendicular to the motion, in one of the two directions across it"),
     sign=Words("displacement across the motion, positive in the positive direction of {letter}"),
+    has_reference_body=True,
 )
 #: How far a moving component turns: roll, pitch or yaw.
 ANGLE = Measurand(
@@ -189,6 +197,7 @@ SQUARENESS = Measurand(
         "right-hand rule (this program's reading of ISO 230-1)"
     ),
     joins_tests=True,
+    contributors=("square",),
 )
 
 #: How far the path of a circle strays from its radius.

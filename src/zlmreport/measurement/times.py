@@ -1,4 +1,4 @@
-"""Times as tables write them: seconds, ISO 8601, a day as in 18.11.2026, a time of day alone."""
+"""Times as tables write them: seconds, ISO 8601, days as in 18.11.2026 or 11/18/2026 AM, a time of day."""
 
 from __future__ import annotations
 
@@ -22,6 +22,14 @@ _HALF_A_DAY = 43_200.0
 _DAY = 86_400.0
 _LAST_HOUR, _LAST_MINUTE = 23, 59
 _CLOCK = re.compile(r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,]([0-9]{1,6}))?)?")
+#: Year, month and day, parted by strokes; and as in America, which only AM and PM tell from others.
+_STROKES = re.compile(r"([0-9]{4})/([0-9]{1,2})/([0-9]{1,2})(.*)")
+_AMERICAN = re.compile(
+    r"(?:([0-9]{1,2})/([0-9]{1,2})/([0-9]{4})[ ,]\s*)?([0-9]{1,2})(:.*?)\s*([AP])\.?M\.?", re.IGNORECASE
+)
+#: An hour of one digit behind a day of ISO 8601, and how it is written with two.
+_ONE_DIGIT, _PADDED = re.compile(r"^((?:[0-9]{4}-[0-9]{2}-[0-9]{2})?[ T])([0-9])(?=:)"), r"\g<1>0\2"
+_NOON = 12
 _GERMAN_DAY = re.compile(r"([0-9]{1,2})\.([0-9]{1,2})\.([0-9]{4}|[0-9]{2})(?:,?\s+(.+?)(?:\s*Uhr)?)?")
 
 
@@ -58,9 +66,12 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
 def read_moment(text: str) -> dt.datetime | None:
     """Return a time as ISO 8601 writes it, of the day alone, or as in ``18.11.2026 8:15``; None for others.
 
-    >>> moment("18.11.2026 8:15") == moment("2026-11-18T08:15")
+    >>> moment("18.11.2026 8:15") == moment("2026-11-18T08:15") == moment("11/18/2026 8:15 AM")
     True
+    >>> moment("2026/11/18 20:15") == moment("11/18/2026 8:15 PM"), moment("8:15 pm") == moment("20:15")
+    (True, True)
     """
+    text = _usual(text)
     try:
         return dt.datetime.fromisoformat(text)
     except ValueError:
@@ -78,6 +89,23 @@ def read_moment(text: str) -> dt.datetime | None:
     if int(hour) > _LAST_HOUR or int(minute) > _LAST_MINUTE or seconds > _LAST_MINUTE + 1:
         return None
     return found + dt.timedelta(hours=int(hour), minutes=int(minute), seconds=seconds)
+
+
+def _usual(text: str) -> str:
+    """Return a moment as ISO 8601 writes it that has strokes, halves of the day, or hours of one digit.
+
+    Day and month of 11/10/2026 nobody can tell apart, unless by AM and PM, which are written in one order.
+    """
+    strokes, american = _STROKES.fullmatch(text), _AMERICAN.fullmatch(text)
+    if strokes:
+        year, month, day, rest = strokes.groups()
+        return f"{year}-{int(month):02}-{int(day):02}{_ONE_DIGIT.sub(_PADDED, rest)}"
+    if american:
+        month, day, year, hour, rest, half = american.groups()
+        hours = int(hour) % _NOON + (_NOON if half in "Pp" else 0)
+        date = f"{year}-{int(month):02}-{int(day):02} " if year else ""
+        return f"{date}{hours:02}{rest}" if 1 <= int(hour) <= _NOON else text
+    return _ONE_DIGIT.sub(_PADDED, text)
 
 
 def _kind(found: dt.datetime) -> tuple[bool, bool]:

@@ -30,8 +30,8 @@ def with_unit(number: str, symbol: str) -> str:
 
 
 def write_behind(symbol: str) -> str:
-    """Return a unit as it stands behind a number: ``″`` touches it, and a blank parts others from it."""
-    return symbol if symbol in _TOUCHING else f" {symbol}"
+    """Return a unit as it stands behind a number: ``″`` and ``″/m`` touch it, and a blank parts others."""
+    return symbol if symbol in _TOUCHING or symbol.startswith("″") else f" {symbol}"
 
 
 @dataclass(frozen=True, slots=True)

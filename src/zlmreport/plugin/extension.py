@@ -6,6 +6,7 @@ from zlmreport.evaluation.uncertainty.budget import (
     Acts,
     Contribution,
     Distribution,
+    of_the_reading,
 )
 from zlmreport.evaluation.uncertainty.expanded import (
     add_uncertainty as with_uncertainty,
@@ -76,6 +77,7 @@ __all__ = [
     "ProgramKeys",
     "calibration_in_words",
     "expanded_uncertainty_in_words",
+    "of_the_reading",
     "read_keys_file",
     "take_names",
     "unwritable",

@@ -50,7 +50,7 @@ from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords
 from zlmreport.document.certificate.endings import Ending, find_endings as endings
 from zlmreport.document.certificate.statements import (
-    TRACEABLE,
+    traceable_through,
 )
 from zlmreport.document.writer import (
     Writer,
@@ -74,6 +74,7 @@ from zlmreport.job.document_keys import (
     Laboratory,
 )
 from zlmreport.language.formatting import (
+    round_pair as rounded_pair,
     split_spans as notation_spans,
 )
 from zlmreport.plugin.protocols import (
@@ -84,7 +85,6 @@ __all__ = [
     "CONFORMITY_STATEMENTS",
     "COVERAGE_PROBABILITY",
     "DIGEST",
-    "TRACEABLE",
     "Align",
     "Attachment",
     "Block",
@@ -130,6 +130,8 @@ __all__ = [
     "place_of_work",
     "report_changes",
     "report_evaluation",
+    "rounded_pair",
     "table_layout",
+    "traceable_through",
     "with_symbols",
 ]

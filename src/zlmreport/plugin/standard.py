@@ -47,6 +47,7 @@ from zlmreport.evaluation.checks import (
     random_fractions,
     runs_in_words,
     spacing_against_periods,
+    worst_of_lines,
 )
 from zlmreport.evaluation.decision import (
     decided,
@@ -135,5 +136,6 @@ __all__ = [
     "smallest_over_positions",
     "spacing_against_periods",
     "span_over_positions",
+    "worst_of_lines",
     "worst_position",
 ]

@@ -31,6 +31,7 @@ from zlmreport.testing.circle_programs import (
     sample_circle_path,
 )
 from zlmreport.testing.controllers import CONTROLLER_CHECKS, ControlExample, check_controller
+from zlmreport.testing.cross_tables import CrossExample, sample_cross_tables
 from zlmreport.testing.effects import EFFECT_CHECKS, check_effect
 from zlmreport.testing.examples import WorkedExample
 from zlmreport.testing.extensions import EXTENSION_CHECKS, check_extension
@@ -56,6 +57,7 @@ __all__ = [
     "STANDARD_CHECKS",
     "CircleMove",
     "ControlExample",
+    "CrossExample",
     "FileContents",
     "InstrumentTraits",
     "NotifierTrial",
@@ -76,6 +78,7 @@ __all__ = [
     "full_designs",
     "sample_certificate",
     "sample_circle_path",
+    "sample_cross_tables",
     "sample_motion",
     "simulated_test",
 ]

@@ -13,6 +13,7 @@ from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.model.compensation.curve import CompensationTable
 from zlmreport.plugin.protocols import Controller
+from zlmreport.testing.cross_tables import CrossExample, check_cross_files
 from zlmreport.testing.expectations import (
     check,
     expect,
@@ -48,6 +49,8 @@ class ControlExample:
         The job keys with which this file is written.
     deviation_step, position_step
         The finest steps in which the control takes a deviation, µm (″), and a position, mm (°).
+    across
+        A file with a table across axes, of a control that takes one whose sign is known.
     """
 
     files: Mapping[str, str]
@@ -55,6 +58,7 @@ class ControlExample:
     keys: Mapping[str, Any] | None = None
     deviation_step: float = 0.1
     position_step: float = 0.001
+    across: CrossExample | None = None
 
 
 def sample_table(rows: int = 11, step: float = 0.030125) -> CompensationTable:
@@ -212,6 +216,14 @@ def refuses_rows_that_do_not_rise(controller: Controller, keys: Mapping[str, Any
         raise AssertionError(message)
 
 
+@check
+def takes_tables_across_axes(
+    controller: Controller, _keys: Mapping[str, Any], example: ControlExample | None = None
+) -> None:
+    """Check that its tables across axes, where it has them, take away what was asked: axes, places, sign."""
+    check_cross_files(controller, example.across if example else None)
+
+
 #: Every check of a controller, each called with it, its job keys, and the example of its maker.
 CONTROLLER_CHECKS = (
     is_named,
@@ -220,6 +232,7 @@ CONTROLLER_CHECKS = (
     reads_what_its_maker_prints,
     writes_the_same_again,
     refuses_rows_that_do_not_rise,
+    takes_tables_across_axes,
 )
 
 

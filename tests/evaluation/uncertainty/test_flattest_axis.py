@@ -11,8 +11,10 @@ from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution, 
 from zlmreport.evaluation.uncertainty.flattest_axis import make_flattest
 from zlmreport.language import same
 from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.measurement.axis import Axis
+from zlmreport.measurement.measurand import STRAIGHTNESS
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.testing import simulated_test
+from zlmreport.testing import bidirectional_test, simulated_test
 
 
 def of_instrument(standard_uncertainty: float, acts: Acts = Acts.AT_EACH_POSITION) -> Budget:
@@ -73,3 +75,16 @@ def test_a_flat_axis_stays_one() -> None:
 
     assert flat is not None
     assert spread(flat) == 0
+
+
+def test_the_slope_of_a_set_up_is_no_form_of_the_axis() -> None:
+    """A straightness that is no larger than the instrument is flattened, however steep its line."""
+    at = np.linspace(0, 900, 10)
+    form = 0.5 * np.sin(at / 60)
+    for slope in (0.0, 0.1):  # µm/mm
+        readings = (form + slope * at)[:, np.newaxis]
+        line = bidirectional_test(at, readings, readings, axis=Axis("X", quantity=STRAIGHTNESS, error="EYX"))
+        found = make_flattest(line, of_instrument(0.3e-6))
+        assert found is not None
+        left = np.polynomial.Polynomial.fit(at, means(found) * 1e6, 1)
+        assert np.ptp(means(found) * 1e6 - left(at)) < 0.8 * np.ptp(form)

@@ -402,3 +402,17 @@ def test_a_coefficient_that_a_straightness_shares_with_others_asks_for_no_temper
         "uncertainty": {"machine_temperature": 0.5, "device_temperature": 0.5},
     }
     assert isinstance(made(tmp_path, stated), Budget)
+
+
+def test_a_part_per_metre_of_an_angle_is_in_arc_seconds(tmp_path: Path) -> None:
+    """Of an angle interferometer: 0.05″ per metre of travel, and no micrometre of anything."""
+    stated = keys(
+        measurement={"error": "EAY"},
+        instrument={"expanded_uncertainty": 0.1, "expanded_uncertainty_per_metre": 5.0},
+    )
+
+    found = contributions(tmp_path, {**stated, "evaluate": ["iso230-1:2012"]})
+
+    growing, _ = (each for name, each in found.items() if name.startswith("Measuring instrument"))
+    assert growing.standard_uncertainty == pytest.approx(5.0 / 2 * LENGTH * math.pi / 648_000)
+    assert growing.stated.in_language(Language.ENGLISH) == "U = 5″/m · L (k = 2)"

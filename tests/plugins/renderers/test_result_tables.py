@@ -9,6 +9,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
+import numpy as np
 import openpyxl
 import pytest
 
@@ -16,6 +17,8 @@ from document.typesetting import samples
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.evaluation.uncertainty.budget import NoBudget
 from zlmreport.language import Language, Words
+from zlmreport.measurement.measurand import ANGLE
+from zlmreport.measurement.units import ARCSECOND
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 from zlmreport_plugins.renderers.json_results.tables import CsvRenderer, XlsxRenderer, make_harmless
 
@@ -125,9 +128,35 @@ def test_the_workbook_holds_the_readings_in_the_order_in_which_they_were_taken()
     measurements = certificate().measurements
     printed = table(book(certificate())["Readings"])
     assert [row["Run"] for row in printed] == measurements.run.tolist()
-    assert [row["Deviation / um"] for row in printed] == measurements.axis.deviation_unit.from_si(
-        measurements.deviation
-    ).tolist()
+    there_and_back = measurements.axis.deviation_unit.from_si(measurements.deviation)
+    assert [row["Deviation / um"] for row in printed] == pytest.approx(there_and_back.tolist(), rel=1e-15)
+
+
+def test_a_reading_of_the_workbook_has_the_digits_that_were_read() -> None:
+    """3.52″ are 3.5199999999999996″ after a way through radians."""
+    of = certificate()
+    turning = replace(of.measurements.axis, quantity=ANGLE)
+    readings = np.full_like(of.measurements.deviation, ARCSECOND.to_si(3.52))
+    assert ARCSECOND.from_si(readings)[0] != 3.52
+    read = replace(of, measurements=replace(of.measurements, axis=turning, deviation=readings))
+    assert {row["Deviation / arcsec"] for row in table(book(read)["Readings"])} == {3.52}
+
+
+@pytest.mark.parametrize(
+    ("expanded", "format_"), [(None, "0.000"), (0.0432, "0.000"), (0.0996, "0.00"), (43.2, "0")]
+)
+def test_a_parameter_of_the_workbook_is_shown_as_it_is_printed_and_held_whole(
+    expanded: float | None, format_: str
+) -> None:
+    of = certificate()
+    found = of.evaluations[0]
+    first = replace(found.parameters[0], expanded_uncertainty=None if expanded is None else expanded * 1e-6)
+    shown = replace(of, evaluations=(replace(found, parameters=(first,)), *of.evaluations[1:]))
+    sheet = book(shown)["Parameters"]
+    (column,) = (cell.column for cell in sheet[1] if cell.value == "Value")
+    cell = sheet.cell(2, column)
+    assert cell.value == results()["evaluations"][0]["parameters"][0]["value"]
+    assert cell.number_format == format_
 
 
 def test_no_text_of_a_workbook_is_a_formula() -> None:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from plugins.sources.reading import UM, File, said
+from zlmreport.errors import InputError
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurand import DISPLACEMENT
 from zlmreport_plugins.sources.channels_csv import ChannelsCsv
@@ -51,6 +54,11 @@ def test_times_are_counted_from_the_first_reading_of_all_channels(file: File) ->
         ("time (min)", ["0", "30", "60"]),
         ("time", ["2026-11-18T08:00", "2026-11-18T08:30", "2026-11-18T09:00"]),
         ("time", ["18.11.2026 8:00", "18.11.2026 8:30", "18.11.2026 9:00"]),
+        ("time", ["2026-11-18 8:00", "2026-11-18 8:30", "2026-11-18 9:00"]),
+        ("time", ["2026/11/18 8:00", "2026/11/18 8:30", "2026/11/18 9:00"]),
+        ("time", ["11/18/2026 11:45:00 AM", "11/18/2026 12:15:00 PM", "11/18/2026 12:45:00 PM"]),
+        ("time", ["11:30 pm", "12:00 am", "12:30 am"]),
+        ("time", ["18.11.26 08:00 Uhr", "18.11.26 08:30 Uhr", "18.11.26 09:00 Uhr"]),
         ("time", ["23:30", "0:00", "0:30"]),
     ],
 )
@@ -206,3 +214,79 @@ def test_a_file_of_sensors_and_temperatures_is_proposed(file: File) -> None:
 def test_a_file_of_something_else_is_not(file: File, content: str) -> None:
     file.path.write_text(content)
     assert list(ChannelsCsv().proposals(file.path)) == []
+
+
+def test_a_day_may_have_a_column_of_its_own(file: File) -> None:
+    rows = "date,time,X1\n18.11.2026,23:00:00,1\n19.11.2026,01:00:00,2\n"
+    np.testing.assert_allclose(file.read(rows, X1).target_positions, [0, 7200])
+
+
+WITH_DAYS = (
+    "Datum;Uhrzeit;Taster X1 (µm);Lufttemperatur;Luftfeuchte\n"
+    "18.11.2026;08:00;12,42;20,3;41\n18.11.2026;09:00;13,00;20,9;42\n"
+)
+CLOCKED = "time,X1\n2026-11-18 08:10,1\n2026-11-18 08:40,2\n"
+
+
+def test_loggers_that_know_the_time_of_day_count_from_one_moment(file: File) -> None:
+    found = file.read(CLOCKED, X1, counted_from="2026-11-18 08:00")
+    np.testing.assert_allclose(found.target_positions, [600, 2400])
+    assert "counted from 2026-11-18 08:00" in said(found)[0]
+
+
+def test_a_logger_of_seconds_may_have_been_started_later_than_the_test(file: File) -> None:
+    found = file.read("time,X1\n0,1\n60,2\n", X1, later_by=90)
+    np.testing.assert_allclose(found.target_positions, [90, 150])
+    assert "90 s after the test began" in said(found)[0]
+
+
+@pytest.mark.parametrize(
+    ("content", "keys", "message"),
+    [
+        (CLOCKED, {"counted_from": "08:00"}, "no moment like the times of the file, '2026-11-18 08:10'"),
+        (CLOCKED, {"counted_from": "2026-11-18T08:00+01:00"}, "no moment like the times of the file"),
+        ("time,X1\n0,1\n60,2\n", {"counted_from": "2026-11-18 08:00"}, "or say 'later_by: 90'"),
+        (CLOCKED, {"counted_from": "yesterday"}, "'yesterday' is no moment; 2026-11-18 08:00 is one"),
+        (CLOCKED, {"counted_from": "2026-11-18 08:00", "later_by": 9}, "both say when the test began"),
+    ],
+)
+def test_a_beginning_that_the_file_cannot_have_is_refused(
+    file: File, content: str, keys: dict[str, object], message: str
+) -> None:
+    with pytest.raises((InputError, ValidationError), match=re.escape(message)):
+        file.read(content, X1, **keys)
+
+
+@pytest.mark.parametrize(
+    ("content", "columns", "channels"),
+    [
+        ("time,X1\n0,1\n60,2\n", None, None),
+        (
+            WITH_DAYS,
+            {"date": "Datum", "time": "Uhrzeit"},
+            {"X1": "Taster X1", "air_temperature": "Lufttemperatur", "relative_humidity": "Luftfeuchte"},
+        ),
+        (
+            "Zeit;Kanal;Messwert\n18.11.2026 08:00;X1 (µm);12,42\n18.11.2026 09:00;X1 (µm);13,0\n",
+            {"time": "Zeit", "channel": "Kanal", "value": "Messwert"},
+            None,
+        ),
+        ("Datum;Z (µm)\n18.11.2026 08:00;1,5\n18.11.2026 09:00;2,5\n", {"time": "Datum"}, None),
+    ],
+)
+def test_a_logger_may_call_its_columns_in_german(
+    file: File, content: str, columns: dict[str, str] | None, channels: dict[str, str] | None
+) -> None:
+    file.path.write_text(content, encoding="utf-8")
+    (proposal,) = ChannelsCsv().proposals(file.path)
+    assert proposal.keys.get("columns") == columns
+    assert proposal.keys.get("channels") == channels
+    found = file.read(content, Axis(proposal.tests[0], quantity=DISPLACEMENT), **proposal.keys)
+    assert np.isfinite(found.deviation).all()
+
+
+def test_a_temperature_of_which_nobody_says_whose_it_is_is_asked(file: File) -> None:
+    file.path.write_text("Zeit,X1,Temperatur\n0,1,20\n60,2,20\n", encoding="utf-8")
+    (proposal,) = ChannelsCsv().proposals(file.path)
+    assert proposal.keys["channels"] == {"air_temperature": "Temperatur"}
+    assert "Is 'Temperatur' the temperature of the air?" in proposal.asks[0]

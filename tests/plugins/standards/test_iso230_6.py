@@ -127,6 +127,11 @@ def test_three_diagonals_have_no_largest_of_four() -> None:
     assert "NNP" in four.found.in_language(Language.ENGLISH)
 
 
+def test_a_diagonal_of_one_position_has_no_length_and_no_systematic_deviation() -> None:
+    one = bidirectional_test([0.0], np.array([[0.1]]), np.array([[0.3]]), axis=Axis("PPP", quantity=DIAGONAL))
+    assert values(together({"PPP": one})) == {"B_PPP": pytest.approx(0.2)}
+
+
 def test_a_diagonal_longer_than_the_work_space_is_told() -> None:
     flat = {name: line(name, np.zeros((9, 5)), length=900.0) for name in BODY}
     (room,) = (each for each in together(flat).findings if "work space" in each.requirement.en)

@@ -14,7 +14,6 @@ from zlmreport.plugin import CONDITION_NAMES, InputError, Language, Problem, Wor
 from zlmreport.plugin.extension import Job
 from zlmreport.plugin.renderer import (
     DIGEST,
-    TRACEABLE,
     Block,
     Cell,
     Certificate,
@@ -32,6 +31,7 @@ from zlmreport.plugin.renderer import (
     address_lines,
     notation_spans,
     place_of_work,
+    traceable_through,
 )
 from zlmreport_plugins.renderers.dcc.elements import (
     DEGREE_CELSIUS,
@@ -319,9 +319,8 @@ def _make_condition(
 def make_statements(certificate: Certificate) -> Iterator[ET.Element]:
     """Yield the statements, in the order of the pages and each once."""
     language = certificate.language.value
-    instrument = certificate.job.keys.instrument if certificate.job else None
-    number = instrument.certificate if instrument else None
-    traceability = TRACEABLE.given(certificate=number or "").in_language(certificate.language)
+    traceable = traceable_through(certificate.job) if certificate.job else None
+    traceability = traceable and traceable.in_language(certificate.language)
 
     def content(text: str) -> ET.Element:
         return dcc("content", text, lang=language)

@@ -1,7 +1,9 @@
 """The results as tables: one value a row, for pandas, R and whoever draws graphs; or a workbook.
 
-The numbers are those of the results file, digit by digit. In the workbook every text is a text, also one that
-begins as a formula does; and the same certificate gives the same bytes: what openpyxl writes of the clock is
+The numbers are those of the results file, digit by digit; cells of the workbook hold them whole and show them
+with the digits that a document prints. Readings are what the file says that they were read from, without the
+rounding of a unit's conversion. In the workbook every text is a text, also one that begins as a formula does;
+and the same certificate gives the same bytes: what openpyxl writes of the clock is
 taken out again.
 """
 
@@ -13,11 +15,11 @@ import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime, time
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from zlmreport.plugin import CIRCLE, Approach, MeasurementSet, Words
-from zlmreport.plugin.renderer import Certificate
+from zlmreport.plugin.renderer import Certificate, rounded_pair
 from zlmreport_plugins.renderers.json_results.document import Json, collect_results
 
 _HEADER = ("standard", "symbol", "target", "quantity", "value", "unit")
@@ -28,8 +30,20 @@ _OF_PARAMETER = ("value", "expanded_uncertainty", "coverage_factor", "limit")
 _OF_ROW = ("symbol", "name", "value", "unit", "expanded_uncertainty", "coverage_factor", "limit")
 _WITHOUT_UNIT = frozenset({"coverage_factor", "risk", "chi2_per_dof"})
 
+
+class _Shown(NamedTuple):
+    """A number, and how a cell shows it."""
+
+    value: float
+    format: str
+
+
 #: A number, a text, or nothing.
-_Cell: TypeAlias = float | str | None
+_Cell: TypeAlias = float | str | _Shown | None
+#: How cells show what a document prints with three decimals, and with two: k.
+_THREE_DECIMALS, _TWO_DECIMALS = "0.000", "0.00"
+#: Digits of a decimal number that a double keeps.
+_SURE_DIGITS = 15
 
 _PARAMETERS = Words("Parameters")
 _AS_FOUND = Words("{sheet} as found")
@@ -201,6 +215,44 @@ class XlsxRenderer:
         return _remove_clock(file.getvalue(), moment)
 
 
+def _fill(cell: Any, value: float | str | _Shown) -> int:
+    """Write a value into a cell; return how many characters it shows."""
+    if isinstance(value, str):
+        cell.value = _clean(value)
+        cell.data_type = "s"  # never a formula
+        return len(value[:_WIDEST_COLUMN])
+    number, shown = (value.value, value.format) if isinstance(value, _Shown) else (value, "")
+    cell.value = repr(number)  # all digits of the results file; openpyxl would write sixteen
+    cell.data_type = "n"
+    if not shown:
+        return len(str(number))
+    cell.number_format = shown
+    return len(f"{number:.0f}") + len(shown) - 1
+
+
+def _of_parameter(parameter: Json) -> Iterator[_Cell]:
+    """Yield the cells of a parameter: it and its U are shown as far as U has two digits."""
+    shown, _ = rounded_pair(0.0, parameter.get("expanded_uncertainty") or 0.0)
+    _, _, decimals = shown.partition(".")
+    formats = {
+        **dict.fromkeys(("value", "expanded_uncertainty"), f"0.{'0' * len(decimals)}" if decimals else "0"),
+        "coverage_factor": _TWO_DECIMALS,
+    }
+    for key in _OF_ROW:
+        value = parameter.get(key)
+        yield _Shown(value, formats[key]) if key in formats and value is not None else value
+
+
+def _shown_mean(key: str, value: float | None) -> _Cell:
+    """Return the cell of a value by position; a number of readings is a whole one."""
+    return value if value is None or key.startswith("n_") else _Shown(value, _THREE_DECIMALS)
+
+
+def _as_read(value: float) -> float:
+    """Return the decimal number that was read: not what the conversion to metres and back has made of it."""
+    return float(f"{value:.{_SURE_DIGITS}g}")
+
+
 class _Sheets:
     """Fills the sheets of one workbook."""
 
@@ -235,7 +287,7 @@ class _Sheets:
             [
                 self._certificate.number,
                 evaluation["standard"],
-                *map(parameter.get, _OF_ROW),
+                *_of_parameter(parameter),
                 parameter.get("decision", {}).get("statement"),
                 *([missing] if missing else ()),
             ]
@@ -256,7 +308,10 @@ class _Sheets:
             f"{self._say(target)} / {units['position']}",
             *(key if key.startswith("n_") else f"{key} / {units['deviation']}" for key in keys),
         ]
-        table = [[standard, row["target"], *map(row.get, keys)] for standard, row in positions]
+        table = [
+            [standard, row["target"], *(_shown_mean(key, row.get(key)) for key in keys)]
+            for standard, row in positions
+        ]
         if not table:
             return  # what follows from several lines has no positions
         sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
@@ -285,8 +340,8 @@ class _Sheets:
             [
                 int(run),
                 ways[Approach(approach).index],
-                float(f"{targets[target]:.15g}"),
-                None if deviation != deviation else float(deviation),  # noqa: PLR0124 (what is missing is no number)
+                _as_read(targets[target]),
+                None if deviation != deviation else _as_read(deviation),  # noqa: PLR0124 (what is missing is no number)
             ]
             for run, approach, target, deviation in zip(
                 measurements.run, measurements.approach, measurements.target, deviations, strict=True
@@ -313,13 +368,7 @@ class _Sheets:
                 if value is None:
                     continue
                 cell = sheet.cell(number, column)
-                if isinstance(value, str):
-                    cell.value = _clean(value)
-                    cell.data_type = "s"  # never a formula
-                else:
-                    cell.value = repr(value)  # all digits of the results file; openpyxl would write sixteen
-                    cell.data_type = "n"
-                widths[column] = max(widths.get(column, 0), len(str(value)[:_WIDEST_COLUMN]))
+                widths[column] = max(widths.get(column, 0), _fill(cell, value))
                 if number == 1:
                     cell.font = Font(bold=True)
         for column, width in widths.items():

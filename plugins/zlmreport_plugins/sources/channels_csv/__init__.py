@@ -8,7 +8,6 @@ temperature is a condition too, in °C, by a name that ends in ``_temperature``.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -41,29 +40,32 @@ from zlmreport.plugin.source import (
     SourceContext,
     SourceProposal,
     collect_readings,
-    read_text,
 )
-from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_table
+from zlmreport.plugin.table import folded, heading_of
 from zlmreport_plugins.sources.channels_csv.averaging import average_channel, choose_interval_for
-from zlmreport_plugins.sources.channels_csv.options import TIME, VALUE, ChannelsCsvOptions
+from zlmreport_plugins.sources.channels_csv.options import DATE, TIME, VALUE, ChannelsCsvOptions
+from zlmreport_plugins.sources.channels_csv.proposals import SENSOR, channels_called, columns_called
 from zlmreport_plugins.sources.channels_csv.tracks import (
     Channel,
     Channels,
     Track,
     find_unit_of,
     read_channels_of,
+    with_dates,
 )
 
 #: What a condition that is no known one ends in, if it is a temperature.
 _TEMPERATURE = "_temperature"
 _TEMPERATURES = CONDITIONS["air_temperature"]
-#: How sensors are called: by the direction in which they read, and a number where there are two.
-_SENSOR = re.compile(r"[xyz][12]?")
 #: A drift over hours that is smaller than this in what nobody called a unit, m, was read in a larger one.
 _HARDLY = 5e-7
 #: Channels of a file that a message names.
 _MOST_NAMED = 20
 _FROM = Words("Channel “{channel}” ({unit}); times are counted from the first reading of the file.")
+_FROM_MOMENT = Words("Channel “{channel}” ({unit}); times are counted from {moment}.")
+_LATER = Words(
+    "Channel “{channel}” ({unit}); the first reading of the file was taken {seconds} s after the test began."
+)
 _BESIDE = Words(
     "Conditions were logged at other times than channel “{channel}”: {names} at its readings are linear "
     "between those that were logged."
@@ -84,23 +86,30 @@ class ChannelsCsv:
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a file may be read, if it has sensors over time and nothing else."""
-        options = ChannelsCsvOptions(file=file)
+        called = columns_called(file)
+        if called is None:
+            return []
+        context = SourceContext(Axis("X", quantity=DISPLACEMENT), Place(str(file)))
         try:
-            channels = _read_channels(
-                options, SourceContext(Axis("X", quantity=DISPLACEMENT), Place(str(file)))
+            called = channels_called(
+                called, _read_channels(ChannelsCsvOptions(file=file, **called.keys), context)
             )
+            channels = _read_channels(ChannelsCsvOptions(file=file, **called.keys), context)
         except InputError:
             return []
-        sensors = [each.name for key, each in channels.of.items() if _SENSOR.fullmatch(key)]
-        others = (
-            each
-            for key, each in channels.of.items()
-            if not _SENSOR.fullmatch(key) and _name_condition(key, each) is None
-        )
-        if not sensors or any(others):
+        names = {folded(each): name for name, each in called.keys.get("channels", {}).items()}
+        sensors, others = [], []
+        for key, each in channels.of.items():
+            name = folded(names.get(key, key))
+            if SENSOR.fullmatch(name):
+                sensors.append(name.upper())
+            elif name not in CONDITIONS and _name_condition(key, each) is None:
+                others.append(name)
+        if not sensors or others:
             return []
-        tests = tuple(sorted(each.upper() for each in sensors))
-        return [SourceProposal(asks=tuple(_list_asked(tests)), quantity=DISPLACEMENT, tests=tests)]
+        tests = tuple(sorted(sensors))
+        asks = (*called.asks, *_list_asked(tests))
+        return [SourceProposal(called.keys, asks, quantity=DISPLACEMENT, tests=tests)]
 
     def read(self, options: ChannelsCsvOptions, context: SourceContext) -> MeasurementSet:
         """Read one channel and the conditions beside it; raise `InputError` with every defect."""
@@ -124,7 +133,7 @@ class ChannelsCsv:
             problems = list(_ask_about_larger_unit(track, own))
         if problems:
             raise InputError(problems)
-        remarks = [_FROM.given(channel=own.name, unit=unit.symbol)]
+        remarks = [_counted(options).given(channel=own.name, unit=unit.symbol)]
         averaging = None
         interval = options.interval or choose_interval_for(channels.most_readings, channels.lasts)
         if interval and track.time.size:
@@ -158,26 +167,31 @@ class ChannelsCsv:
         return collect_readings(readings, axis, provenance, place=table.source.place())
 
 
+def _counted(options: ChannelsCsvOptions) -> Words:
+    """Return from when on times are counted, of a channel."""
+    if options.counted_from is not None:
+        return _FROM_MOMENT.given(moment=options.counted_from)
+    return _LATER.given(seconds=options.later_by) if options.later_by else _FROM
+
+
 def _read_channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
     """Return the channels of the table that the keys name."""
-    text = read_text(options.file, options.encoding, options.sheet)
-    table = read_table(text, options, lambda name: _is_column_name(name, options))
+    table = with_dates(options.read_table(lambda name: _is_column_name(name, options)), options)
     # The decimal sign is that of all numbers: which columns have any is known only with it.
     numbers = [
-        index for index, name in enumerate(table.header.cells) if folded(heading_of(name).name) != TIME
+        index
+        for index, name in enumerate(table.header.cells)
+        if folded(heading_of(name).name) not in {TIME, DATE}
     ]
-    sign = options.stated_decimal_sign or decimal_sign(table, numbers, options.thousands_signs)
-    cells = Cells(table, sign, options.thousands_signs, options.words_for_missing)
-    return read_channels_of(cells, options, context)
+    return read_channels_of(options.cells_of(table, numbers), options, context)
 
 
 def _is_column_name(text: str, options: ChannelsCsvOptions) -> bool:
     """Whether a header is a name that this source or the job knows."""
     named = heading_of(text)
     name = folded(named.name)
-    is_known = name in {*options.column_names, *CONDITIONS} or bool(_SENSOR.fullmatch(name))
-    spoken = (*options.columns.values(), *options.channels.values(), *options.ignore)
-    return is_known or any(named.is_called(each) for each in spoken)
+    is_known = options.names_column(text) or name in CONDITIONS or bool(SENSOR.fullmatch(name))
+    return is_known or any(named.is_called(each) for each in options.channels.values())
 
 
 def _find_channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> Channel:

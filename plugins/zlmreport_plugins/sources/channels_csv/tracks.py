@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 import numpy as np
@@ -24,11 +24,21 @@ from zlmreport.plugin.table import (
     folded,
     heading_of,
     missing_column,
+    moment,
     read_headings,
     time_reader,
 )
-from zlmreport_plugins.sources.channels_csv.options import CHANNEL, TIME, TIMES, VALUE, ChannelsCsvOptions
+from zlmreport_plugins.sources.channels_csv.options import (
+    CHANNEL,
+    DATE,
+    TIME,
+    TIMES,
+    VALUE,
+    ChannelsCsvOptions,
+)
 
+#: A time of day without a date stands for a moment before.
+_ANY_YEAR = 1950
 #: Reads the time of a row, s; None if it noted why it cannot.
 ReadTime: TypeAlias = Callable[[TextRow], float | None]
 
@@ -56,7 +66,7 @@ class Channel:
 class Track:
     """Readings of one channel in the order of time."""
 
-    time: FloatArray  #: (N,): s from the beginning of the file, rising.
+    time: FloatArray  #: (N,): s from the beginning of the test, rising.
     value: FloatArray  #: (N,): In its unit's SI; NaN where missing.
     places: tuple[Place, ...]  #: Where each stands.
 
@@ -68,6 +78,8 @@ class Channels:
     cells: Cells
     time: TextColumn
     of: Mapping[str, Channel]
+    counted_from: float | None = None  #: s on the clock of the times; None for the first reading of the file.
+    later_by: float = 0.0  #: How much later than the test that reading was, s.
 
     @property
     def table(self) -> TextTable:
@@ -79,15 +91,20 @@ class Channels:
         return self.of.get(folded(heading_of(name).name)) or self.of.get(folded(name))
 
     @property
-    def begins(self) -> float:
+    def _first(self) -> float:
         """The first time of all channels, s."""
         return min((each.time for channel in self.of.values() for each in channel.moments), default=0.0)
+
+    @property
+    def begins(self) -> float:
+        """When the test began, s on the clock of the times."""
+        return self._first - self.later_by if self.counted_from is None else self.counted_from
 
     @property
     def lasts(self) -> float:
         """From the first time of all channels to the last, s."""
         last = max((each.time for channel in self.of.values() for each in channel.moments), default=0.0)
-        return last - self.begins
+        return last - self._first
 
     @property
     def most_readings(self) -> int:
@@ -127,6 +144,22 @@ def _say_out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:
     )
 
 
+def with_dates(table: TextTable, options: ChannelsCsvOptions) -> TextTable:
+    """Return a table whose times have their dates before them, where these stand in a column of their own."""
+    among = read_headings(table, options)
+    time, date = (find_heading(name, among, table, options) for name in (TIME, DATE))
+    if time is None or date is None:
+        return table
+
+    def dated(row: TextRow) -> TextRow:
+        cells = list(row.cells)
+        if cells[date.index] and cells[time.index]:
+            cells[time.index] = f"{cells[date.index]} {cells[time.index]}"
+        return replace(row, cells=tuple(cells))
+
+    return replace(table, rows=tuple(map(dated, table.rows)))
+
+
 def read_channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceContext) -> Channels:
     """Return the channels of a table; raise `InputError` if it has no time, or no channel."""
     table = cells.table
@@ -135,16 +168,17 @@ def read_channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceC
     if heading is None:
         raise InputError([missing_column(TIME, among, table, options)])
     time = column_with_unit(TIME, heading, options, TIMES, context.place, table)
-    named, value = (find_heading(name, among, table, options) for name in (CHANNEL, VALUE))
+    beginning = _counted_from(options, table, time, context.place), options.later_by or 0.0
+    named, value, date = (find_heading(name, among, table, options) for name in (CHANNEL, VALUE, DATE))
     if named is not None and value is None:
         raise InputError([missing_column(VALUE, among, table, options)])
     if named is not None and value is not None:
-        return Channels(cells, time, _from_rows(cells, time, named.index, value.index))
+        return Channels(cells, time, _from_rows(cells, time, named.index, value.index), *beginning)
     time_of = time_reader(cells, time)
     timed = [
         (row, moment) for row in table.rows if (moment := _read_moment(cells, time, row, time_of)) is not None
     ]
-    columns = (each for each in among if each.index != heading.index)
+    columns = (each for each in among if each.index not in {heading.index, date and date.index})
     found = {
         folded(each.name): Channel(
             each.name,
@@ -154,7 +188,27 @@ def read_channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceC
         )
         for each in columns
     }
-    return Channels(cells, time, found)
+    return Channels(cells, time, found, *beginning)
+
+
+def _counted_from(
+    options: ChannelsCsvOptions, table: TextTable, time: TextColumn, place: Place
+) -> float | None:
+    """Return the stated moment, s from the first time of a table; None without one."""
+    if options.counted_from is None:
+        return None
+    first = next((row.cells[time.index] for row in table.rows if row.cells[time.index]), "")
+    stated, found = moment(options.counted_from), moment(first)
+    try:
+        if stated is not None and found is not None and (stated.year < _ANY_YEAR) == (found.year < _ANY_YEAR):
+            return (stated - found).total_seconds()
+    except TypeError:  # one of them says its time zone
+        pass
+    raise InputError.at(
+        place,
+        f"counted_from: {quoted(options.counted_from)} is no moment like the times of the file, "
+        f"{quoted(first)}; write it as they are, or say 'later_by: 90' (s)",
+    )
 
 
 def _read_moment(cells: Cells, column: TextColumn, row: TextRow, time_of: ReadTime) -> float | None:

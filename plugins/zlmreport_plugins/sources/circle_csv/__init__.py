@@ -36,11 +36,10 @@ from zlmreport.plugin.source import (
     SourceContext,
     SourceProposal,
     collect_readings,
-    read_text,
 )
-from zlmreport.plugin.table import Cells, decimal_sign, folded, heading_of, read_headings, read_table
+from zlmreport.plugin.table import Cells, folded, read_headings
 from zlmreport_plugins.sources.circle_csv.averaging import average_turns, count_arcs_of, look_at_averages
-from zlmreport_plugins.sources.circle_csv.options import COLUMN_NAMES, CircleCsvOptions
+from zlmreport_plugins.sources.circle_csv.options import CircleCsvOptions
 from zlmreport_plugins.sources.circle_csv.rows import (
     CircleColumns,
     CircleRow,
@@ -101,7 +100,7 @@ class CircleCsv:
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a file may be read, if it has the columns of a circular test."""
-        for keys in ({}, _of_one_turn(file)):
+        for keys in ({}, _find_keys_of_one_turn(file)):
             options = CircleCsvOptions(file=file, **keys)
             circle = NominalCircle("XY", _USUAL_RADIUS, _USUAL_FEED)
             try:
@@ -152,24 +151,19 @@ class CircleCsv:
 
 def _read_table_of(options: CircleCsvOptions, context: SourceContext) -> tuple[Cells, CircleColumns]:
     """Return the cells of a table, and which columns it has."""
-    text = read_text(options.file, options.encoding, options.sheet)
-    table = read_table(text, options, lambda name: _is_column_name(name, options))
+    table = options.read_table()
     layout = find_circle_columns(table, options, context)
-    sign = options.stated_decimal_sign or decimal_sign(
-        table, [column.index for column in layout.number_columns()], options.thousands_signs
-    )
-    return Cells(table, sign, options.thousands_signs, options.words_for_missing), layout
+    return options.cells_of(table, [column.index for column in layout.number_columns()]), layout
 
 
-def _of_one_turn(file: Path) -> dict[str, Any]:
+def _find_keys_of_one_turn(file: Path) -> dict[str, Any]:
     """Return the keys by which a table of one turn is read that does not name its sense; none for others.
 
     It has angles and a column that is called radial; the sense is that in which the angles go on.
     """
     options = CircleCsvOptions(file=file, sense="ccw")
     try:
-        text = read_text(options.file, options.encoding, options.sheet)
-        table = read_table(text, options, lambda name: _is_column_name(name, options) or _is_radial(name))
+        table = options.read_table(lambda name: options.names_column(name) or _is_radial(name))
         among = read_headings(table, options)
         radial = [each.text for each in among if _is_radial(each.text)]
         if len(radial) != 1:
@@ -196,14 +190,6 @@ def _say_asked(layout: CircleColumns) -> str:
     return (
         f"In which plane{radius} and at which feed (mm/min) was the circle run? The file does not tell; "
         "write it into 'circle' of the job."
-    )
-
-
-def _is_column_name(text: str, options: CircleCsvOptions) -> bool:
-    """Whether a header is a name that this source or the job knows."""
-    named = heading_of(text)
-    return folded(named.name) in COLUMN_NAMES or any(
-        named.is_called(name) for name in (*options.columns.values(), *options.ignore)
     )
 
 

@@ -14,9 +14,8 @@ from zlmreport.plugin.source import (
     SourceContext,
     SourceProposal,
     collect_readings,
-    read_text,
 )
-from zlmreport.plugin.table import Cells, decimal_sign, folded, read_table
+from zlmreport.plugin.table import folded
 from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.layouts import (
     count_runs,
@@ -52,13 +51,10 @@ class LaserCsv:
         problems: list[Problem] = []
         said: list[Words] = []
         for each in options.tables:
-            text = read_text(each.file, each.encoding, each.sheet)
-            table = read_table(text, each, partial(_is_column_name, options=each))
+            table = each.read_table(partial(_is_column_name, options=each))
+            text = table.source
             layout = (find_wide_layout if each.layout == "wide" else find_long_layout)(table, each, context)
-            sign = each.stated_decimal_sign or decimal_sign(
-                table, [column.index for column in layout.number_columns()], each.thousands_signs
-            )
-            cells = Cells(table, sign, each.thousands_signs, each.words_for_missing)
+            cells = each.cells_of(table, [column.index for column in layout.number_columns()])
             sense = -1.0 if each.sign == "nominal-actual" else 1.0
             readings += put_in_order(layout.readings(cells, sense), each)
             problems += [*table.problems, *cells.problems]

@@ -13,6 +13,7 @@ from types import MappingProxyType
 from zlmreport.plugin import Approach, DecimalSign
 from zlmreport.plugin.source import parse_number
 from zlmreport.plugin.table import folded, without_thousands
+from zlmreport_plugins.logged_columns import LOGGED
 from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.options import (
     COLUMN_NAMES,
@@ -25,7 +26,8 @@ from zlmreport_plugins.sources.laser_csv.options import (
 PLACE, VALUE, READING, NUMBER = "a position", "a value", "a reading", "a number of rows"
 #: How columns are called in files, folded, by what they are.
 _CALLED = MappingProxyType(
-    {
+    dict(LOGGED)
+    | {
         name: column
         for column, names in {
             "target": "soll sollposition soll_position soll_pos sollwert sollmaß nominal nominal_position "
@@ -45,16 +47,6 @@ _CALLED = MappingProxyType(
             "fahrtrichtung approach_direction sinn",
             "run": "lauf messlauf zyklus durchlauf durchgang cycle run_number run_no run_no. repetition rep "
             "wiederholung lauf_nr lauf_nr. run_# reihe messreihe",
-            "time": "zeit timestamp uhrzeit zeitstempel t messzeit clock date_time datum_zeit datum/zeit "
-            "datum_uhrzeit datetime",
-            "air_temperature": "lufttemperatur air_temp air_temp. t_luft t_air luft_temp",
-            "material_temperature": "materialtemperatur material_temp t_mat werkstofftemperatur mat_temp "
-            "t_material werkstücktemperatur",
-            "axis_temperature": "maßstabstemperatur scale_temperature t_achse scale_temp",
-            "screw_temperature": "spindeltemperatur screw_temp t_spindel",
-            "air_pressure": "luftdruck pressure druck p_luft air_press",
-            "relative_humidity": "luftfeuchte luftfeuchtigkeit humidity feuchte rel._feuchte rh "
-            "rel._humidity",
             NUMBER: "nr nr. no no. # index lfd lfd. lfd._nr. lfd_nr id i n zeile row line pos.nr. number "
             "point",
         }.items()

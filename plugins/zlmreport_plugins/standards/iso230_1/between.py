@@ -33,6 +33,7 @@ from zlmreport.plugin import (
     same_in_all_languages,
 )
 from zlmreport.plugin.extension import (
+    USUAL_CONTRIBUTIONS,
     Acts,
     Contribution,
     Distribution,
@@ -116,7 +117,7 @@ def list_contributions(
     return {
         name: [
             Contribution(
-                name=_SQUARE,
+                name=USUAL_CONTRIBUTIONS["square"],
                 standard_uncertainty=expanded / _COVERAGE_FACTOR * length,
                 acts=Acts.ALONG_THE_LENGTH,
                 distribution=Distribution.NORMAL,
@@ -274,7 +275,6 @@ def _write_slope(value: float | None) -> Words:
 
 
 _PAIR = ("slope_1", "slope_2")
-_SQUARE = Words("Square")
 _TWO = Words("Two lines")
 _PAIR_OF = Words("Straightness of both axes, {pair}")
 _POSITIONS = Words("At least {number} positions on each line")

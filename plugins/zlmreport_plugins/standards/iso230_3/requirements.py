@@ -48,6 +48,7 @@ def check_requirements(
     yield _check_temperatures(tests)
     yield _complete(tests)
     yield from _check_averaged(tests)
+    yield from _one_clock(tests)
 
 
 def list_temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, FloatArray]]:
@@ -187,6 +188,18 @@ def _check_averaged(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
         yield Finding(_HIDDEN, found, None, Basis.APPLIED)
 
 
+def _one_clock(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
+    """Yield that several loggers need one beginning: by the readings alone nobody knows whether they have."""
+    files = {file.sha256 for each in tests.values() for file in each.provenance.files}
+    if len(files) > 1:
+        yield Finding(_BEGIN, _OF_FILES.given(count=len(files)), None, Basis.APPLIED)
+
+
+_BEGIN = Words("Times of all sensors counted from one moment")
+_OF_FILES = Words(
+    "{count} files; unless the job says otherwise (counted_from, later_by) each counts from its own first "
+    "reading"
+)
 _HOURS = Words("Hours over which the drift is taken")
 _WHOLE = Words("not stated (hours); the whole record is taken: {hours} h from {start} h on")
 _THESE = Words("{hours} h from {start} h on")

@@ -8,7 +8,7 @@ this program's reading.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -48,10 +48,13 @@ from zlmreport.plugin.standard import (
     position_in_words,
     positions_per_metre,
     span_over_positions,
+    worst_of_lines,
 )
 from zlmreport_plugins.standards.iso230_6.quantities import BODY, DIAGONALS, FACE, FACES, QUANTITIES
 
 _PER_METRE, _AT_LEAST, _RUNS = 5, 5, 5
+#: Positions without which there is no length.
+_ENDS = 2
 #: The sign of each squareness error by the difference of both diagonals of its plane.
 _SIGNS = {"C0Y": -1.0, "B0Z": 1.0, "A0Z": -1.0}
 #: Of the graphs beside each other, mm.
@@ -113,7 +116,6 @@ class Iso230Part6:
 
     identifier = "iso230-6:2002"
     designation = "ISO 230-6:2002"
-    adoptions = ("JIS B 6196:2006",)
     title = Words("Diagonal displacement tests of the work space")
     position_index = "i"
     options: type[Options] = DiagonalOptions
@@ -134,7 +136,7 @@ class Iso230Part6:
             no_missing_readings,
         ):
             if tests:
-                yield _find_worst_of(tests, rule)
+                yield worst_of_lines(tests, rule)
         yield from _check_within(tests, options.axes)
 
     def arithmetic(self, statistics: PositionStatistics, options: DiagonalOptions) -> Arithmetic:
@@ -181,7 +183,7 @@ def _compute_elongation(line: PositionStatistics) -> FloatArray:
 
     NaN where it has one position only, and so no length.
     """
-    if len(line.positions) < 2:
+    if len(line.positions) < _ENDS:
         return np.full(line.mean.shape[:-2], np.nan)
     mean = line.of_both_or_single(line.mean_bidirectional, line.mean)
     return np.asarray((mean[..., -1] - mean[..., 0]) / (line.positions[-1] - line.positions[0]))
@@ -189,6 +191,8 @@ def _compute_elongation(line: PositionStatistics) -> FloatArray:
 
 def _compute_of_one(name: str, line: PositionStatistics) -> dict[str, FloatArray]:
     mean = line.mean
+    if len(line.positions) < _ENDS:
+        mean = np.full_like(mean, np.nan)  # a length needs two positions
     of_each, both = span_over_positions(mean), mean.reshape(*mean.shape[:-2], -1)
     return {
         f"E_{name}": np.where(line.is_bidirectional, span_over_positions(both), np.nan),
@@ -207,16 +211,6 @@ def _check_four(tests: Mapping[str, MeasurementSet]) -> Finding:
     lacking = [name for name in BODY if name not in tests]
     found = _ALL_FOUR if not lacking else _LACKING.given(names=", ".join(lacking))
     return Finding(_FOUR, found, not lacking, Basis.APPLIED)
-
-
-def _find_worst_of(tests: Mapping[str, MeasurementSet], rule: Callable[[MeasurementSet], Finding]) -> Finding:
-    """Return what a rule finds on the diagonal that meets it least, with its name."""
-    found = {name: rule(line) for name, line in tests.items()}
-    gravity = {False: 0, None: 1, True: 2}
-    name = min(found, key=lambda each: gravity[found[each].met])
-    worst = found[name]
-    said = _ON.given(found=worst.found, name=name)
-    return Finding(_EACH.given(requirement=worst.requirement), said, worst.met, worst.basis)
 
 
 def _check_within(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Iterator[Finding]:
@@ -290,8 +284,6 @@ def _make_panel(name: str, line: MeasurementSet, statistics: PositionStatistics)
 _FOUR = Words("All four body diagonals: PPP, NPP, PNP, NNP")
 _ALL_FOUR = Words("all four")
 _LACKING = Words("{names} not measured; E_d and B_d are not reported")
-_EACH = Words("On each diagonal: {requirement}")
-_ON = Words("{found} ({name})")
 _ONE_DIRECTION = Words("E and B of both directions are not reported")
 _IN_SPACE = Words("Diagonals within the work space (axes)")
 _NOT_STATED = Words("not stated")

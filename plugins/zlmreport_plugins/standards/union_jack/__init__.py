@@ -8,11 +8,32 @@ diagonals should fit the edges to a tenth of their length is this program's dema
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
+from pydantic import Field
 
-from zlmreport.plugin import Axis, Evaluation, Figure, MeasurementSet, Options, Words, hookimpl
+from zlmreport.plugin import (
+    MILLIMETRE,
+    Axis,
+    Evaluation,
+    Figure,
+    JobPart,
+    MeasurementSet,
+    Options,
+    Positive,
+    TextLine,
+    Words,
+    hookimpl,
+)
+from zlmreport.plugin.extension import (
+    USUAL_CONTRIBUTIONS,
+    Contribution,
+    Distribution,
+    calibration_in_words,
+    expanded_uncertainty_in_words,
+    of_the_reading,
+)
 from zlmreport.plugin.standard import (
     Arithmetic,
     Basis,
@@ -25,6 +46,7 @@ from zlmreport.plugin.standard import (
     no_missing_readings,
     position_in_words,
     position_statistics,
+    worst_of_lines,
 )
 from zlmreport_plugins.standards.union_jack.figures import draw_figures
 from zlmreport_plugins.standards.union_jack.heights import Plate, find_plate_of
@@ -49,6 +71,26 @@ from zlmreport_plugins.union_jack_lines import (
 #: Of the length that a diagonal has by the edges.
 _FITS = 0.1
 _FEWEST = 4
+_COVERAGE_FACTOR = 2.0
+
+
+class CarriageKeys(JobPart):
+    """The carriage whose feet stand on the plate."""
+
+    expanded_uncertainty: Positive | None = Field(
+        None, description="Of the distance of its feet, k = 2, mm.", examples=[0.1]
+    )
+    certificate: TextLine | None = Field(None, description="Where that distance is known from.")
+
+
+class PlateOptions(Options):
+    """The carriage that all lines were measured with."""
+
+    of_the_measurement = ("carriage",)
+
+    carriage: CarriageKeys = Field(
+        CarriageKeys(), description="The carriage that all lines were measured with."
+    )
 
 
 class UnionJack:
@@ -58,21 +100,20 @@ class UnionJack:
     designation = "Union jack (Moody 1955)"
     title = Words("Flatness of a surface plate by the union-jack method")
     position_index = "i"
-    options: type[Options] = Options
+    options: type[Options] = PlateOptions
     measurands = (FLATNESS,)
     information = (Information.TEMPERATURES, Information.INSTRUMENT)
     quantities = QUANTITIES
     position_quantities: tuple[PositionQuantity, ...] = ()
     notes: tuple[Words, ...] = NOTES
 
-    def requirements(self, measurements: MeasurementSet, options: Options) -> Iterator[Finding]:  # noqa: ARG002 - no key of its own
+    def requirements(self, measurements: MeasurementSet, options: PlateOptions) -> Iterator[Finding]:  # noqa: ARG002 - of the plan no key says anything
         """Hold the plan of the lines, and how well they agree, against the test."""
         tests = measurements.tests
         yield _check_all_eight(tests)
         yield _check_stations(tests)
-        yield from sorted(
-            (no_missing_readings(each) for each in tests.values()), key=lambda each: bool(each.met)
-        )[:1]
+        if tests:
+            yield worst_of_lines(tests, no_missing_readings)
         plate = find_plate_of(
             {
                 name: position_statistics(each.deviations(), each.target_positions)
@@ -83,7 +124,7 @@ class UnionJack:
             yield _check_lengths(tests)
             yield _check_closing(plate, measurements.axis)
 
-    def arithmetic(self, statistics: PositionStatistics, options: Options) -> Arithmetic:  # noqa: ARG002 - no key of its own
+    def arithmetic(self, statistics: PositionStatistics, options: PlateOptions) -> Arithmetic:  # noqa: ARG002 - heights need none
         """Return the flatness over the three planes, and the closures."""
         plate = find_plate_of(statistics.tests)
         if plate is None:
@@ -100,9 +141,38 @@ class UnionJack:
             }
         )
 
-    def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no key of its own
+    def contributions(
+        self, measurements: MeasurementSet, options: PlateOptions
+    ) -> Mapping[str, Sequence[Contribution]]:
+        """Return what the distance of the feet adds: all heights are in proportion to it, on every line."""
+        stated = options.carriage.expanded_uncertainty
+        if stated is None:
+            return {}
+        said = expanded_uncertainty_in_words(stated, MILLIMETRE.symbol, _COVERAGE_FACTOR)
+        source = calibration_in_words(options.carriage.certificate)
+        expanded = MILLIMETRE.to_si(stated)
+        return {
+            name: [
+                Contribution(
+                    name=USUAL_CONTRIBUTIONS[_FEET],
+                    distribution=Distribution.NORMAL,
+                    stated=said,
+                    source=source,
+                    contributor=_FEET,
+                    **of_the_reading(expanded / _COVERAGE_FACTOR / _foot(line), line, _FEET),
+                )
+            ]
+            for name, line in measurements.tests.items()
+        }
+
+    def figures(self, evaluation: Evaluation, options: PlateOptions) -> Iterable[Figure]:  # noqa: ARG002 - likewise
         """Return the plate as a wire picture, and its plan with the heights in numbers."""
         return draw_figures(evaluation)
+
+
+def _foot(line: MeasurementSet) -> float:
+    """Return how far the feet stood apart, m: the front one of the first station from the beginning."""
+    return float(line.target_positions[0])
 
 
 def _check_all_eight(tests: Mapping[str, MeasurementSet]) -> Finding:
@@ -146,6 +216,7 @@ def _check_closing(plate: Plate, axis: Axis) -> Finding:
     return Finding(asked, found, worst <= MOST_CLOSURE, Basis.PUBLISHED)
 
 
+_FEET = "foot_spacing"
 _EIGHT = Words("Eight lines: diagonals, edges and centre lines")
 _ALL = Words("all eight")
 _LACKING = Words("{names} not measured; no height follows from the others")

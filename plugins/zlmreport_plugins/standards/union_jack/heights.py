@@ -28,6 +28,7 @@ from zlmreport_plugins.union_jack_lines import (
 )
 
 _HALF = 0.5
+_STATIONS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,9 +91,12 @@ class Plate:
 
 
 def find_plate_of(lines: Mapping[str, PositionStatistics]) -> Plate | None:
-    """Return the heights of a plate, NaN where a reading is missing; None where a line is missing."""
+    """Return the heights of a plate, NaN where a reading is missing; None where a line is, or has only one.
+
+    A line of one reading has its ends and nothing between: no height follows from it.
+    """
     if list_lacking(lines) or any(
-        not line.positions.size or line.positions[-1] <= 0 for line in lines.values()
+        line.positions.size < _STATIONS or line.positions[-1] <= 0 for line in lines.values()
     ):
         return None
     measured = {

@@ -73,7 +73,7 @@ NOTES = (
         "along the eight lines only."
     ),
     Words(
-        "All heights are in proportion to the distance of the carriage's feet, whose error is not in U: an "
-        "error of 0.1 mm in 100 mm changes them by 0.1 %."
+        "All heights are in proportion to the distance of the carriage's feet: an error of 0.1 mm in 100 mm "
+        "changes them by 0.1 %."
     ),
 )

@@ -31,9 +31,11 @@ if TYPE_CHECKING:
 
 _TITLE = Words("Item, method and conditions")
 
-MACHINE_KINDS = {
-    "machine tool": Words("machine tool"),
+_MACHINE_TOOL = Words("machine tool")
+_MACHINE_KINDS = {
+    "machine tool": _MACHINE_TOOL,
     "coordinate measuring machine": Words("coordinate measuring machine"),
+    "surface plate": Words("surface plate"),
 }
 
 AXIS_KINDS = {
@@ -96,7 +98,7 @@ def list_groups(
     keys = job.keys
     environment = list_environment_facts(keys.environment, measurements, writer, "environment")
     all_of_them = (
-        ("machine", Words("Machine"), _list_machine_facts(keys, writer)),
+        ("machine", Words("Machine"), _list_machine_facts(job, writer)),
         _describe_what_moved(job, writer),
         ("measurement", Words("Measurement"), _list_measurement_facts(keys, measurements, writer)),
         (
@@ -119,10 +121,16 @@ def say_no_influence(job: Job, measurements: MeasurementSet, writer: Writer) -> 
         yield Paragraph(writer.say(_NO_INFLUENCE))
 
 
+def machine_kind(job: Job, writer: Writer) -> str:
+    """Return what kind of machine, or other item, a document is on: as stated, or else as is usual."""
+    stated = job.keys.machine.kind
+    return writer.say(_MACHINE_KINDS[stated] if stated else job.axis.measurand.item or _MACHINE_TOOL)
+
+
 def find_identified(job: Job, writer: Writer) -> frozenset[str]:
     """Return what an identification of the machine says in one line."""
     machine = job.keys.machine
-    kind = writer.say(MACHINE_KINDS[machine.kind])
+    kind = machine_kind(job, writer)
     return frozenset({machine.manufacturer or "", machine.model or "", machine.serial or "", kind})
 
 
@@ -149,9 +157,9 @@ def _is_along_lines(job: Job) -> bool:
     return job.axis.measurand.bearer != POSITIONING.bearer
 
 
-def _list_machine_facts(keys: JobKeys, writer: Writer) -> Iterator[Fact]:
-    machine = keys.machine
-    kind = writer.say(MACHINE_KINDS[machine.kind])
+def _list_machine_facts(job: Job, writer: Writer) -> Iterator[Fact]:
+    machine = job.keys.machine
+    kind = machine_kind(job, writer)
     yield Fact(Words("Manufacturer"), machine.manufacturer, ("machine.manufacturer",))
     yield Fact(Words("Model", context="type of machine"), machine.model, ("machine.model",))
     yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
@@ -303,7 +311,7 @@ def _write_uncertainty(instrument: Instrument, writer: Writer) -> str | None:
     constant, per_metre = stated
     parts = [write_with_unit(constant, unit, writer)] if constant or not per_metre else []
     if per_metre:
-        parts.append(f"{writer.number(per_metre)} µm/m · L")
+        parts.append(f"{writer.number(per_metre)}{units.write_behind(unit)}/m · L")
     return f"U = {' + '.join(filter(None, parts))} (k = 2)"
 
 

@@ -10,11 +10,11 @@ from zlmreport.document.blocks import Block, Facts, Notice, Paragraph, RowGroup,
 from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
 from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date, write_days
 from zlmreport.document.certificate.conditions import (
-    MACHINE_KINDS,
     describe_axis,
     lay_out_conditions as conditions_section,
     list_groups as conditions_in_groups,
     list_groups_beside_identification,
+    machine_kind,
     say_measured_of,
     say_no_influence,
 )
@@ -227,7 +227,7 @@ def list_identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[F
             ", ".join(filter(None, (customer.name, address))),
             ("customer.name", "customer.address"),
         )
-    kind = writer.say(MACHINE_KINDS[machine.kind])
+    kind = machine_kind(job, writer)
     yield Fact(
         statements.ITEM[keys.certificate.kind],
         f"{machine.type} ({kind})" if machine.type else kind,

@@ -40,10 +40,14 @@ _ONLY_THIS_ITEM = {
         "The results relate only to the item measured, in its condition at the time of the measurement."
     ),
 }
-#: The statement of 7.8.4.1 c.
-TRACEABLE = Words(
+#: The statement of 7.8.4.1 c, and that of a document on what several instruments measured.
+_TRACEABLE = Words(
     "The results are metrologically traceable through the calibration of the measuring instrument "
     "(calibration certificate {certificate})."
+)
+_TRACEABLE_BY_SEVERAL = Words(
+    "The results are metrologically traceable through the calibrations of the measuring instruments "
+    "(calibration certificates {certificates})."
 )
 _ONLY_IN_FULL = Words(
     "This certificate may be reproduced only in full, unless the laboratory agrees in writing."
@@ -115,6 +119,14 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
         )
 
 
+def traceable_through(job: Job) -> Words | None:
+    """Return through which calibrations the results are traceable; None where the job does not show it."""
+    named = traceability.certificates(job)
+    if len(named) > 1:
+        return _TRACEABLE_BY_SEVERAL.given(certificates=", ".join(named))
+    return _TRACEABLE.given(certificate=named[0]) if named else None
+
+
 def lay_out_paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     """Yield the statements in running text."""
     keys = job.keys
@@ -123,8 +135,9 @@ def lay_out_paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     if keys.agreement.simplified:
         reference = keys.agreement.reference
         yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
-    if keys.instrument and traceability.is_shown(job):
-        yield Paragraph(writer.say(TRACEABLE.given(certificate=keys.instrument.certificate or "")))
+    traceable = traceable_through(job)
+    if traceable:
+        yield Paragraph(writer.say(traceable))
     yield Paragraph(writer.say(_ONLY_THIS_ITEM[keys.certificate.kind]))
     if keys.certificate.kind == "certificate":
         yield Paragraph(writer.say(_ONLY_IN_FULL))

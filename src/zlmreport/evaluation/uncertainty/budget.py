@@ -11,11 +11,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Any
 
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
+from zlmreport.measurement.measurand import Coordinate
+from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: Probability that intervals y ± U hold the true value: 2 standard deviations of a normal distribution
 #: (JCGM 100, 6.2.2 and table G.1).
@@ -35,11 +38,13 @@ class Acts(Enum):
     readings of one target position in one direction. Of a drift those that are near in time
     (`zlmreport.evaluation.uncertainty.drift`). Of a fluctuation none: each reading has its own. Of an error
     round a circle all readings of an angle, and nearly those of the angles beside it
-    (`zlmreport.evaluation.uncertainty.round_the_circle`); likewise of a centre that lies off.
+    (`zlmreport.evaluation.uncertainty.round_the_circle`); likewise of a centre that lies off. Of a wrong
+    scale of the instrument all, in proportion to what was read.
     """
 
     ALONG_THE_LENGTH = "along-the-length"
     BETWEEN_DIRECTIONS = "between-directions"
+    WITH_THE_READING = "with-the-reading"
     AT_THE_DATUM = "at-the-datum"
     AT_EACH_POSITION = "at-each-position"
     ROUND_THE_CIRCLE = "round-the-circle"
@@ -103,6 +108,9 @@ class Contribution:
     effect : (N,) array
         Which part of it acts on each reading, where its size changes from reading to reading: an error of the
         expansion coefficient acts as far as the machine is from 20 °C. None where it acts as `acts` says.
+    shared_as
+        By which name several measured lines share one error, as they were measured with one device, one after
+        the other; empty where each has its own.
     """
 
     name: Words
@@ -113,6 +121,7 @@ class Contribution:
     source: Words
     contributor: str | None = None
     effect: FloatArray | None = field(default=None, compare=False)
+    shared_as: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,6 +149,23 @@ class KnownError:
     def largest(self) -> float:
         """The correction of the largest amount, with its sign, m."""
         return float(self.correction[np.argmax(np.abs(self.correction))]) if self.correction.size else 0.0
+
+
+def of_the_reading(share: float, measurements: MeasurementSet, name: str) -> dict[str, Any]:
+    """Return what a contribution is that acts in proportion to what was read: its size, and how it acts.
+
+    `share`: u over the reading. `name`: Of the error. Lines that were read one after the other were read by
+    one device and share its scale; what is read over time is read by as many devices as there are lines.
+    """
+    largest = float(np.nanmax(np.abs(measurements.deviation), initial=0.0))
+    effect = measurements.deviation / largest if largest else np.zeros_like(measurements.deviation)
+    is_of_one = measurements.axis.measurand.coordinate is not Coordinate.TIME
+    return {
+        "standard_uncertainty": share * largest,
+        "acts": Acts.WITH_THE_READING,
+        "effect": read_only_floats(effect),
+        "shared_as": name if is_of_one else "",
+    }
 
 
 def from_range(full_range: float, distribution: Distribution) -> float:

@@ -5,7 +5,8 @@ widen what was read less when they are drawn a second time: an axis that is flat
 farther from them than any test simulated about them. So U is asked of two axes: of the one that was read, and
 of the flattest that is compatible with the readings. The variance of the means by position is that of
 the axis and that of the errors, (m − 1)·S²/ε² of a flat axis is distributed like χ² with m − 1 degrees of
-freedom, and its upper limit of 95 % is the most that the errors may have brought. Derived here.
+freedom, and its upper limit of 95 % is the most that the errors may have brought. Of a line that is held
+against a body the slope is the set-up's, and S² that about a line. Derived here.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from dataclasses import replace
 import numpy as np
 
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.measurement.arrays import read_only_floats
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: ε/S from which the errors matter to the range of the means: below it U gains less than its second digit.
@@ -41,14 +42,24 @@ def make_flattest(measurements: MeasurementSet, budget: Budget) -> MeasurementSe
     if len(count) < _FEWEST or not count.all():
         return None
     means = np.where(there, readings, 0.0).sum(axis=(0, 2)) / count
-    observed, brought = float(means.var(ddof=1)), budget.variance(Acts.AT_EACH_POSITION)
+    degree = 1 if measurements.axis.measurand.has_reference_body else 0
+    around = means - _polynomial(measurements.target_positions, means, degree)
+    freedom = len(means) - 1 - degree
+    observed, brought = float(around @ around) / freedom, budget.variance(Acts.AT_EACH_POSITION)
     if brought <= _MATTERS**2 * observed:
         return None
-    left = max(0.0, 1 - brought * _compute_most_by_chance(len(means) - 1) / observed) if observed else 0.0
-    change = (math.sqrt(left) - 1) * (means - means.mean())
+    left = max(0.0, 1 - brought * _compute_most_by_chance(freedom) / observed) if observed else 0.0
+    change = (math.sqrt(left) - 1) * around
     return replace(
         measurements, deviation=read_only_floats(measurements.deviation + change[measurements.target])
     )
+
+
+def _polynomial(positions: FloatArray, values: FloatArray, degree: int) -> FloatArray:
+    """Return the polynomial of least squares through values, at their positions."""
+    powers = np.vander((positions - positions.mean()) / np.ptp(positions), degree + 1)
+    found, *_ = np.linalg.lstsq(powers, values, rcond=None)
+    return np.asarray(powers @ found)
 
 
 def _compute_most_by_chance(freedom: int) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from zlmreport.evaluation.uncertainty.budget import (
     compute_misalignment_range,
     compute_temperature_range,
     from_range,
+    of_the_reading,
 )
 from zlmreport.evaluation.uncertainty.reasons import says_something
 from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, list_circle_contributions
@@ -47,6 +49,7 @@ from zlmreport.measurement.units import (
 
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0
+_OF_THE_READING = Unit("%", "%", 100.0)
 #: A step that readings may show is no smaller, µm or ″.
 _MOST_DECIMALS = 3
 #: The temperature that the scale, and with it the measured length, has: the first that is known counts.
@@ -78,11 +81,7 @@ def make_budget_of(
         *list_circle_contributions(job, measurements),
         *list_air_contributions(job, measurements, set_up.length),
         *_list_fluctuations(job, measurements),
-        *(
-            each
-            for stated in keys.contributions
-            for each in _make_other_contribution(stated, job.axis.deviation_unit)
-        ),
+        *(each for stated in keys.contributions for each in _make_other_contribution(stated, measurements)),
     )
     considered = {each.contributor for each in contributions} | {name for name, _ in negligible}
     if of_the_instrument:
@@ -119,7 +118,7 @@ def _find_capability(job: Job, set_up: SetUp) -> float:
     cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
     if cmc is None:
         return 0.0
-    return job.axis.deviation_unit.to_si(cmc.constant) + MICROMETRE.to_si(cmc.per_metre) * set_up.length
+    return float(job.axis.deviation_unit.to_si(cmc.constant + cmc.per_metre * set_up.length))
 
 
 def _list_instrument_contributions(job: Job, set_up: SetUp) -> tuple[Contribution, ...] | Words:
@@ -149,10 +148,10 @@ def _list_device_contributions(
             wording.say_expanded_uncertainty(constant, unit.symbol, _COVERAGE_FACTOR),
         ),
         (
-            MICROMETRE.to_si(per_metre) * set_up.length,
+            unit.to_si(per_metre) * set_up.length,
             wording.DEVICE_ALONG,
             set_up.acts_of_length,
-            wording.say_expanded_uncertainty(per_metre, "µm/m · L", _COVERAGE_FACTOR),
+            wording.say_expanded_uncertainty(per_metre, f"{unit.symbol}/m · L", _COVERAGE_FACTOR),
         ),
     ):
         if expanded:
@@ -315,8 +314,10 @@ def _make_contribution(  # noqa: PLR0913 - a usual contribution, but for what us
     )
 
 
-def _make_other_contribution(keys: ContributionKeys, unit: Unit) -> Iterator[Contribution]:
+def _make_other_contribution(keys: ContributionKeys, measurements: MeasurementSet) -> Iterator[Contribution]:
     """Yield a contribution that has no key of its own; none of no size."""
+    is_share = keys.acts == Acts.WITH_THE_READING.value
+    unit = _OF_THE_READING if is_share else measurements.axis.deviation_unit
     distribution = Distribution(keys.distribution or ("normal" if keys.range is None else "rectangular"))
     if keys.range is not None:
         stated = wording.say_full_range("R", keys.range, unit.symbol)
@@ -328,15 +329,15 @@ def _make_other_contribution(keys: ContributionKeys, unit: Unit) -> Iterator[Con
         expanded = keys.expanded_uncertainty or 0.0
         stated = wording.say_expanded_uncertainty(expanded, unit.symbol, _COVERAGE_FACTOR)
         standard_uncertainty = expanded / _COVERAGE_FACTOR
-    if standard_uncertainty:
-        yield Contribution(
-            name=same(keys.name),
-            standard_uncertainty=unit.to_si(standard_uncertainty),
-            acts=Acts(keys.acts),
-            distribution=distribution,
-            stated=stated,
-            source=wording.STATED,
-        )
+    if not standard_uncertainty:
+        return
+    size = float(unit.to_si(standard_uncertainty))
+    how: dict[str, Any] = {"standard_uncertainty": size, "acts": Acts(keys.acts)}
+    if is_share:
+        how = of_the_reading(size, measurements, keys.name)
+    yield Contribution(
+        name=same(keys.name), distribution=distribution, stated=stated, source=wording.STATED, **how
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -496,8 +497,17 @@ _HOW: dict[str, str] = {
     "air_temperature": "state the range of error of the measured air temperature, K",
     "air_pressure": "state the range of error of the measured air pressure, hPa",
     "relative_humidity": "state the range of error of the measured humidity, %",
+    "square": "state the expanded uncertainty (k = 2) of the angle of the square, arc seconds",
+    "foot_spacing": "state the expanded uncertainty (k = 2) of the distance of the carriage's feet, mm",
     "environmental_variation": "state the range of the readings of the axis at rest over the time of a test",
     "resolution": "state the smallest step of the readings: corrected ones do not show it",
+}
+
+#: What a job states elsewhere than under `uncertainty`.
+_KEYS = {
+    INSTRUMENT: "instrument.expanded_uncertainty",
+    "square": "square.expanded_uncertainty",
+    "foot_spacing": "carriage.expanded_uncertainty",
 }
 
 
@@ -532,7 +542,7 @@ def find_unstated(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
     if job.keys.certificate.kind != "certificate":
         return
     for name in budget.missing:
-        key = "instrument.expanded_uncertainty" if name == INSTRUMENT else f"uncertainty.{name}"
+        key = _KEYS.get(name, f"uncertainty.{name}")
         yield Problem(
             job.place_of(
                 f"uncertainty.negligible.{name}" if name in job.keys.uncertainty.negligible else key

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from statistics import NormalDist
+from types import MappingProxyType
 
 import numpy as np
 
@@ -73,6 +74,14 @@ class Expanded:
     known_error: float = 0.0
 
 
+@dataclass(frozen=True, slots=True)
+class _Ways:
+    """How errors go of which a job states the size only."""
+
+    drift: Drift | None  #: Of what drifts; None where nothing does.
+    is_bent: bool = False  #: Whether the instrument errs along a bend, and not at each position by itself.
+
+
 def propagate(
     budget: Budget,
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
@@ -93,10 +102,11 @@ def propagate(
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
     than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
-    drift, and where the instrument errs as much as the axis that of two axes that may be the one
-    (`zlmreport.evaluation.uncertainty.flattest_axis`). It is never less than the budget's bounds. Known
-    errors are taken out of the readings first, errors are drawn about what is left, and U has in it whole
-    what the parameter changes by (JCGM 100, F.2.4.5).
+    drift, where the instrument errs as much as the axis that of two axes that may be the one
+    (`zlmreport.evaluation.uncertainty.flattest_axis`), and where lines were held against a body, as a mirror,
+    that of two ways in which that may err: at each position by itself, and along a bend. It is never less
+    than the budget's bounds. Known errors are taken out of the readings first, errors are drawn about what
+    is left, and U has in it whole what the parameter changes by (JCGM 100, F.2.4.5).
     """
     measurements = evaluations[0][0].measurements
     evaluations, known = _remove_known_errors(budget, evaluations)
@@ -109,8 +119,11 @@ def propagate(
     drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
     kinds: Sequence[Drift | None] = choose_drift_kinds(measurements) if drifts else (None,)
     axes = _list_axes_to_ask(budget, evaluations)
-    for kind, axis in product(kinds, axes):
-        distances = _measure_distances(budget, axis, kind, trials // (len(kinds) * len(axes)), generator)
+    bends = _asks_for_a_bend(budget, measurements)
+    bent = product((_Ways(kind, is_bent=True) for kind in kinds), axes[:1]) if bends else ()
+    asked = [*product(map(_Ways, kinds), axes), *bent]
+    for ways, axis in asked:
+        distances = _measure_distances(budget, axis, ways, trials // len(asked), generator)
         for so_far, (evaluation, _), values in zip(found, axis, distances, strict=True):
             symbols = (each.quantity.symbol for each in evaluation.parameters)
             for symbol, expanded in zip(symbols, _expand(np.abs(values), least), strict=True):
@@ -127,6 +140,25 @@ def propagate(
             found, _find_comparing_parameters(evaluations), known, strict=True
         )
     )
+
+
+def _asks_for_a_bend(budget: Budget, measurements: MeasurementSet) -> bool:
+    """Return whether lines were held against a body that may be bent, with an error that is stated.
+
+    A slope is known the better the more positions there are, if each has an error of its own; against a
+    bent mirror or straightedge it is not. The bound of U by the instrument, which counts that in elsewhere,
+    is none of a slope, nor of what follows from several lines.
+    """
+    lines = zip(budget.lines, measurements.lines, strict=True)
+    return any(
+        line.axis.measurand.has_reference_body and any(map(_is_of_the_instrument, of_line.contributions))
+        for of_line, line in lines
+    )
+
+
+def _is_of_the_instrument(contribution: Contribution) -> bool:
+    """Return whether it is an instrument's error at each position, of which nobody knows the curve."""
+    return contribution.acts is Acts.AT_EACH_POSITION and contribution.contributor == "instrument"
 
 
 def _list_axes_to_ask(
@@ -195,15 +227,15 @@ def _add_known_changes(expanded: Expanded, known_error: float) -> Expanded:
 def _measure_distances(
     budget: Budget,
     evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
-    kind: Drift | None,
+    ways: _Ways,
     trials: int,
     generator: np.random.Generator,
 ) -> list[FloatArray]:
-    """Return y* − y in simulated tests with one kind of drift, for each evaluation: (parameter, trial)."""
+    """Return y* − y in simulated tests, for each evaluation: (parameter, trial)."""
     distances = [np.empty((len(evaluation.parameters), trials)) for evaluation, _ in evaluations]
     done = 0
     for statistics, shown, count in _simulate_statistics(
-        budget, evaluations[0][0].measurements, kind, trials, generator
+        budget, evaluations[0][0].measurements, ways, trials, generator
     ):
         chunk = slice(done, done + count)
         done = chunk.stop
@@ -219,7 +251,7 @@ def _measure_distances(
 def _simulate_statistics(
     budget: Budget,
     measurements: MeasurementSet,
-    kind: Drift | None,
+    ways: _Ways,
     trials: int,
     generator: np.random.Generator,
 ) -> Iterator[tuple[PositionStatistics, PositionStatistics | None, int]]:
@@ -230,14 +262,16 @@ def _simulate_statistics(
     at_once = max(1, _AT_ONCE // sum(each.deviations().size for each in measurements.lines))
     if not measurements.tests:
         positions = measurements.target_positions
-        for tests, shown in _simulate_tests(budget, measurements, kind, trials, generator, at_once):
+        alone = _simulate_tests(budget, measurements, ways, trials, generator, at_once)
+        for tests, shown in alone:
             of_shown = None if shown is None else position_statistics(shown, positions)
             yield position_statistics(tests, positions), of_shown, len(tests)
         return
     lines = measurements.tests
+    of_lines = _draws_of_lines(budget, trials, generator)
     for together in zip(
         *(
-            _simulate_tests(budget.tests[name], each, kind, trials, generator, at_once)
+            _simulate_tests(budget.tests[name], each, ways, trials, generator, at_once, of_lines)
             for name, each in lines.items()
         ),
         strict=True,
@@ -261,22 +295,28 @@ def _simulate_statistics(
 def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
     budget: Budget,
     measurements: MeasurementSet,
-    kind: Drift | None,
+    ways: _Ways,
     trials: int,
     generator: np.random.Generator,
     at_once: int,
+    of_lines: Mapping[str, FloatArray] = MappingProxyType({}),
 ) -> Iterator[tuple[FloatArray, FloatArray | None]]:
     """Yield simulated tests, so many at a time: shape (trial, approach, position, run), m or rad.
 
     With each the readings that were shown of them without any other error; None where these are the readings
-    of the test itself.
+    of the test itself. `of_lines`: Errors, in units of u, that this line shares with others, by their names.
     """
     readings = measurements.deviations()
     along = sample_stratified(budget.steady(Acts.ALONG_THE_LENGTH), trials, generator)
     parting = sample_stratified(budget.acting(Acts.BETWEEN_DIRECTIONS), trials, generator)
     alike = sample_stratified(budget.steady(Acts.AT_THE_DATUM), trials, generator)
     changing = [
-        (sample_stratified((each,), trials, generator), measurements.arranged(each.effect))
+        (
+            each.standard_uncertainty * of_lines[each.shared_as]
+            if each.shared_as in of_lines
+            else sample_stratified((each,), trials, generator),
+            measurements.arranged(each.effect),
+        )
         for each in budget.changing
         if each.effect is not None
     ]
@@ -289,15 +329,20 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
     for first in range(0, trials, at_once):
         count = min(at_once, trials - first)
         errors = along[first : first + count, np.newaxis] * effect
-        errors += sample_singly(budget.acting(Acts.AT_EACH_POSITION), errors.shape, generator)
+        at_positions = budget.acting(Acts.AT_EACH_POSITION)
+        bent = [each for each in at_positions if ways.is_bent and _is_of_the_instrument(each)]
+        own_of_positions = [each for each in at_positions if each not in bent]
+        errors += sample_singly(own_of_positions, errors.shape, generator)
+        for each in bent:
+            errors += each.standard_uncertainty * _bends(effect, count, generator)
         for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
             curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
             errors += each.standard_uncertainty * curves
         own = sample_singly(independent, (count, *readings.shape), generator)
         rounded = sample_rounding(hiding, readings, count, generator) if hiding else None
-        if kind:
+        if ways.drift:
             for each in drifting:
-                drifts = sample_drifts(kind, times, count, generator)
+                drifts = sample_drifts(ways.drift, times, count, generator)
                 drifts *= find_drift_range(each)
                 own += drifts
         trial = slice(first, first + count)
@@ -309,6 +354,23 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         for draws, effects in changing:
             tests += np.multiply.outer(draws[trial], effects)
         yield tests, rounded.shown if rounded else None
+
+
+def _bends(shares: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
+    """Return half waves of any phase along a line, of root mean square 1 at each position: (count, m)."""
+    phases = np.pi * generator.random((count, 1))
+    return np.asarray(
+        math.sqrt(2.0) * np.sin(np.pi * shares + phases) * generator.choice((-1.0, 1.0), (count, 1))
+    )
+
+
+def _draws_of_lines(budget: Budget, trials: int, generator: np.random.Generator) -> dict[str, FloatArray]:
+    """Return the errors that several lines share, in units of u, by their names."""
+    shared = {each.shared_as: each for line in budget.lines for each in line.contributions if each.shared_as}
+    return {
+        name: sample_stratified((replace(each, standard_uncertainty=1.0),), trials, generator)
+        for name, each in shared.items()
+    }
 
 
 def _find_comparing_parameters(

@@ -33,6 +33,8 @@ USUAL: Mapping[str, Words] = MappingProxyType(
         "device_expansion_coefficient": Words("Expansion coefficient, measuring device"),
         "calibrated_length": Words("Calibrated length of the instrument"),
         "centring": Words("Centring of the instrument on the circle"),
+        "square": Words("Square"),
+        "foot_spacing": Words("Distance of the carriage's feet"),
         "environmental_variation": _ENVIRONMENTAL_VARIATION,
         "resolution": _RESOLUTION,
     }
@@ -68,6 +70,7 @@ ACTS: Mapping[Acts, Words] = MappingProxyType(
         Acts.BETWEEN_DIRECTIONS: Words(
             "all readings of the negative direction, against those of the positive one"
         ),
+        Acts.WITH_THE_READING: Words("all readings, in proportion to what was read"),
         Acts.AT_THE_DATUM: Words("all readings alike"),
         Acts.AT_EACH_POSITION: Words("all readings of a target alike"),
         Acts.ROUND_THE_CIRCLE: Words(

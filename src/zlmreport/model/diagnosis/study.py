@@ -21,7 +21,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import is_for
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.units import MICROMETRE, with_unit
+from zlmreport.measurement.units import with_unit
 from zlmreport.model.diagnosis.building import Built, build
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, ErrorNumbers, compute_error_numbers, diagnose
@@ -225,7 +225,7 @@ def find_instrument_error(job: Job, length: float) -> InstrumentError:
     along = u / length if acts == "along-the-length" and length else 0.0
     return InstrumentError(
         common=u if acts == "at-the-datum" else 0.0,
-        proportional=math.hypot(MICROMETRE.to_si(per_metre) / _COVERAGE_FACTOR, along),
+        proportional=math.hypot(job.axis.deviation_unit.to_si(per_metre) / _COVERAGE_FACTOR, along),
         at_each_position=u if acts in _AT_POSITIONS else 0.0,
         between_directions=u if acts == "between-directions" else 0.0,
     )

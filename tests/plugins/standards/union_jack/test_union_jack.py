@@ -11,12 +11,14 @@ import pytest
 from hypothesis import given, strategies as st
 
 from plugins.standards.union_jack.plates import evaluated, line, read, values
+from zlmreport.evaluation.uncertainty.budget import Acts, Contribution
 from zlmreport.language import Language
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import MeasurementSet, join_lines
 from zlmreport.testing import bidirectional_test
+from zlmreport_plugins.standards.union_jack import UnionJack
 from zlmreport_plugins.standards.union_jack.heights import find_plate_of
-from zlmreport_plugins.union_jack_lines import LINE, LINES, reverse_name
+from zlmreport_plugins.union_jack_lines import FLATNESS, LINE, LINES, reverse_name
 
 DATA = Path(__file__).parents[3] / "data" / "flatness" / "moody_1955.csv"
 
@@ -112,3 +114,34 @@ def test_diagonals_that_do_not_fit_the_edges_are_told() -> None:
     lines = read(lambda _x, _y: 0.0)
     lines["NW-SE"] = line("NW-SE", [0] * 12)
     assert False in [each.met for each in evaluated(lines).findings]
+
+
+HOLLOW = read(lambda x, y: 1e-5 * ((x - 400) ** 2 + (y - 300) ** 2))
+
+
+def of_the_feet(stated: dict[str, float]) -> dict[str, Contribution]:
+    """Return what the standard adds to each line of a hollow plate for the carriage."""
+    options = UnionJack.options.model_validate({"carriage": stated})
+    found = UnionJack().contributions(join_lines(Axis("plate", quantity=FLATNESS), HOLLOW), options)
+    return {name: each for name, (each,) in found.items()}
+
+
+def test_wrong_feet_change_every_reading_by_one_share_on_all_lines() -> None:
+    found = of_the_feet({"expanded_uncertainty": 0.5})  # of 100 mm, k = 2: u is 0.25 %
+    assert set(found) == set(LINES)
+    for name, each in found.items():
+        largest = np.nanmax(np.abs(HOLLOW[name].deviation))
+        assert (each.contributor, each.acts) == ("foot_spacing", Acts.WITH_THE_READING)
+        assert each.standard_uncertainty == pytest.approx(0.0025 * largest)
+    assert len({each.shared_as for each in found.values()}) == 1
+
+
+def test_feet_of_which_nothing_is_stated_are_missing_in_u() -> None:
+    assert of_the_feet({}) == {}
+    assert FLATNESS.contributors == ("foot_spacing",)
+
+
+def test_a_line_of_one_reading_gives_no_flatness() -> None:
+    """Its ends are all that it has; a plate of nothing but ends would be flat."""
+    one = {**HOLLOW, "N-S": line("N-S", [5.0], foot=600.0)}
+    assert values(one) == {}
