@@ -6,15 +6,21 @@ machine that is warm or warms up. The errors of the set-up are drawn as the job 
 test; what the instrument would have shown is corrected, budgeted and evaluated as by ``zlmreport
 JOB.yaml``. y ± U is held against the parameter of the true readings at 20 °C, and the interval of the
 axis against what the same set-up, left as it stands, finds in the next test.
+
+    ./run benchmark worlds [--tests N] [--results FILE.jsonl] [WORLD]
+
+Each world is appended to the results when it is done, and is not measured again; the tables are of all
+results.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import tempfile
 from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -41,6 +47,16 @@ _RUNS = 5
 #: Of the machine, µm/(m·K), and the full ranges of its error and of that of the measured temperature, K.
 _ALPHA, _ALPHA_RANGE, _SENSOR_RANGE = 11.5, 1.0, 0.1
 _SEED = 20260103
+#: How symbols are written on a page.
+_WRITTEN = {
+    "A_fwd": "A↑",
+    "A_bwd": "A↓",
+    "E_fwd": "E↑",
+    "E_bwd": "E↓",
+    "R_fwd": "R↑",
+    "R_bwd": "R↓",
+    "B_mean": "B̄",
+}
 
 
 @dataclass(frozen=True)
@@ -184,10 +200,20 @@ class Axis:
         return replace(self.frame, deviation=one), replace(self.frame, deviation=other)
 
 
-def measured(
-    world: World, tests: int, simulated: int, registry: Registry
-) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the shares of tests in which y ± U and the interval of the axis hold, by symbol."""
+@dataclass(frozen=True)
+class Coverage:
+    """How many tests of a world were held, by symbol."""
+
+    world: str
+    tests: int
+    simulated: int
+    this_test: Mapping[str, int]  #: In which y ± U holds the parameter of the true readings.
+    this_axis: Mapping[str, int]  #: In which the interval of the axis holds what the next test finds.
+
+
+def measured(name: str, tests: int, simulated: int, registry: Registry) -> Coverage:
+    """Draw tests of a world, and count."""
+    world = WORLDS[name]
     standard = registry.standard("iso230-2:2014")
     generator = np.random.default_rng(_SEED)
     held: Counter[str] = Counter()
@@ -217,26 +243,48 @@ def measured(
             held[symbol] += abs(each.value - true.value(symbol)) <= each.expanded_uncertainty
             low, high = each.axis_interval
             found_again[symbol] += low <= again.value(symbol) <= high
-    return tuple({symbol: counts[symbol] / tests for symbol in counts} for counts in (held, found_again))
+    counts = ({symbol: int(number) for symbol, number in each.items()} for each in (held, found_again))
+    return Coverage(name, tests, simulated, *counts)
+
+
+def tables(results: Iterable[Coverage]) -> str:
+    """Return a table for each question: a row for each world, a column for each parameter, in percent."""
+    done = sorted(results, key=lambda each: list(WORLDS).index(each.world))
+    lines = []
+    for question in ("this test", "this axis"):
+        rows = [(each, getattr(each, question.replace(" ", "_"))) for each in done]
+        symbols = list(rows[0][1])
+        heads = " | ".join(_WRITTEN.get(each, each) for each in symbols)
+        lines += ["", f"| {question} | {heads} |", f"|---|{'--:|' * len(symbols)}"]
+        lines += [
+            f"| {each.world} | "
+            + " | ".join(f"{100 * counts[symbol] / each.tests:.1f}" for symbol in symbols)
+            + " |"
+            for each, counts in rows
+        ]
+    return "\n".join(lines).lstrip()
+
+
+def read(results: Path) -> list[Coverage]:
+    """Return the counts that a file keeps."""
+    return [Coverage(**json.loads(line)) for line in results.read_text(encoding="utf-8").splitlines()]
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Print a row for each world and question, a column for each parameter, in percent."""
+    """Measure what is not among the results yet, and print the tables of all."""
     parser = argparse.ArgumentParser(prog="./run benchmark worlds", description=__doc__)
     parser.add_argument("--tests", type=int, default=400, help="of each world (%(default)s)")
     parser.add_argument("--simulated", type=int, default=2000, help="simulated tests of each (%(default)s)")
+    parser.add_argument("--results", type=Path, help="file of the counts, a line for each world")
     parser.add_argument("worlds", nargs="*", metavar="WORLD", help="how its name begins (all)")
-    sizes = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    results: Path | None = options.results
+    done = read(results) if results and results.exists() else []
     registry = find_plugins()
-    names = [name for name in WORLDS if name.startswith(tuple(sizes.worlds) or "")]
-    rows: dict[str, list[tuple[str, dict[str, float]]]] = {"this test": [], "this axis": []}
-    for name in names:
-        of_both = measured(WORLDS[name], sizes.tests, sizes.simulated, registry)
-        for question, shares in zip(rows, of_both, strict=True):
-            rows[question].append((name, shares))
-    for question, of_worlds in rows.items():
-        symbols = list(of_worlds[0][1])
-        print(f"\n| {question} |", *(f"{symbol} |" for symbol in symbols))
-        print("|---|", *("--:|" for _ in symbols), sep="")
-        for name, shares in of_worlds:
-            print(f"| {name} |", *(f"{100 * shares[symbol]:.1f} |" for symbol in symbols))
+    for name in WORLDS:
+        if name.startswith(tuple(options.worlds) or "") and name not in {each.world for each in done}:
+            done.append(measured(name, options.tests, options.simulated, registry))
+            if results:
+                with results.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(asdict(done[-1]), ensure_ascii=False) + "\n")
+    print(tables(done))
