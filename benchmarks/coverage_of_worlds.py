@@ -6,14 +6,20 @@ machine that is warm or warms up. The errors of the set-up are drawn as the job 
 test; what the instrument would have shown is corrected, budgeted and evaluated as by ``zlmreport
 JOB.yaml``. y ± U is held against the parameter of the true readings at 20 °C, and the interval of the
 axis against what the same set-up, left as it stands, finds in the next test.
+
+    ./run benchmark worlds [--tests N] [--results FILE.jsonl] [WORLD]
+
+Each world is appended to the results when it is done, and is not measured again; the tables are of all
+results.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import tempfile
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -21,7 +27,7 @@ from typing import Any
 import numpy as np
 import yaml
 
-from shares import Held, print_table, share_held
+from shares import Held, share_held
 from zlmreport import pipeline
 from zlmreport.evaluation.correction.corrections import correct, find_corrections_of
 from zlmreport.evaluation.evaluate import evaluate
@@ -43,6 +49,16 @@ _ALPHA, _ALPHA_RANGE, _SENSOR_RANGE = 11.5, 1.0, 0.1
 _SEED = 20260103
 #: What is asked: whether y ± U holds, and the interval of the axis.
 _TEST, _AXIS = "this test", "this axis"
+#: How symbols are written on a page.
+_WRITTEN = {
+    "A_fwd": "A↑",
+    "A_bwd": "A↓",
+    "E_fwd": "E↑",
+    "E_bwd": "E↓",
+    "R_fwd": "R↑",
+    "R_bwd": "R↓",
+    "B_mean": "B̄",
+}
 
 
 @dataclass(frozen=True)
@@ -186,10 +202,20 @@ class Axis:
         return replace(self.frame, deviation=one), replace(self.frame, deviation=other)
 
 
-def measured(
-    world: World, tests: int, simulated: int, registry: Registry
-) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the shares of tests in which y ± U and the interval of the axis hold, by symbol."""
+@dataclass(frozen=True)
+class Coverage:
+    """How many tests of a world were held, by symbol."""
+
+    world: str
+    tests: int
+    simulated: int
+    this_test: Mapping[str, int]  #: In which y ± U holds the parameter of the true readings.
+    this_axis: Mapping[str, int]  #: In which the interval of the axis holds what the next test finds.
+
+
+def measured(name: str, tests: int, simulated: int, registry: Registry) -> Coverage:
+    """Draw tests of a world, and count."""
+    world = WORLDS[name]
     standard = registry.standard("iso230-2:2014")
     with tempfile.TemporaryDirectory() as folder:
         job, frame = _frame(Path(folder), world, registry)
@@ -221,25 +247,50 @@ def measured(
 
     shares = share_held(trial, tests, _SEED)
     of_test, of_axis = (
-        {symbol: share for (asked, symbol), share in shares.items() if asked == question}
+        {symbol: round(share * tests) for (asked, symbol), share in shares.items() if asked == question}
         for question in (_TEST, _AXIS)
     )
-    return of_test, of_axis
+    return Coverage(name, tests, simulated, of_test, of_axis)
+
+
+def tables(results: Iterable[Coverage]) -> str:
+    """Return a table for each question: a row for each world, a column for each parameter, in percent."""
+    done = sorted(results, key=lambda each: list(WORLDS).index(each.world))
+    lines = []
+    for question in (_TEST, _AXIS):
+        rows = [(each, getattr(each, question.replace(" ", "_"))) for each in done]
+        symbols = list(rows[0][1])
+        heads = " | ".join(_WRITTEN.get(each, each) for each in symbols)
+        lines += ["", f"| {question} | {heads} |", f"|---|{'--:|' * len(symbols)}"]
+        lines += [
+            f"| {each.world} | "
+            + " | ".join(f"{100 * counts[symbol] / each.tests:.1f}" for symbol in symbols)
+            + " |"
+            for each, counts in rows
+        ]
+    return "\n".join(lines).lstrip()
+
+
+def read(results: Path) -> list[Coverage]:
+    """Return the counts that a file keeps."""
+    return [Coverage(**json.loads(line)) for line in results.read_text(encoding="utf-8").splitlines()]
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Print a row for each world and question, a column for each parameter, in percent."""
+    """Measure what is not among the results yet, and print the tables of all."""
     parser = argparse.ArgumentParser(prog="./run benchmark worlds", description=__doc__)
     parser.add_argument("--tests", type=int, default=400, help="of each world (%(default)s)")
     parser.add_argument("--simulated", type=int, default=2000, help="simulated tests of each (%(default)s)")
+    parser.add_argument("--results", type=Path, help="file of the counts, a line for each world")
     parser.add_argument("worlds", nargs="*", metavar="WORLD", help="how its name begins (all)")
-    sizes = parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    results: Path | None = options.results
+    done = read(results) if results and results.exists() else []
     registry = find_plugins()
-    names = [name for name in WORLDS if name.startswith(tuple(sizes.worlds) or "")]
-    rows: dict[str, list[tuple[str, dict[str, float]]]] = {_TEST: [], _AXIS: []}
-    for name in names:
-        of_both = measured(WORLDS[name], sizes.tests, sizes.simulated, registry)
-        for question, shares in zip(rows, of_both, strict=True):
-            rows[question].append((name, shares))
-    for question, of_worlds in rows.items():
-        print_table(question, list(of_worlds[0][1]), of_worlds)
+    for name in WORLDS:
+        if name.startswith(tuple(options.worlds) or "") and name not in {each.world for each in done}:
+            done.append(measured(name, options.tests, options.simulated, registry))
+            if results:
+                with results.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(asdict(done[-1]), ensure_ascii=False) + "\n")
+    print(tables(done))

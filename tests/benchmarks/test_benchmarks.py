@@ -88,7 +88,7 @@ def test_the_coverage_of_whole_jobs_is_counted_for_each_world() -> None:
     assert done.returncode == 0, done.stderr
     for question, table in zip(("this test", "this axis"), done.stdout.strip().split("\n\n"), strict=True):
         heading, _, *rows = table.splitlines()
-        assert heading.startswith(f"| {question} | A | A_fwd | A_bwd | E |")
+        assert heading.startswith(f"| {question} | A | A↑ | A↓ | E |")
         assert [row.split("|")[1].strip() for row in rows] == [
             "steps of 1 µm, s = 0.05 µm",
             "20 to 24 °C, corrected",
@@ -106,3 +106,29 @@ def test_the_coverage_of_each_quantity_is_counted_in_its_worlds_and_kept(tmp_pat
     kept = [json.loads(line) for line in file.read_text("utf-8").splitlines()]
     assert {row["title"] for row in kept} == {"angle", "flatness"}
     assert all(row["trials"] == 2 and set(row["held"].values()) <= {0.0, 0.5, 1.0} for row in kept)
+
+
+def test_the_page_prints_the_tables_of_hard_worlds_that_were_measured(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    worlds = import_module("coverage_of_worlds")
+    results = worlds.read(BENCHMARKS / "measured" / "worlds.jsonl")
+    page = BENCHMARKS.parent / "docs" / "explanation" / "uncertainty.md"
+
+    assert {each.world for each in results} == set(worlds.WORLDS)
+    assert {each.tests for each in results} == {400}
+    assert worlds.tables(results) in page.read_text(encoding="utf-8")
+
+
+def test_a_world_that_is_among_the_results_is_not_measured_again(tmp_path: Path) -> None:
+    results = tmp_path / "worlds.jsonl"
+    few = ("worlds", "--tests", "2", "--simulated", "50", "--results", results)
+
+    first = run(*few, "24 °C, corrected")
+    second = run(*few, "24 °C")
+
+    assert first.returncode == second.returncode == 0, first.stderr + second.stderr
+    lines = results.read_text(encoding="utf-8").splitlines()
+    assert [json.loads(line)["world"] for line in lines] == ["24 °C, corrected", "24 °C, uncorrected"]
+    assert second.stdout.count("| 24 °C, corrected |") == 2

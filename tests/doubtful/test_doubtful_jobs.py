@@ -28,7 +28,7 @@ from doubtful.doubtful_jobs import (
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
-_SHOWN = "What readings and calibrations show"
+_SHOWN = "What readings, dates and calibrations show"
 
 
 def test_a_sound_job_is_neither_refused_nor_marked(tmp_path: Path) -> None:

@@ -352,7 +352,10 @@ def test_the_first_page_of_a_machine_has_what_any_of_its_axes_shows(
     first = "\n".join(line for each in document.cover for line in lines_of(each))
 
     for en, de in (
-        ("Y: What readings and calibrations show", "Y: Was Messwerte und Kalibrierungen zeigen"),
+        (
+            "Y: What readings, dates and calibrations show",
+            "Y: Was Messwerte, Termine und Kalibrierungen zeigen",
+        ),
         ("Run means rise from", "Mittelwerte der Durchläufe steigen"),
         ("calibration was due on 2026-10-01", "Kalibrierung war am 2026-10-01 fällig"),
     ):

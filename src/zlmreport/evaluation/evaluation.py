@@ -178,8 +178,9 @@ class Arithmetic:
 
 
 class Least(Enum):
-    """What an uncertainty was raised to, where the budget gave less: that of the instrument, or the CMC."""
+    """What U was raised to, where the budget gave less: to a flatter axis, the instrument's U, the CMC."""
 
+    FLATTER_AXIS = "flatter-axis"
     INSTRUMENT = "instrument"
     LABORATORY = "cmc"
 

@@ -13,6 +13,7 @@ import numpy as np
 from zlmreport.evaluation.copies import are_nearly_copies, estimate_agreement_by_chance, group_copies
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.stray_targets import find_stray_target, join_found_in_both
+from zlmreport.evaluation.turned_runs import mirrored_run, run_of_another_reversal
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
@@ -58,6 +59,13 @@ _TOO_LARGE = Words(
     "All deviations together span {range} over {length}: read as {unit}; if the file has another unit, "
     "state it under measurement.source.units"
 )
+_AS_LEFT = Words("The readings are in every digit those of the measurement as left")
+_MIRRORED = Words("Run {run} mirrors the others: the sign of its deviations seems to be turned")
+_INTERCHANGED = Words(
+    "The reversal of run {run} is {reversal} in the mean, and {others} in the others: its directions seem to "
+    "be interchanged"
+)
+_ANOTHER_REVERSAL = Words("The reversal of run {run} is {reversal} in the mean, and {others} in the others")
 _TWO_TEMPERATURES = Words("{name}: {stated} °C is stated, and {logged} °C was logged beside the readings")
 _SPAN, _SINGLE = Words("{low} … {high}"), Words("{low}")
 _COARSER = Words(
@@ -96,10 +104,17 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
         *_find_stray_targets(measurements, readings),
         *_find_copied_runs(measurements, readings),
         *_find_copied_directions(measurements, readings),
+        *_turned_runs(measurements, readings),
         *_find_other_unit(measurements),
         *_find_other_temperatures(job, measurements),
         *_find_coarser_steps(job, measurements),
     )
+
+
+def as_left_once_more(as_found: MeasurementSet, as_left: MeasurementSet) -> Iterator[Words]:
+    """Yield whether the readings before an adjustment are those after it."""
+    if not as_found.tests and _are_identical(as_found.deviation, as_left.deviation):
+        yield _AS_LEFT
 
 
 def _find_drift(job: Job, measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
@@ -236,6 +251,23 @@ def _find_copied_directions(measurements: MeasurementSet, readings: FloatArray) 
             yield words.given(runs=of_runs.given(runs=_list_run_numbers(measurements, found)))
 
 
+def _turned_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+    """Yield the run whose sign, or whose reversal, is not that of the others."""
+    mirrored = mirrored_run(readings)
+    if mirrored is not None:
+        yield _MIRRORED.given(run=int(measurements.runs[mirrored]))
+    if mirrored is not None or not measurements.is_bidirectional or measurements.reversal_is_relative:
+        return
+    turned = run_of_another_reversal(readings)
+    if turned:
+        words = _INTERCHANGED if turned.is_interchanged else _ANOTHER_REVERSAL
+        yield words.given(
+            run=int(measurements.runs[turned.run]),
+            reversal=_write_size(measurements, turned.reversal),
+            others=_write_size(measurements, turned.of_others),
+        )
+
+
 def _list_run_numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
     return ", ".join(str(int(measurements.runs[each])) for each in runs)
 
@@ -263,6 +295,8 @@ _RUN, _RUNS = Words("run {runs}"), Words("runs {runs}")
 
 def _are_identical(one: FloatArray, other: FloatArray) -> bool:
     """Return whether two series of readings are copies wherever both have one, and no row of equal values."""
+    if one.shape != other.shape:
+        return False
     both = np.isfinite(one) & np.isfinite(other)
     varies = both.any() and bool(np.ptp(one[both]))
     return bool(both.sum() >= _FEWEST_POSITIONS and varies and np.array_equal(one[both], other[both]))

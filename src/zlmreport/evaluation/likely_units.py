@@ -19,6 +19,9 @@ from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, C
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")
+_LOGGED = Words(
+    "{name}: {value} {unit} was logged at a reading, which is unusual where machines are measured"
+)
 _MEANT = Words(
     "{name}: {value} {unit} is unusual where machines are measured; {value} {other} would be {meant} {unit}"
 )
@@ -81,9 +84,15 @@ def _find_unlikely_conditions(job: Job, measurements: MeasurementSet) -> Iterato
     for name, kind in CONDITIONS.items():
         value = getattr(job.keys.environment, name, None)
         logged = measurements.conditions.get(name)
-        if value is None and logged is not None and np.isfinite(logged).any():
-            value = kind.unit.from_si(float(np.nanmedian(logged)))
         low, high = kind.usual
+        if logged is not None and np.isfinite(logged).any():
+            of_readings = [
+                kind.unit.from_si(float(of(logged))) for of in (np.nanmedian, np.nanmin, np.nanmax)
+            ]
+            value = of_readings[0] if value is None else value
+            far = [each for each in of_readings[1:] if not low <= each <= high]
+            if far and low <= of_readings[0] <= high:
+                yield _LOGGED.given(name=CONDITION_NAMES[name], value=far[0], unit=kind.unit.symbol)
         if isinstance(value, float) and not low <= value <= high:
             meant = _find_other_unit(value, kind)
             sentence = _UNLIKELY

@@ -36,6 +36,7 @@ _OLD_CALIBRATION = Words("{what}: calibrated on {date}, {years} years before the
 _AFTER = Words("{what}: calibrated on {date}, after the measurement of {measured}")
 _OVERDUE = Words("{what}: calibration was due on {date}, before the measurement of {measured}")
 _NO_CERTIFICATE = Words("{what}: no calibration certificate named, so not shown to be traceable")
+_THIS_DOCUMENT = Words("{what}: the calibration certificate named, {number}, is this document")
 _NO_THERMOMETER = Words("A temperature enters the results, and no thermometer is named with its calibration")
 _OUT_OF_SCOPE = Words("Outside the accredited scope: {what}")
 _OF_KIND = {
@@ -61,16 +62,17 @@ def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     return (*(each.words for each in found), *_say_out_of_scope(job, measurements))
 
 
-def certificates(job: Job) -> tuple[str, ...]:
+def list_certificates(job: Job) -> tuple[str, ...]:
     """Return the calibration certificates through which the results of a job are traceable, each once.
 
     Of the instrument of every line of every part; none where one of them names no certificate, or where
-    something that the job says breaks the chain.
+    something that the job says breaks the chain, or a day is not stated.
     """
     lines = [line for part in job.parts for line in part.lines.values()]
     of_all = [each.keys for each in (job, *lines, *(one.as_found for one in lines if one.as_found))]
     named = [(each.keys.instrument and each.keys.instrument.certificate) or "" for each in lines]
-    if any(each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)):
+    is_dated = all(keys.measurement.date for keys in of_all)
+    if not is_dated or any(each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)):
         return ()
     return tuple(dict.fromkeys(named)) if all(map(is_reference, named)) else ()
 
@@ -109,6 +111,9 @@ def _find_breaks_of_calibration(
         yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
     elif is_instrument and device.certificate and not is_reference(device.certificate):
         yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=True)
+    own = keys.certificate.number
+    if device.certificate and device.certificate.casefold() == own.casefold():
+        yield _Break(f"{key}.certificate", _THIS_DOCUMENT.given(what=what, number=own), is_broken=True)
     day = device.calibrated
     if day is None:
         if device.certificate and is_reference(device.certificate):

@@ -37,7 +37,7 @@ def keys_of(
         "laboratory": {**COMPLETE["laboratory"], "country": "DE"},
         "circle": circle,
         "measurement": {
-            "date": "2026-11-18",
+            "date": "2022-04-07",
             "source": {"plugin": "circle-csv", "file": written(folder, turns)},
         },
         "evaluate": ["iso230-4:2005"],

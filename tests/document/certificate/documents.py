@@ -43,7 +43,7 @@ COMPLETE: Mapping[str, Any] = {
     "schema": "zlmreport/job/1",
     "certificate": {
         "number": "CAL-1",
-        "issued": "2026-11-20",
+        "issued": "2022-04-20",
         "authorised_by": {"name": "A. Person", "function": "Head"},
     },
     "laboratory": {"name": "Some Laboratory", "address": "Street 1, 12345 Town"},

@@ -109,7 +109,7 @@ def test_conditions_logged_beside_the_readings_are_printed_as_their_range(tmp_pa
     keys = {
         **REPORT,
         "axis": {"name": "Y"},
-        "measurement": {"date": "2026-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
+        "measurement": {"date": "2022-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
         "environment": {"remarks": "oil shower on"},
     }
     text = text_of(certificate(tmp_path, keys))

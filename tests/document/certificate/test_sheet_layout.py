@@ -73,7 +73,7 @@ def test_a_page_says_who_what_and_how_well(tmp_path: Path) -> None:
         "Maker M1",
         "S-1",
         "2022-04-07",
-        "2026-11-20",
+        "2022-04-20",
         "A. Person, Head",
         "20.5 °C",
         "C-1",

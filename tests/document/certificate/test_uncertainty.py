@@ -197,7 +197,7 @@ def adjusted(folder: Path, readings_before: str) -> Certificate:
     (folder / "left.csv").write_text("target,direction,run,deviation\n0,+,1,0.5\n10,+,1,1.5\n")
     (folder / "found.csv").write_text(f"target,direction,run,deviation\n{readings_before}")
     before, after = (
-        {"date": "2026-11-18", "source": {"plugin": "laser-csv", "file": f"{name}.csv"}}
+        {"date": "2022-04-08", "source": {"plugin": "laser-csv", "file": f"{name}.csv"}}
         for name in ("found", "left")
     )
     as_found = {"work": "adjustment", "adjustment": "Scale factor renewed.", "measurement": before}

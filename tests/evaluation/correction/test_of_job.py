@@ -25,7 +25,7 @@ def keys(folder: Path, corrections: Any, head: str = HEAD, rows: str = ROWS) -> 
     return {
         **COMPLETE,
         "axis": {"name": "X"},
-        "measurement": {"date": "2026-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
+        "measurement": {"date": "2022-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
         "evaluate": ["iso230-2:2014"],
         "environment": {"remarks": "none"},
         "certificate": {"number": "R-1", "kind": "report"},

@@ -23,7 +23,7 @@ def found_in(folder: Path, ranges: dict[str, float], *, air: bool = True) -> lis
     keys = {
         **COMPLETE,
         "axis": {"name": "X"},
-        "measurement": {"date": "2026-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
+        "measurement": {"date": "2022-01-01", "source": {"plugin": "laser-csv", "file": "readings.csv"}},
         "environment": AIR,
         "uncertainty": ranges,
         "evaluate": ["iso230-2:2014"],

@@ -26,7 +26,7 @@ def job(folder: Path, **changed: Any) -> Job:
         "certificate": {**COMPLETE["certificate"], "kind": "report"},
         "instrument": {"name": "Sensor", "certificate": "C-1", "expanded_uncertainty": 0.4},
         "measurement": {
-            "date": "2026-11-18",
+            "date": "2022-04-07",
             "tests": {"Z": {"source": {"plugin": "channels-csv", "file": "drift.csv"}}},
         },
         "evaluate": ["iso230-3"],

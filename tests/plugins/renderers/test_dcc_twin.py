@@ -48,7 +48,7 @@ CLAUSE_7_8 = {
     "7.8.2.1 g": "used",
     "7.8.2.1 h": "2022-04-05",
     "7.8.2.1 i": "2022-04-06 to 2022-04-07",
-    "7.8.2.1 j": "2026-11-20",
+    "7.8.2.1 j": "2022-04-20",
     "7.8.2.1 k": "One axis of three.",
     "7.8.2.1 l": "The results relate only to the item calibrated",
     "7.8.2.1 n": "Air hose touched the reflector.",

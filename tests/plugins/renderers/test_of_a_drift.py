@@ -41,7 +41,7 @@ def report(folder: Path, source: str = "{plugin: channels-csv, file: drift.csv}"
         "certificate": {**COMPLETE["certificate"], "kind": "report"},
         "laboratory": {**COMPLETE["laboratory"], "country": "DE"},
         "measurement": {
-            "date": "2026-11-18",
+            "date": "2022-04-07",
             "tests": {name: {"source": _source(source, name)} for name in NAMES},
         },
         "evaluate": [{"standard": "iso230-3", "hours": 6, "distance": {"X": 200}}],

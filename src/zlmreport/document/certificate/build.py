@@ -22,7 +22,8 @@ from zlmreport.document.certificate.statements import (
 )
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation import traceability
-from zlmreport.evaluation.evidence import find_evidence
+from zlmreport.evaluation.disagreements import disagreements
+from zlmreport.evaluation.evidence import as_left_once_more, find_evidence
 from zlmreport.language import Words
 from zlmreport.version import __version__
 
@@ -77,7 +78,10 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     shown = (
         *say_of_each((name, _collect_shown(line, of_line)) for name, line, of_line in lines),
         *_collect_shown_as_found(
-            job, as_found, [one for _, line, of_line in lines for one in _collect_shown(line, of_line)]
+            job,
+            measurements,
+            as_found,
+            [one for _, line, of_line in lines for one in _collect_shown(line, of_line)],
         ),
     )
     letterhead, title = (
@@ -149,12 +153,16 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
 
 
 def _collect_shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
-    """Return what readings and calibrations of a measurement show that its job does not say."""
-    return (*find_evidence(job, measurements), *traceability.find_doubts(job, measurements))
+    """Return what readings, days and calibrations of a measurement show that its job does not say."""
+    return (
+        *find_evidence(job, measurements),
+        *disagreements(job, measurements),
+        *traceability.find_doubts(job, measurements),
+    )
 
 
 def _collect_shown_as_found(
-    job: Job, as_found: Sequence[Evaluated], said: Sequence[Words]
+    job: Job, measurements: MeasurementSet, as_found: Sequence[Evaluated], said: Sequence[Words]
 ) -> Iterator[Words]:
     """Yield the same of the measurement before an adjustment, but for what is said of the one after it."""
     before = job.as_found
@@ -162,7 +170,8 @@ def _collect_shown_as_found(
         return
     from zlmreport.document.certificate.as_found import NAMES  # noqa: PLC0415 - of the few that need it
 
-    found = _collect_shown(before, as_found[0].evaluation.measurements)
+    earlier = as_found[0].evaluation.measurements
+    found = (*_collect_shown(before, earlier), *as_left_once_more(earlier, measurements))
     name = NAMES[job.keys.as_found.work][0]
     yield from say_of_each([(name, [each for each in found if each not in said])])
 

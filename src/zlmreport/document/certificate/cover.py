@@ -128,7 +128,7 @@ def _lay_out_part(of: Material) -> Iterator[Block]:
 
 
 _UNUSUAL = Words("Values that are unusual in the unit in which they are stated")
-_EVIDENCE = Words("What readings and calibrations show")
+_EVIDENCE = Words("What readings, dates and calibrations show")
 
 
 def list_unlikely(

@@ -33,7 +33,7 @@ _MOST_LINES = 3
 _DETAILS = Words("Details")
 _ELSEWHERE = Words("On the page “{details}”: {what}.")
 _TO_BE_NOTED = Words("To be noted")
-_SEE_DETAILS = Words("To be noted: see the page “{details}”")
+_SEE_DETAILS = Words("{heading}: see the page “{details}”")
 _ITEM = Words("{heading}: {items}")
 
 
@@ -233,12 +233,17 @@ class _Room:
 def _list_ways_to_note(notices: tuple[Notice, ...], writer: Writer) -> list[tuple[Notice, ...]]:
     """Return from long to short how notices stand.
 
-    In full; those of a line in full, and the others by their headings; pointed at.
+    In full; those of a line in full, and of the others the headings, with the page where they stand; that
+    page alone.
     """
     if not notices:
         return [()]
-    brief = tuple(each if _is_short(each, writer) else replace(each, items=()) for each in notices)
-    pointed_at = Notice(writer.say(_SEE_DETAILS.given(details=_DETAILS)), ())
+
+    def elsewhere(heading: str | Words) -> Notice:
+        return Notice(writer.say(_SEE_DETAILS.given(heading=heading, details=_DETAILS)), ())
+
+    brief = tuple(each if _is_short(each, writer) else elsewhere(each.heading) for each in notices)
+    pointed_at = elsewhere(_TO_BE_NOTED)
     return [_box_notices(notices, writer), _box_notices(brief, writer), (pointed_at,)]
 
 

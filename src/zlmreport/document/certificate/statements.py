@@ -121,7 +121,7 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
 
 def traceable_through(job: Job) -> Words | None:
     """Return through which calibrations the results are traceable; None where the job does not show it."""
-    named = traceability.certificates(job)
+    named = traceability.list_certificates(job)
     if len(named) > 1:
         return _TRACEABLE_BY_SEVERAL.given(certificates=", ".join(named))
     return _TRACEABLE.given(certificate=named[0]) if named else None

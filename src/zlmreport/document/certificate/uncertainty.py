@@ -64,8 +64,8 @@ _REASON = Words("{contributor}: {reason}")
 _METHOD = Words(
     "The budget below was propagated to every parameter by the Monte Carlo method (JCGM 101:2008): "
     "{trials} simulated tests, the readings with errors drawn from the budget, were evaluated by the "
-    "formulas of each standard. Errors that readings share stay shared. y ± U holds 95.45 % of the simulated "
-    "values."
+    "formulas of each standard. Errors that readings share stay shared. y ± U holds at least 95.45 % of the "
+    "simulated values."
 )
 _METHOD_BY_POSITION = Words(
     "{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "

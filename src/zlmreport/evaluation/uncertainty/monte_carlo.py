@@ -10,7 +10,6 @@ import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from statistics import NormalDist
 from types import MappingProxyType
 
@@ -39,7 +38,7 @@ from zlmreport.evaluation.uncertainty.drift import (
     find_drift_range,
     sample_drifts,
 )
-from zlmreport.evaluation.uncertainty.flattest_axis import make_flattest
+from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
 from zlmreport.evaluation.uncertainty.rounding import find_hiding_resolution, sample_rounding
 from zlmreport.measurement.approach import Approach
@@ -59,6 +58,8 @@ _NOTHING = 1e-9
 _DIGITS = 6
 #: Of the errors by which a parameter is asked whether it compares positions, m or rad, at the least.
 _BEND = 1e-6
+#: Each of the flatter axes is asked by so many fewer simulated tests: only where U ends depends on them.
+_FLATTER_SHARE = 4
 
 StandardArithmetic = Callable[[PositionStatistics], Arithmetic]
 
@@ -102,11 +103,12 @@ def propagate(
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
     than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
-    drift, where the instrument errs as much as the axis that of two axes that may be the one
-    (`zlmreport.evaluation.uncertainty.flattest_axis`), and where lines were held against a body, as a mirror,
-    that of two ways in which that may err: at each position by itself, and along a bend. It is never less
-    than the budget's bounds. Known errors are taken out of the readings first, errors are drawn about what
-    is left, and U has in it whole what the parameter changes by (JCGM 100, F.2.4.5).
+    drift, and where lines were held against a body, as a mirror, that of two ways in which that may err: at
+    each position by itself, and along a bend. Where the instrument errs as much as the axis, U reaches to the
+    farthest of the flatter axes of which the readings may be a test, among 95.45 % of those simulated of it
+    (J. Neyman, Phil. Trans. R. Soc. A 236, 1937). It is never less than the budget's bounds. Known errors are
+    taken out of the readings first, errors are drawn about what is left, and U has in it whole what the
+    parameter changes by (JCGM 100, F.2.4.5).
     """
     measurements = evaluations[0][0].measurements
     evaluations, known = _remove_known_errors(budget, evaluations)
@@ -118,17 +120,25 @@ def propagate(
     found: list[dict[str, Expanded]] = [{} for _ in evaluations]
     drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
     kinds: Sequence[Drift | None] = choose_drift_kinds(measurements) if drifts else (None,)
-    axes = _list_axes_to_ask(budget, evaluations)
-    bends = _asks_for_a_bend(budget, measurements)
-    bent = product((_Ways(kind, is_bent=True) for kind in kinds), axes[:1]) if bends else ()
-    asked = [*product(map(_Ways, kinds), axes), *bent]
-    for ways, axis in asked:
-        distances = _measure_distances(budget, axis, ways, trials // len(asked), generator)
-        for so_far, (evaluation, _), values in zip(found, axis, distances, strict=True):
+    asked = [_Ways(kind) for kind in kinds]
+    if _asks_for_a_bend(budget, measurements):
+        asked += [_Ways(kind, is_bent=True) for kind in kinds]
+    each_of = trials // len(asked)
+    for ways in asked:
+        distances = _measure_distances(budget, evaluations, ways, each_of, generator)
+        for so_far, (evaluation, _), values in zip(found, evaluations, distances, strict=True):
             symbols = (each.quantity.symbol for each in evaluation.parameters)
             for symbol, expanded in zip(symbols, _expand(np.abs(values), least), strict=True):
                 if symbol not in so_far or expanded.uncertainty > so_far[symbol].uncertainty:
                     so_far[symbol] = expanded
+    flatter = [_evaluate_readings(each, evaluations) for each in make_flatter_axes(measurements, budget)]
+    for kind in kinds if flatter else ():
+        fewer = max(1, each_of // _FLATTER_SHARE)
+        reached = _find_reached(budget, evaluations, flatter, _Ways(kind), fewer, generator)
+        found = [
+            {symbol: _raise_to_reach(each, far[symbol]) for symbol, each in so_far.items()}
+            for so_far, far in zip(found, reached, strict=True)
+        ]
     return tuple(
         {
             symbol: _add_known_changes(
@@ -161,12 +171,66 @@ def _is_of_the_instrument(contribution: Contribution) -> bool:
     return contribution.acts is Acts.AT_EACH_POSITION and contribution.contributor == "instrument"
 
 
-def _list_axes_to_ask(
-    budget: Budget, evaluations: Sequence[tuple[Evaluation, StandardArithmetic]]
-) -> list[Sequence[tuple[Evaluation, StandardArithmetic]]]:
-    """Return the evaluations of the test, and those of the flattest axis that may be behind it."""
-    flat = make_flattest(evaluations[0][0].measurements, budget)
-    return [evaluations] if flat is None else [evaluations, _evaluate_readings(flat, evaluations)]
+def _find_reached(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
+    budget: Budget,
+    evaluations: Sequence[tuple[Evaluation, StandardArithmetic]],
+    flatter: Sequence[Sequence[tuple[Evaluation, StandardArithmetic]]],
+    ways: _Ways,
+    trials: int,
+    generator: np.random.Generator,
+) -> list[dict[str, float]]:
+    """Return how far the farthest axis lies of which the readings may be a test, by symbol.
+
+    `flatter`: The evaluations of each axis, the flattest last; between two of them is interpolated.
+    """
+    away, allowed = [], []
+    for axis in flatter:
+        distances = _measure_distances(budget, axis, ways, trials, generator)
+        allowed.append([_find_half_widths(np.abs(each)) for each in distances])
+        away.append(
+            [
+                np.abs(_list_values_of(read) - _list_values_of(flat))
+                for (read, _), (flat, _) in zip(evaluations, axis, strict=True)
+            ]
+        )
+    return [
+        {
+            each.quantity.symbol: _find_farthest(far, most)
+            for each, far, most in zip(
+                evaluation.parameters,
+                np.stack([one[number] for one in away], axis=1).tolist(),
+                np.stack([one[number] for one in allowed], axis=1).tolist(),
+                strict=True,
+            )
+        }
+        for number, (evaluation, _) in enumerate(evaluations)
+    ]
+
+
+def _list_values_of(evaluation: Evaluation) -> FloatArray:
+    """Return the values of all parameters, m or rad."""
+    return np.array([each.value for each in evaluation.parameters])
+
+
+def _find_farthest(away: Sequence[float], allowed: Sequence[float]) -> float:
+    """Return the distance of the farthest of axes that become flatter, as far as it is allowed."""
+    farthest = 0.0
+    for number, (far, most) in enumerate(zip(away, allowed, strict=True)):
+        if far <= most:
+            farthest = max(farthest, far)
+        elif number and away[number - 1] <= allowed[number - 1]:
+            spare, lacking = allowed[number - 1] - away[number - 1], far - most
+            between = away[number - 1] + (far - away[number - 1]) * spare / (spare + lacking)
+            farthest = max(farthest, between)
+    return farthest
+
+
+def _raise_to_reach(expanded: Expanded, distance: float) -> Expanded:
+    """Return U that reaches so far at least; u stays, and k grows."""
+    if distance <= expanded.uncertainty or not expanded.uncertainty:
+        return expanded
+    factor = expanded.coverage_factor * distance / expanded.uncertainty
+    return Expanded(shorten(distance), shorten(factor), Least.FLATTER_AXIS)
 
 
 def _evaluate_readings(
@@ -415,12 +479,16 @@ def make_seed_of(measurements: MeasurementSet) -> int:
 def _expand(distances: FloatArray, least: float) -> list[Expanded]:
     """Return the expanded uncertainty of each parameter by its distances, shape (parameter, trial)."""
     standard = np.sqrt(np.mean(distances**2, axis=-1))
-    rank = math.ceil(COVERAGE_PROBABILITY * distances.shape[-1]) - 1
-    half_width = np.partition(distances, rank, axis=-1)[:, rank]
     return [
         Expanded(shorten(half), shorten(half / one)) if one > least else Expanded(0.0, COVERAGE_FACTOR)
-        for half, one in zip(half_width.tolist(), standard.tolist(), strict=True)
+        for half, one in zip(_find_half_widths(distances).tolist(), standard.tolist(), strict=True)
     ]
+
+
+def _find_half_widths(distances: FloatArray) -> FloatArray:
+    """Return the half widths that hold 95.45 % of the distances, shape (parameter, trial)."""
+    rank = math.ceil(COVERAGE_PROBABILITY * distances.shape[-1]) - 1
+    return np.asarray(np.partition(distances, rank, axis=-1)[:, rank])
 
 
 def _raise_to_bounds(expanded: Expanded, budget: Budget, compares_positions: bool | None) -> Expanded:  # noqa: FBT001 - private

@@ -49,6 +49,10 @@ def name_contributor(name: str) -> Words:
 #: What an uncertainty was raised to.
 RAISED_TO: Mapping[Least, Words] = MappingProxyType(
     {
+        Least.FLATTER_AXIS: Words(
+            "raised to reach the flattest axis that the readings leave possible, for errors that differ from "
+            "position to position widen what is read"
+        ),
         Least.INSTRUMENT: Words("raised to the U of the measuring instrument"),
         Least.LABORATORY: Words("raised to the laboratory's measurement capability (CMC)"),
     }

@@ -1,0 +1,179 @@
+"""What a job states at two places and otherwise each time, and days that lie too far apart.
+
+Nothing of it is refused, for each may have its reason: a reader is told, and the laboratory asked.
+"""
+
+from __future__ import annotations
+
+import datetime as dt
+from collections.abc import Iterator
+from itertools import combinations
+
+import numpy as np
+
+from zlmreport.evaluation.uncertainty.reasons import is_reference, says_something
+from zlmreport.job.contradictions import find_last_day
+from zlmreport.job.job import Job
+from zlmreport.job.keys import JobKeys
+from zlmreport.language import Words, same
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import BoolArray, FloatArray
+from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, MeasurementSet
+from zlmreport.measurement.units import with_unit
+
+_LATE = Words("Issued on {issued}, {years} after the measurement of {measured}")
+_YEARS = Words("{number} year", plural="{number} years")
+_LONG = Words("The measurement took from {first} to {last}: {days} days")
+_UNDATED = Words(
+    "The date of the measurement is not stated: whether the calibrations were valid then cannot be told"
+)
+_TEMPERATURES = Words("{one}: {first} °C; {other}: {second} °C")
+_APART = Words("{temperatures}: they lie {difference} K apart")
+_RECKONED = Words("{temperatures}: the expansion is reckoned with {used} °C")
+_COEFFICIENTS = Words(
+    "Corrected with {corrected} µm/(m·K), and {stated} µm/(m·K) is stated as the expansion coefficient of "
+    "the machine"
+)
+_TWO_DATES = Words("Calibration certificate {number}: two dates are stated for it, {first} and {second}")
+_NO_REASON = Words("The reading of run {run} at {target} {arrow} is set aside without a reason: {reason}")
+_PAUSE = Words(
+    "Before a reading of run {run} none was taken for {hours} h: what moved meanwhile is in the results"
+)
+_ONE_TIME = Words("All readings are said to have been taken at the same time")
+_TOO_FAST = Words(
+    "By the times of the readings the axis moved at {speed} {unit}, and its feed is stated as {feed} {unit}"
+)
+#: Days after which issue is late, and that a measurement may take.
+_YEAR, _LONGEST = 365, 31
+_DAYS_OF_A_YEAR = 365.25
+#: Kelvins by which the scale and the workpiece may differ, and by which the air and the machine may.
+_ALIKE, _OF_AIR = 1.0, 5.0
+_ROUNDING = 1e-9
+#: Seconds without a reading that are a pause.
+_LONG_PAUSE = 3600.0
+#: A moving axis may exceed its feed by the rounding of its times, s, and by this factor.
+_OF_TIMES, _OF_FEED = 1.0, 1.2
+
+
+def disagreements(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+    """Return a sentence for each statement of a job that another one does not bear out."""
+    return (
+        *_days(job.keys),
+        *_temperatures(job),
+        *_coefficients(job.keys),
+        *_certificates(job.keys),
+        *_exclusions(job),
+        *_times(job, measurements),
+    )
+
+
+def _days(keys: JobKeys) -> Iterator[Words]:
+    first, last, issued = keys.measurement.date, find_last_day(keys.measurement), keys.certificate.issued
+    if issued and last and (issued - last).days > _YEAR:
+        years = _YEARS.given(number=int((issued - last).days / _DAYS_OF_A_YEAR + 0.01))
+        yield _LATE.given(issued=_written(issued), years=years, measured=_written(last))
+    if first and last and (last - first).days > _LONGEST:
+        days = (last - first).days + 1
+        yield _LONG.given(first=_written(first), last=_written(last), days=days)
+    if first is None and any(day for _, _, day in _calibrations(keys)):
+        yield _UNDATED
+
+
+def _written(day: dt.date) -> Words:
+    return same(day.isoformat())
+
+
+def _calibrations(keys: JobKeys) -> Iterator[tuple[str, str | None, dt.date | None]]:
+    """Yield name, certificate and date of calibration of each instrument and sensor."""
+    devices = (keys.instrument, *(keys.environment.thermometers if keys.environment else ()))
+    yield from ((each.name, each.certificate, each.calibrated) for each in devices if each)
+
+
+def _temperatures(job: Job) -> Iterator[Words]:
+    """Yield temperatures that are stated and so different that one of them hardly holds for the length."""
+    environment = job.keys.environment
+    if environment is None or not job.axis.has_length:
+        return
+    names = ("axis_temperature", "material_temperature", "air_temperature")
+    stated = [(name, value) for name in names if isinstance(value := getattr(environment, name), float)]
+    material = job.keys.corrections.material if job.keys.corrections else None
+    used = dict(stated).get(material.temperature if material else names[0], 0.0)
+    for (one, first), (other, second) in combinations(stated, 2):
+        of_air = other == "air_temperature"
+        if abs(first - second) > (_OF_AIR if of_air else _ALIKE):
+            both = _TEMPERATURES.given(
+                one=CONDITION_NAMES[one], first=first, other=CONDITION_NAMES[other], second=second
+            )
+            difference = float(f"{abs(first - second):.3g}")
+            apart = _APART.given(temperatures=both, difference=difference)
+            yield apart if of_air else _RECKONED.given(temperatures=both, used=used)
+
+
+def _coefficients(keys: JobKeys) -> Iterator[Words]:
+    """Yield a coefficient of the correction that is not the machine's."""
+    material = keys.corrections.material if keys.corrections else None
+    corrected = material.expansion_coefficient if material else None
+    stated = keys.environment.expansion_coefficient if keys.environment else None
+    if corrected and isinstance(stated, float) and abs(corrected - stated) > _ROUNDING:
+        yield _COEFFICIENTS.given(corrected=corrected, stated=stated)
+
+
+def _certificates(keys: JobKeys) -> Iterator[Words]:
+    """Yield the certificates that are stated with two dates."""
+    named = [
+        (number, day) for _, number, day in _calibrations(keys) if number and day and is_reference(number)
+    ]
+    said = set()
+    for (one, first), (other, second) in combinations(named, 2):
+        if one.casefold() == other.casefold() and first != second and one.casefold() not in said:
+            said.add(one.casefold())
+            yield _TWO_DATES.given(number=one, first=_written(first), second=_written(second))
+
+
+def _exclusions(job: Job) -> Iterator[Words]:
+    """Yield the readings that are set aside for no reason."""
+    for each in job.keys.measurement.excluded:
+        if not says_something(each.reason):
+            approach = Approach.POSITIVE if each.direction == "+" else Approach.NEGATIVE
+            yield _NO_REASON.given(
+                run=each.run,
+                target=Words(with_unit("{value}", job.axis.position_unit.symbol)).given(value=each.target),
+                arrow=approach.arrow,
+                reason=same(f"“{each.reason}”"),
+            )
+
+
+def _times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield what the times of the readings say against each other, or against the stated feed."""
+    times = measurements.time
+    if times is None or measurements.axis.measurand.is_continuous or np.isfinite(times).sum() < 2:
+        return
+    there = np.isfinite(times)
+    seconds = np.diff(times[there])
+    if not seconds.any():
+        yield _ONE_TIME
+        return
+    longest = int(seconds.argmax())
+    if seconds[longest] > _LONG_PAUSE:
+        run = int(measurements.run[there][longest + 1])
+        yield _PAUSE.given(run=run, hours=float(f"{seconds[longest] / 3600:.2g}"))
+    feed = job.keys.measurement.feed
+    if feed is not None:
+        yield from _feed(feed, measurements, there, seconds)
+
+
+def _feed(
+    feed: float, measurements: MeasurementSet, there: BoolArray, seconds: FloatArray
+) -> Iterator[Words]:
+    """Yield whether readings follow each other faster than the stated feed lets the axis move."""
+    unit = measurements.axis.position_unit
+    at = measurements.target_positions[measurements.target[there]]
+    ways = np.abs(np.diff([unit.from_si(float(each)) for each in at]))
+    moved = ways > 0
+    if not moved.any():
+        return
+    speed = 60 * float(np.median(ways[moved] / (seconds[moved] + _OF_TIMES)))
+    if speed > _OF_FEED * feed:
+        per_minute = "°/min" if measurements.axis.kind is AxisKind.ROTARY else "mm/min"
+        yield _TOO_FAST.given(speed=float(f"{speed:.2g}"), feed=feed, unit=per_minute)

@@ -1,0 +1,92 @@
+"""Runs that were measured or written the wrong way round: their reversal, or their sign, is not the others'.
+
+Of a run whose directions were interchanged the reversal has the other sign; of one whose deviations have the
+wrong sign the curve mirrors that of the others.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from zlmreport.measurement.approach import Approach
+from zlmreport.measurement.arrays import FloatArray
+
+#: Runs and positions that are needed to tell.
+_FEWEST_RUNS, _FEWEST_POSITIONS = 3, 4
+#: Standard deviations by which the mean reversal of a run differs from the others' beyond chance: where it is
+#: theirs with the other sign, and elsewhere, for few runs tell little of how far runs differ.
+_APART_TURNED, _APART = 6.0, 10.0
+#: Share of the positions that must tell the same: outliers at a few move a mean, too.
+_MOST = 0.7
+#: How near a reversal is to the negative of the others', as a part of their distance.
+_TURNED = 0.25
+#: Correlation from which a run mirrors the others, and standard deviations that their curve then spans.
+_MIRRORED, _CURVED = -0.8, 6.0
+
+
+class Turned(NamedTuple):
+    """A run whose reversal is not that of the others."""
+
+    run: int  #: Its index.
+    reversal: float  #: Its mean reversal, m or rad.
+    of_others: float  #: That of the other runs.
+    is_interchanged: bool  #: Whether it is theirs with the other sign.
+
+
+def run_of_another_reversal(readings: FloatArray) -> Turned | None:
+    """Return the run whose mean reversal stands apart from all others, if one does.
+
+    `readings`: (approach, position, run), m or rad; NaN where there is none.
+    """
+    parted = readings[Approach.POSITIVE.index] - readings[Approach.NEGATIVE.index]
+    parted = parted[np.isfinite(parted).all(axis=1)]
+    positions, runs = parted.shape
+    if runs < _FEWEST_RUNS or positions < _FEWEST_POSITIONS:
+        return None
+    means = parted.mean(axis=0)
+    run = int(np.abs(means - np.median(means)).argmax())
+    others = np.delete(parted, run, axis=1)
+    of_others = np.delete(means, run)
+    left = others - others.mean(axis=1, keepdims=True) - of_others + of_others.mean()
+    freedom = max(1, (positions - 1) * (runs - 2))
+    own = float((left**2).sum()) / freedom / positions
+    # Of whole runs that differ among each other, one that differs as much is none that stands apart.
+    chance = np.sqrt(max(own, float(of_others.var(ddof=1))) * (1 + 1 / (runs - 1)))
+    level = float(of_others.mean())
+    apart = float(means[run]) - level
+    is_interchanged = abs(float(means[run]) + level) < _TURNED * abs(apart)
+    single = parted[:, run]
+    at_each = others.mean(axis=1)
+    agree = (
+        np.abs(single + at_each) < np.abs(single - at_each)
+        if is_interchanged
+        else (single - at_each) * apart > 0
+    )
+    if agree.mean() < _MOST:
+        return None
+    if not chance or abs(apart) <= (_APART_TURNED if is_interchanged else _APART) * chance:
+        return None
+    return Turned(run, float(means[run]), level, is_interchanged)
+
+
+def mirrored_run(readings: FloatArray) -> int | None:
+    """Return the index of the run whose curve mirrors that of the others, if one does.
+
+    `readings`: as of `run_of_another_reversal`.
+    """
+    curves = readings.reshape(-1, readings.shape[-1])
+    curves = curves[np.isfinite(curves).all(axis=1)]
+    if curves.shape[1] < _FEWEST_RUNS or len(curves) < _FEWEST_POSITIONS:
+        return None
+    curves = curves - curves.mean(axis=0)
+    for run in range(curves.shape[1]):
+        others = np.delete(curves, run, axis=1)
+        mean = others.mean(axis=1)
+        scatter = float((others - mean[:, np.newaxis]).std(ddof=1))
+        if not curves[:, run].any() or not mean.any() or np.ptp(mean) < _CURVED * scatter:
+            continue
+        if np.corrcoef(curves[:, run], mean)[0, 1] < _MIRRORED:
+            return run
+    return None

@@ -1,0 +1,278 @@
+"""Twenty more doubtful jobs: statements that contradict each other, days, clocks, runs the wrong way round.
+
+Each is refused or marked where it is read, and of none is anything printed that is not so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from document.certificate import documents
+from document.certificate.documents import text_of, without
+from doubtful import doubtful_jobs
+from doubtful.doubtful_jobs import (
+    REPORT,
+    SOUND,
+    TARGETS,
+    changed,
+    composed,
+    cover,
+    order,
+    parameter,
+    readings,
+    refusals,
+    write,
+)
+from doubtful.test_twenty_jobs import ANGLES, GERMAN, SHEET, STANDARD, TURNING, by, false_in
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.evaluation.evaluation import Least
+
+Spoil = Callable[[np.ndarray], np.ndarray]
+_COUNT = len(order())
+_EVEN = [20.0 * number for number in range(_COUNT)]
+
+
+def written(
+    folder: Path, deviations: np.ndarray, name: str = "", values: Sequence[float] = (), file: str = "x.csv"
+) -> None:
+    """Write readings beside their job, with what was logged beside each."""
+    write(folder, deviations)
+    lines = (folder / "x.csv").read_text(encoding="utf-8").splitlines()
+    if name:
+        lines = [f"{lines[0]},{name}", *(f"{a},{b:.6g}" for a, b in zip(lines[1:], values, strict=True))]
+    (folder / file).write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def first_page(document: Certificate) -> str:
+    """Return the first page: of a sheet all of it."""
+    is_sheet = document.job is not None and document.job.keys.certificate.layout == "sheet"
+    return text_of(document) if is_sheet else cover(document)
+
+
+def interchanged(deviations: np.ndarray) -> np.ndarray:
+    """Return readings of whose third run somebody has taken + for −."""
+    turned = deviations.copy()
+    turned[..., 2] = deviations[:, ::-1, 2]
+    return turned
+
+
+def opened(deviations: np.ndarray) -> np.ndarray:
+    """Return readings whose fourth run comes back 6 lower."""
+    moved = deviations.copy()
+    moved[:, 1, 3] -= 6
+    return moved
+
+
+def mirrored(deviations: np.ndarray) -> np.ndarray:
+    """Return readings of whose second run the sign is turned."""
+    turned = deviations.copy()
+    turned[..., 1] *= -1
+    return turned
+
+
+def _same(deviations: np.ndarray) -> np.ndarray:
+    return deviations
+
+
+@dataclass(frozen=True)
+class Doubtful:
+    """A job, its readings with what was logged beside them, and what its first page says of them."""
+
+    keys: Mapping[str, Any]
+    said: str
+    spoil: Spoil = _same
+    logged: tuple[str, Sequence[float]] = ("", ())
+    targets: Sequence[float] = tuple(TARGETS)
+
+
+_PAUSING = [each + (9 * 3600 if number >= 44 else 0) for number, each in enumerate(_EVEN)]
+_AIR = {"air": {"assumed": "standard air"}}
+JOBS: dict[str, Doubtful] = {
+    "a certificate of four years later": Doubtful(
+        changed(("certificate.issued", "2030-11-20")),
+        "Issued on 2030-11-20, 4 years after the measurement of 2026-11-18",
+    ),
+    "one of thirteen months later, in German, on a sheet": Doubtful(
+        changed(GERMAN, SHEET, ("certificate.issued", "2027-12-20")),
+        "Ausgestellt am 2027-12-20, 1 Jahr nach der Messung vom 2026-11-18",
+    ),
+    "a measurement of a quarter of a year": Doubtful(
+        changed(("measurement.date", "2026-08-20"))
+        | {"measurement": {**SOUND["measurement"], "date": "2026-08-20", "end": "2026-11-18"}},
+        "The measurement took from 2026-08-20 to 2026-11-18: 91 days",
+    ),
+    "a report without a day": Doubtful(
+        changed(REPORT, of=without("measurement.date", keys=SOUND)),
+        "whether the calibrations were valid then cannot be told",
+    ),
+    "two thermometers that disagree": Doubtful(
+        changed(("environment.material_temperature", 23.5)),
+        "Material temperature: 23.5 °C: the expansion is reckoned with 20 °C",
+    ),
+    "an air of 35 °C about a machine of 20 °C": Doubtful(
+        changed(GERMAN, STANDARD, ("environment.air_temperature", 35)),
+        "Lufttemperatur: 35 °C: sie liegen 15 K auseinander",
+    ),
+    "the coefficient of another material": Doubtful(
+        changed(
+            ("corrections", {"material": {"temperature": "axis_temperature", "expansion_coefficient": 23.8}}),
+            ("environment.axis_temperature", 21),
+            ("uncertainty.resolution", 0.01),
+        ),
+        "Corrected with 23.8 µm/(m·K), and 11.5 µm/(m·K) is stated",
+    ),
+    "a certificate number used twice": Doubtful(
+        changed(
+            ("environment.thermometers", [{"name": "T 1", "certificate": "c-1", "calibrated": "2026-02-01"}])
+        ),
+        "Calibration certificate C-1: two dates are stated for it, 2026-03-02 and 2026-02-01",
+    ),
+    "a report that is its own reference": Doubtful(
+        changed(REPORT, SHEET, ("instrument.certificate", "cal-1")),
+        "Measuring instrument: the calibration certificate named, CAL-1, is this document",
+    ),
+    "a night between two runs": Doubtful(
+        changed(by("iso230-2:1997", A=20)),
+        "Before a reading of run 3 none was taken for 9 h",
+        logged=("time", _PAUSING),
+    ),
+    "a clock that stood": Doubtful(
+        changed(STANDARD),
+        "All readings are said to have been taken at the same time",
+        logged=("time", [5.0] * _COUNT),
+    ),
+    "an axis faster than its feed": Doubtful(
+        changed(GERMAN, ("measurement.feed", 1000)),
+        "fuhr die Achse mit 5900 mm/min, und als Vorschub sind 1000 mm/min angegeben",
+        logged=("time", [each / 2000 for each in _EVEN]),
+    ),
+    "an axis that turns faster than its feed": Doubtful(
+        changed(("measurement.feed", 60), of=TURNING),
+        "°/min, and its feed is stated as 60 °/min",
+        logged=("time", [each / 2000 for each in _EVEN]),
+        targets=tuple(ANGLES),
+    ),
+    "a barometer that fell silent": Doubtful(
+        changed(SHEET),
+        "Air pressure: 0 hPa was logged at a reading, which is unusual",
+        logged=("air_pressure", [1013.0] * (_COUNT - 3) + [0.0] * 3),
+    ),
+    "a run with its directions interchanged": Doubtful(
+        SOUND, "in the others: its directions seem to be interchanged", interchanged
+    ),
+    "the same of an axis that turns, by VDI/VDE 2617": Doubtful(
+        changed(GERMAN, by("vdi-vde-2617", P=12), of=TURNING),
+        "seine Richtungen scheinen vertauscht",
+        interchanged,
+        targets=tuple(ANGLES),
+    ),
+    "a reversal in one run only": Doubtful(
+        changed(by("nmtba", P=40)),
+        "The reversal of run 4 is 6.82 µm in the mean, and 0.899 µm in the others",
+        opened,
+    ),
+    "a run with its sign turned": Doubtful(
+        changed(SHEET), "Run 2 mirrors the others: the sign of its deviations seems to be turned", mirrored
+    ),
+    "a reading that nobody says why it was set aside": Doubtful(
+        changed(
+            (
+                "measurement.excluded",
+                [{"target": 3.1, "direction": "+", "run": 1, "reason": "n/a"}],
+            )
+        ),
+        "The reading of run 1 at 3.1 mm ↑ is set aside without a reason: “n/a”",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", JOBS)
+def test_a_doubtful_job_is_marked_and_prints_nothing_that_is_not_so(
+    name: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    job = JOBS[name]
+    monkeypatch.setattr(doubtful_jobs, "TARGETS", np.array(job.targets))
+    written(tmp_path, job.spoil(readings()), *job.logged)
+
+    document = documents.certificate(tmp_path, job.keys)
+
+    assert job.said in first_page(document)
+    assert false_in(document) == []
+
+
+def _adjusted(folder: Path, before: np.ndarray) -> Certificate:
+    """Return the certificate of an axis that was adjusted between two measurements."""
+    written(folder, before, file="before.csv")
+    source = {"plugin": "laser-csv", "file": "before.csv"}
+    as_found = {"adjustment": "Pitch errors", "measurement": {"date": "2026-11-17", "source": source}}
+    return composed(folder, changed(("as_found", as_found)))
+
+
+def test_readings_before_an_adjustment_that_are_those_after_it_are_marked(tmp_path: Path) -> None:
+    said = "as found, before the adjustment: The readings are in every digit those of the measurement as left"
+
+    assert said in cover(_adjusted(tmp_path, readings()))
+    assert said not in cover(_adjusted(tmp_path, readings(seed=2)))
+
+
+def test_a_certificate_that_names_itself_as_its_reference_is_refused(tmp_path: Path) -> None:
+    assert "is this document" in refusals(tmp_path, changed(("instrument.certificate", "CAL-1")))
+
+
+@pytest.mark.parametrize("layout", ["full", "sheet"])
+def test_an_instrument_as_coarse_as_the_axis_is_said_to_have_raised_u(layout: str, tmp_path: Path) -> None:
+    """U of the instrument is 1 µm, and E 2.8 µm: the axis may be much flatter than it was read."""
+    coarse = changed(("instrument.expanded_uncertainty", 1), ("certificate.layout", layout))
+
+    document = composed(tmp_path, coarse)
+
+    e = parameter(document, "E")
+    assert "raised to reach the flattest axis that the readings leave possible" in text_of(document)
+    assert e.raised_to is Least.FLATTER_AXIS
+    assert (e.coverage_factor or 0.0) > 2.0
+
+
+def test_an_undated_report_claims_no_traceability(tmp_path: Path) -> None:
+    undated = changed(REPORT, of=without("measurement.date", keys=SOUND))
+
+    assert "metrologically traceable" not in text_of(composed(tmp_path, undated))
+
+
+# What is sound is not marked.
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("certificate.issued", "2027-11-18"),
+        ("environment.material_temperature", 20.6),
+        ("environment.air_temperature", 24),
+        ("measurement.end", "2026-11-20"),
+        ("environment.thermometers", [{"name": "T 1", "certificate": "C-1", "calibrated": "2026-03-02"}]),
+        ("measurement.feed", 1000),
+    ],
+)
+def test_what_may_well_be_so_is_not_marked(change: tuple[str, Any], tmp_path: Path) -> None:
+    written(tmp_path, readings(), "time", _EVEN)
+
+    document = documents.certificate(tmp_path, changed(change))
+
+    assert document.doubts == document.evidence == ()
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_runs_of_a_sound_axis_are_neither_turned_nor_mirrored(seed: int, tmp_path: Path) -> None:
+    """Also where the axis has no shape and no reversal, or scatters with long tails."""
+    generator = np.random.default_rng(seed)
+    flat = 0.4 * generator.standard_normal((len(TARGETS), 2, 5))
+    tailed = readings(scatter=0.0) + 0.3 * generator.standard_t(3, (len(TARGETS), 2, 5))
+    for deviations in (flat, tailed):
+        said = "\n".join(each.en for each in composed(tmp_path, SOUND, np.round(deviations, 2)).evidence)
+        assert "mirrors" not in said
+        assert "reversal of run" not in said
