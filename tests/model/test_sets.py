@@ -70,6 +70,32 @@ def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
     assert _names(found) == {"backlash-bow", "time-periodic"}
 
 
+def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
+    stretch = 4 * SIGMA * ((DESIGN.position > 0.32) & (DESIGN.position < 0.58))
+    found = _found(_hiding(("backlash", [])) + stretch)
+    assert _names(found) == {"backlash"}
+    (left,) = found.unnamed
+    assert left.identifier == "plateau"
+    assert left.theta == pytest.approx([0.45, 0.26], abs=0.06)
+
+
+def test_an_effect_for_which_others_may_stand_has_less_evidence_than_the_set_loses_without_it() -> None:
+    curve = 3 * SIGMA * np.sin(9.0 * DESIGN.position**2)
+    search = SetSearch(_contest(_hiding(("scale-kink", [0.6]), ("backlash", [])) + curve))
+    found = search.found()
+    for own, member in zip(search.own_evidence(found), found.members, strict=True):
+        if member.family.is_named:
+            assert search.evidence_of(found, {member.identifier}) <= own + 1e-9
+    assert search.evidence_of(found, {"backlash"}) > 6
+
+
+def test_what_is_left_of_a_set_has_the_same_effects_and_no_others() -> None:
+    search = SetSearch(_contest(_hiding(("screw-pitch", [0.01]), ("backlash", []))))
+    found = search.found()
+    kept = [each for each in found.named if each.identifier == "backlash"]
+    assert _names(search.holding(found, kept)) == {"backlash"}
+
+
 def test_an_effect_that_is_not_needed_goes_out_again() -> None:
     contest = _contest(_hiding(("screw-pitch", [0.01]), ("backlash", [])))
     search = SetSearch(contest)

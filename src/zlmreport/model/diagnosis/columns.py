@@ -8,7 +8,7 @@ irregular from position to position, has one column for each target and is elimi
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -19,16 +19,39 @@ from zlmreport.model.fitting.contrasts import Contrasts
 _FIRST_ROOM = 256
 
 
+class _Table:
+    """Products of columns with the first ones, a column a row; filled as they are asked for."""
+
+    def __init__(self, core: FloatArray) -> None:
+        """Begin a table with the products of the core."""
+        self.values, self._filled = core, len(core)
+        self._row = np.arange(len(core))  # of each column by its place; −1 of those that nobody asked for
+
+    def rows(self, places: IntArray, fill: Callable[[IntArray], FloatArray]) -> IntArray:
+        """Return the rows of some columns; `fill` makes those that are missing."""
+        if len(places) and places.max() >= len(self._row):
+            more = np.full(int(places.max()) + len(self._row), -1)
+            more[: len(self._row)] = self._row
+            self._row = more
+        found = self._row[places]
+        if found.min(initial=0) < 0:
+            missing = np.unique(places[found < 0])
+            first, self._filled = self._filled, self._filled + len(missing)
+            while self._filled > len(self.values):
+                self.values = np.concatenate([self.values, np.empty_like(self.values)])
+            self.values[first : self._filled] = fill(missing)
+            self._row[missing] = np.arange(first, self._filled)
+            found = self._row[places]
+        return found
+
+
 @dataclass(slots=True)
 class _Eliminated:
     """Irregular shares of given amplitudes, eliminated: products a·b become a·b − (Mᵀa)ᵀ·K·(Mᵀb)."""
 
     log_determinant: float
     kernel: FloatArray  #: K, (r, r).
-    #: Products of columns with all kept ones, a column a row: of the core, then of others as they are asked.
-    table: FloatArray
-    row: IntArray  #: The row of each column by its place; −1 of those that nobody asked for.
-    filled: int  #: Rows that are filled.
+    near: _Table  #: Products with the columns of the core.
     squares: dict[int, FloatArray] = field(default_factory=dict)  #: Of blocks of one width among themselves.
 
 
@@ -56,7 +79,7 @@ class Columns:
         self._values = np.empty((readings, _FIRST_ROOM))
         self._sums = np.empty((self._factor.shape[1], _FIRST_ROOM))
         self._count = self._core = self._kept = 0
-        self._plain = np.empty((0, 0))
+        self._plain = _Table(np.empty((0, 0)))  # of products with all kept columns, nothing eliminated
         self._eliminated: dict[tuple[float, ...], _Eliminated] = {}
 
     def add(self, contrasts: FloatArray) -> IntArray:
@@ -76,7 +99,7 @@ class Columns:
         `core`: How many of the first columns are the core.
         """
         self._core, self._kept = core, self._count
-        self._plain = self._values[:, :core].T @ self._values[:, : self._count]
+        self._plain = _Table(self._values[:, :core].T @ self._values[:, : self._count])
 
     def values(self, places: IntArray) -> FloatArray:
         """Return columns, shape (N, k)."""
@@ -91,17 +114,25 @@ class Columns:
         known = self._of(ratios)
         if not (len(one) and len(other)):
             return np.empty((len(one), len(other)))
-        if other.max() < self._kept:
-            rows = self._rows(known, one)
-            return known.table[rows[:, np.newaxis], other]
-        if one.max() < self._kept:
+        if other.max() < self._core:
+            rows = known.near.rows(one, lambda missing: self._with_core(known.kernel, missing))
+            return known.near.values[rows[:, np.newaxis], other]
+        if one.max() < self._core:
             return self.products(ratios, other, one).T
         found = np.empty((len(one), len(other)))
-        left, right = one < self._kept, other < self._kept
+        left, right = one < self._core, other < self._core
         found[:, right] = self.products(ratios, one, other[right])
         found[np.ix_(left, ~right)] = self.products(ratios, other[~right], one[left]).T
         found[np.ix_(~left, ~right)] = self._between(known, one[~left], self.values(other[~right]))
         return found
+
+    def products_with_kept(self, ratios: tuple[float, ...], one: IntArray, kept: IntArray) -> FloatArray:
+        """Return the same products with many of the kept columns."""
+        if not len(one):
+            return np.empty((0, len(kept)))
+        rows = self._plain.rows(one, lambda missing: self.values(missing).T @ self._values[:, : self._kept])
+        less = (self._of(ratios).kernel @ self._sums[:, one]).T @ self._sums[:, kept]
+        return np.asarray(self._plain.values[rows[:, np.newaxis], kept] - less)
 
     def products_with(self, ratios: tuple[float, ...], one: IntArray, contrasts: FloatArray) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
@@ -131,21 +162,10 @@ class Columns:
             dtype=np.float64,
         )
 
-    def _rows(self, known: _Eliminated, places: IntArray) -> IntArray:
-        """Return the rows of the table with the products of columns; those that are missing are filled."""
-        if len(known.row) < self._count:
-            known.row = np.concatenate([known.row, np.full(self._values.shape[1] - len(known.row), -1)])
-        missing = places[known.row[places] < 0]
-        if len(missing):
-            missing = np.unique(missing)
-            first, end = known.filled, known.filled + len(missing)
-            while end > len(known.table):
-                known.table = np.concatenate([known.table, np.empty_like(known.table)])
-            less = (known.kernel @ self._sums[:, missing]).T @ self._sums[:, : self._kept]
-            known.table[first:end] = self._values[:, missing].T @ self._values[:, : self._kept] - less
-            known.row[missing] = np.arange(first, end)
-            known.filled = end
-        return known.row[places]
+    def _with_core(self, kernel: FloatArray, places: IntArray) -> FloatArray:
+        core = slice(0, self._core)
+        less = (kernel @ self._sums[:, places]).T @ self._sums[:, core]
+        return np.asarray(self.values(places).T @ self._values[:, core] - less)
 
     def _between(self, known: _Eliminated, places: IntArray, contrasts: FloatArray) -> FloatArray:
         sums = known.kernel @ (self._factor.T @ contrasts)
@@ -165,7 +185,6 @@ class Columns:
         root = np.linalg.inv(factor) * roots
         kernel = np.zeros_like(self._gram)
         kernel[np.ix_(active, active)] = root.T @ root
-        core = self._sums[:, : self._core]
-        products = self._plain - (kernel @ core).T @ self._sums[:, : self._kept]
         logarithm = 2.0 * float(np.log(np.diagonal(factor)).sum())
-        return _Eliminated(logarithm, kernel, products, np.arange(self._core), self._core)
+        core = np.arange(self._core)
+        return _Eliminated(logarithm, kernel, _Table(self._with_core(kernel, core)))

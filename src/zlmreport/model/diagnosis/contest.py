@@ -413,8 +413,8 @@ class Contest:
             explained, ranks = self._explained(
                 reduced,
                 own,
-                self.columns.products(reduced.ratios, reduced.places, flat),
-                self.columns.products(reduced.ratios, self.response, flat)[0],
+                self.columns.products_with_kept(reduced.ratios, reduced.places, flat),
+                self.columns.products_with_kept(reduced.ratios, self.response, flat)[0],
                 taken,
             )
             added = self._added(squares, explained[:, 0], ranks, group.squares)
@@ -478,7 +478,9 @@ class Contest:
             if only and not only & {self.families[each].identifier for each in group.families.tolist()}:
                 continue
             flat = places.ravel()
-            coordinates = reduced.coordinates(self.columns.products(reduced.ratios, reduced.places, flat))
+            coordinates = reduced.coordinates(
+                self.columns.products_with_kept(reduced.ratios, reduced.places, flat)
+            )
             left = self.columns.products_with(reduced.ratios, flat, contrasts) - coordinates.T @ taken
             inner = coordinates.reshape(-1, *places.shape)
             gram = self.columns.squares(reduced.ratios, places.shape[1], places)

@@ -24,7 +24,7 @@ from zlmreport.model.diagnosis.null_distribution import (
     simulate_null,
 )
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
-from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch
+from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch, find_installed_name
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design
@@ -289,7 +289,28 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
         if lost >= NAMED:
             break
         found = without[number]
-    return found
+    return _sure(search, found) if search.has_nameless(found) else found
+
+
+def _sure(search: SetSearch, found: EffectSet) -> EffectSet:
+    """Return a set without those that another set does as well, beside something that has no name.
+
+    Of what has no name only the kind is known. A set that is told from the same set without an effect may be
+    as likely as one in which other effects and another curve do the same; then that effect is not told.
+    """
+    kept = []
+    for number, each in enumerate(found.members):
+        if not each.family.is_named:
+            continue
+        names = {find_installed_name(each.effect)}
+        evidence = search.evidence_of(found, names)
+        if evidence < TOLD_APART:
+            rivals = search.rivals(found, search.without(found, number), TOLD_APART)
+            names |= {find_installed_name(rival.members[-1].effect) for rival in rivals}
+            evidence = search.evidence_of(found, names)
+        if evidence >= TOLD_APART:
+            kept.append(each)
+    return found if len(kept) == len(found.named) else search.holding(found, kept)
 
 
 def _put_in_order(contest: Contest, found: EffectSet) -> list[int]:

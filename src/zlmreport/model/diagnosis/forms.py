@@ -28,6 +28,8 @@ _FEWEST, _PER_PERIOD, _PHASES = 1.25, 4, 8
 _MOST_PERIODS, _PLACES = 12.0, 24
 #: Periods of a saw at least: one that jumps once is a joint beside a slope, and these have names.
 _FEWEST_OF_SAW = 2.0
+#: Of the travel, the longest stretch that is displaced as a whole: the ends of a longer one are two joints.
+_LONGEST = 1 / 3
 #: Targets in a period, or in a width, that at least must tell it.
 _LEAST_IN_PERIOD, _LEAST_IN_WIDTH = 2.0, 1.5
 _DIGITS, _OF_STATED = 3, 6
@@ -70,6 +72,12 @@ KINK = Form(
     is_slope=True,
 )
 STEP = Form("step", "{a}*step({x} - c)", ("c",), Words("a step"))
+PLATEAU = Form(
+    "plateau",
+    "{a}*step({x} - c + w/2)*step(c + w/2 - {x})",
+    ("c", "w"),
+    Words("a stretch displaced as a whole, {width} long"),
+)
 BOW = Form("bow", "{a}*(1 - (({x} - c)/w)^2)", (), Words("a bow"))
 FADING = Form(
     "fading",
@@ -83,7 +91,7 @@ LATE = Form(
     ("c", "w"),
     Words("a beginning that takes {width}"),
 )
-_ALONG_AXIS = (BUMP, SAW, WAVE, KINK, STEP, BOW, FADING)
+_ALONG_AXIS = (BUMP, PLATEAU, SAW, WAVE, KINK, STEP, BOW, FADING)
 _IN_TIME = (BUMP, WAVE, STEP, LATE)
 #: Whose phase makes a carrier of one direction no other form.
 _DIRECTIONS = {"D": "D*", "up": "step(D)*", "down": "step(-D)*"}
@@ -98,7 +106,7 @@ CARRIERS = {
 }
 IN_TIME = frozenset({"time", "lever"})
 #: Forms that begin or bend at one place.
-LOCAL = (BUMP, STEP, KINK, LATE)
+LOCAL = (BUMP, PLATEAU, STEP, KINK, LATE)
 _SEARCHED = frozenset("cwL")
 
 
@@ -172,7 +180,7 @@ class UnnamedForm(FormulaEffect):
         """Return where it begins and ends, within what was measured, SI."""
         first, last = float(self.along[0]), float(self.along[-1])
         named = self.named(theta)
-        if self.form is BUMP:
+        if self.form in (BUMP, PLATEAU):
             half = named["w"] / 2
             return max(first, named["c"] - half), min(last, named["c"] + half)
         if self.form in LOCAL:
@@ -185,6 +193,8 @@ def list_unnamed_forms(design: Design) -> Iterator[UnnamedForm]:
     carriers = ("", *_DIRECTIONS) if design.is_bidirectional else ("",)
     for form in _ALONG_AXIS:
         starts = _choose_starts(form, design.target_positions)
+        if form is PLATEAU:
+            starts = _stretches(design.target_positions)
         for carrier in carriers if len(starts) else ():
             # A periodic form in one direction is the sum of the like and the opposite: these are enough.
             if not ({"L"} & {*form.searched} and carrier in {"up", "down"}):
@@ -231,6 +241,16 @@ def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
         case _:
             rows = [()]
     return np.array(rows, dtype=np.float64).reshape(len(rows), len(form.searched))
+
+
+def _stretches(along: FloatArray) -> FloatArray:
+    """Return middle and length of the stretches between two gaps of targets, up to a third of the travel."""
+    gaps = (along[:-1] + along[1:]) / 2
+    gaps = gaps[:: max(1, len(gaps) // _PLACES)]
+    first, last = np.triu_indices(len(gaps), k=1)
+    rows = np.column_stack([(gaps[first] + gaps[last]) / 2, gaps[last] - gaps[first]])
+    fewest = _LEAST_IN_WIDTH * float(np.ptp(along)) / (len(along) - 1)
+    return np.asarray(rows[(rows[:, 1] >= fewest) & (rows[:, 1] <= _LONGEST * np.ptp(along))])
 
 
 def _make_keys(

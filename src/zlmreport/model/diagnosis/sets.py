@@ -4,13 +4,13 @@ A set is scored by its evidence: spike and slab (T. J. Mitchell and J. J. Beauch
 83 (1988) 1023), the coefficients of its effects, their searched parameters and σ averaged over, the
 amplitudes of all nameless parts chosen anew for each set. Effects come in, go out and take each other's
 places as long as the evidence grows; also in pairs where something without a name is left. The search begins
-twice, with and without nameless parts: beside random curves of any size a cause may look needless, and
-without them one may look needed that is a makeshift.
+twice, with effects alone and beside all that has no name: beside random curves of any size a cause may look
+needless, and without them one may look needed that is a makeshift.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set as AbstractSet
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -37,9 +37,12 @@ _GAIN, _CLEAR_GAIN = 0.01, 0.5
 _JUMP = 2.0
 #: Values that are tried between two of a grid, in rounds, each about the best of the last.
 _BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
+#: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
+_MOST_ALONE, _NEAR = 5, 40.0
 _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
-#: Evidence of each effect's own above which a set is not looked for again from another start.
-_SURE = 6.0
+#: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
+#: names may do what one curve without a name does at less cost.
+_SURE, _FEW = 6.0, 2
 #: What a value costs on the side where none is usual, odds of 20 to 1, and one that physics forbids.
 UNUSUAL, FORBIDDEN = 6.0, 1e3
 #: Standard uncertainties beyond which nothing is in doubt; of a searched value, taken as a share of it.
@@ -49,8 +52,9 @@ _FARTHEST = 1e3
 #: To how many digits searched parameters are the same.
 _AS_FAR = ".3g"
 _NONE: frozenset[int] = frozenset()
-#: Parts that may be more than noise, families with their searched parameters, amplitudes.
-_State: TypeAlias = tuple[frozenset[int], frozenset[tuple[int, tuple[str, ...]]], Amplitudes]
+#: Parts that may be more than noise, whether forms are thought of, families with their searched parameters,
+#: amplitudes.
+_State: TypeAlias = tuple[frozenset[int], bool, frozenset[tuple[int, tuple[str, ...]]], Amplitudes]
 #: Of the longest column of an effect, one that is as short is imitated by the model.
 _SEEN = 1e-6
 
@@ -113,38 +117,52 @@ class SetSearch:
         self.contest = contest
         self._all = frozenset(range(len(contest.parts)))
         self._free = self._all  # the parts that may be more than noise
-        self._ends: dict[_State, EffectSet] = {}  # where a climb ends that comes by a set
+        # Where a climb ends that comes by a set, and whether it was thorough.
+        self._ends: dict[tuple[bool, _State], EffectSet] = {}
+        # Of all sets that were looked at the best ones, by the effects and the forms that are in it.
+        self._best: dict[tuple[frozenset[str], frozenset[str]], EffectSet] = {}
+        self._with_forms = True  # whether forms without a name are thought of
 
     def found(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
         """Return the set with the most evidence.
 
         `start`: Effects that are in it at first, and may go out.
         """
-        quiet = self._climbed(start, _NONE)
+        named = self._named_alone(start, is_thorough=False)
         told(0.3)
-        released = self._climb(self._with(quiet.members, quiet.amplitudes))
-        told(0.5)
-        is_whole = bool(released.named) and not self.has_nameless(released)
-        if is_whole and min(self.own_evidence(released)) > _SURE:
-            return released
-        beside = self._climbed(start, self._all)
+        released = self._with(named.members, named.amplitudes)
+        if not self._loud(released):
+            released = self._climb(released)
+            is_whole = 0 < len(released.named) <= _FEW and not self.has_nameless(released)
+            if is_whole and min(self.own_evidence(released)) > _SURE:
+                return released
+        told(0.4)
+        beside = self._climb(self._with(start, self.contest.quiet), is_thorough=False)
+        told(0.6)
+        together = self._climb(self._united(beside, named), is_thorough=False)
+        best = self._climb(min((released, beside, together), key=_score))
         told(0.8)
-        best, other = sorted((released, beside), key=lambda each: each.score)
-        members = best.members
-        for each in other.members:
-            if len(_list_beside(members, each.effect)) == len(members):
-                members = (*members, each)
-        if len(members) > len(best.members):
-            best = min(best, self._climb(self._with(members, best.amplitudes)), key=lambda each: each.score)
+        is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
+        if is_near and self.has_nameless(best):
+            named = self._named_alone(named.members, is_thorough=True)
+            best = min(best, self._climb(self._with(named.members, named.amplitudes)), key=_score)
         told(1.0)
         return best
 
-    def _climbed(self, start: Sequence[SetMember], free: frozenset[int]) -> EffectSet:
-        """Return where a climb ends beside which only some parts may be more than noise."""
-        self._free = free
-        found = self._climb(self._with(start, self.contest.quiet))
-        self._free = self._all
+    def _named_alone(self, start: Sequence[SetMember], *, is_thorough: bool) -> EffectSet:
+        """Return where a climb ends beside which nothing is without a name."""
+        self._free, self._with_forms = _NONE, False
+        found = self._climb(self._with(start, self.contest.quiet), is_thorough=is_thorough)
+        self._free, self._with_forms = self._all, True
         return found
+
+    def _united(self, found: EffectSet, other: EffectSet) -> EffectSet:
+        """Return a set with the members of another that can stand beside its own."""
+        members = found.members
+        for each in other.members:
+            if len(_list_beside(members, each.effect)) == len(members):
+                members = (*members, each)
+        return self._with(members, found.amplitudes)
 
     def _loud(self, found: EffectSet) -> list[int]:
         """Return the parts without a name that are more than noise in a set."""
@@ -158,6 +176,26 @@ class SetSearch:
     def has_nameless(self, found: EffectSet) -> bool:
         """Whether anything without a name is in a set, beyond what noise may be."""
         return bool(found.unnamed or self._loud(found))
+
+    def evidence_of(self, found: EffectSet, names: AbstractSet[str]) -> float:
+        """Return the evidence that the best set without any of some effects lacks, of all looked at.
+
+        All else may be another there: other effects, and the size of every curve without a name. It has no
+        form without a name that is not in the set: what has a name goes before a form that does the same.
+
+        `names`: As they are installed.
+        """
+        forms = _forms(found)
+        others = [
+            each.score for (known, own), each in self._best.items() if not known & names and own <= forms
+        ]
+        return min(others, default=np.inf) - found.score
+
+    def holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
+        """Return the best set with these named members alone; what has no name as it then is."""
+        names = _names(kept)
+        known = [each for (own, _), each in self._best.items() if own == names]
+        return min((self._with((*kept, *found.unnamed), found.amplitudes), *known), key=_score)
 
     def own_evidence(self, found: EffectSet) -> list[float]:
         """Return for each member the evidence that the set loses without it, all else following."""
@@ -249,7 +287,11 @@ class SetSearch:
     def _scored(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         columns = [each.columns for each in members]
         score = self.contest.criterion(amplitudes, columns) + self._cost(members, amplitudes)
-        return EffectSet(tuple(members), amplitudes, score)
+        found = EffectSet(tuple(members), amplitudes, score)
+        key = _names(found.named), _forms(found)
+        if key not in self._best or score < self._best[key].score:
+            self._best[key] = found
+        return found
 
     def _cost(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> float:
         """Return what the members cost: prior odds, coefficients, searched parameters, unusual values."""
@@ -326,8 +368,8 @@ class SetSearch:
         smooth = [number for number in range(len(contest.parts)) if number not in irregular]
         for turn in range(_ROUNDS_OF_AMPLITUDES):
             before = best
-            silent = [number for number in smooth if not now[number]]
-            for numbers in [silent, *([number] for number in smooth if now[number])]:
+            silent = [number for number in smooth if not now[number] and self._levels(number) > 1]
+            for numbers in [silent, *self._alike(now, smooth)]:
                 if not numbers:
                     continue
                 tried = [
@@ -350,16 +392,32 @@ class SetSearch:
                 break
         return now
 
+    def _alike(self, now: Amplitudes, smooth: Sequence[int]) -> Iterator[list[int]]:
+        """Yield the parts that are something by themselves, and together with those of other lengths.
+
+        A curve of one length that is as large as the other would be keeps that one away.
+        """
+        parts = self.contest.parts
+        for number in smooth:
+            if now[number]:
+                alike = [each for each in smooth if parts[each].shape == parts[number].shape]
+                yield [number]
+                if len(alike) > 1:
+                    yield alike
+
     def _levels(self, number: int) -> int:
         """Return how many levels of a part are thought of."""
         part = self.contest.parts[number]
         return len(part.levels) if number in self._free else part.noise_levels
 
-    def _climb(self, start: EffectSet) -> EffectSet:
-        """Return the best set that moves lead to, one after another."""
-        now, passed = self._shrunk(start), set[_State]()
+    def _climb(self, start: EffectSet, *, is_thorough: bool = True) -> EffectSet:
+        """Return the best set that moves lead to, one after another.
+
+        `is_thorough`: Whether effects also come in by pairs, and two in the place of one.
+        """
+        now, passed = self._shrunk(start), set[tuple[bool, _State]]()
         for _ in range(_MOST_MOVES):
-            state = self._state(now)
+            state = is_thorough, self._state(now)
             if state in self._ends:
                 now = self._ends[state]
                 break
@@ -369,9 +427,9 @@ class SetSearch:
                 now = self._shrunk(larger)
                 continue
             other = self._exchanged(now)
-            if other is None and self._free == self._all:
+            if other is None and is_thorough:
                 other = self._parted(now)
-            if other is None and self.has_nameless(now):
+            if other is None and is_thorough and self.has_nameless(now):
                 other = self._paired(now)
             if other is None:
                 break
@@ -384,7 +442,7 @@ class SetSearch:
         members = frozenset(
             (id(each.family), tuple(f"{value:{_AS_FAR}}" for value in each.theta)) for each in now.members
         )
-        return self._free, members, now.amplitudes
+        return self._free, self._with_forms, members, now.amplitudes
 
     def _shrunk(self, now: EffectSet) -> EffectSet:
         """Return a set without the members that the others make needless."""
@@ -493,6 +551,8 @@ class SetSearch:
                     break
                 if family.identifier in names or not wanted(family):
                     continue
+                if not (family.is_named or self._with_forms):
+                    continue
                 names.add(family.identifier)
                 if choice not in seen:
                     seen.add(choice)
@@ -529,9 +589,8 @@ class SetSearch:
     def _settled(self, now: EffectSet) -> EffectSet:
         """Return a set with all its parameters refined and its amplitudes chosen anew."""
         members, amplitudes = list(now.members), now.amplitudes
-        for _ in range(2):
-            for number in range(len(members)):
-                members[number] = self._refined(members, number, amplitudes)
+        for number in range(len(members)):
+            members[number] = self._refined(members, number, amplitudes)
         amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
         members, _ = self._jumped(members, amplitudes)
         return self._scored(members, amplitudes)
@@ -639,6 +698,18 @@ class SetSearch:
 def find_installed_name(effect: Effect) -> str:
     """Return the name of an effect by which it is installed, whichever time it stands in a model."""
     return part_number(effect.identifier)[0] if effect.several else effect.identifier
+
+
+def _names(members: Sequence[SetMember]) -> frozenset[str]:
+    return frozenset(find_installed_name(each.effect) for each in members)
+
+
+def _forms(found: EffectSet) -> frozenset[str]:
+    return frozenset(each.identifier for each in found.unnamed)
+
+
+def _score(found: EffectSet) -> float:
+    return found.score
 
 
 def _move_amplitude(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
