@@ -70,7 +70,8 @@ def _parser() -> argparse.ArgumentParser:
         prog="./run benchmark",
         description="Measure zlmreport against a plain recipe.",
         epilog="./run benchmark hidden-effects, experiments, several, priors, coverage, worlds, quantities, "
-        "machines, machine-bands, machine-circles, step-gauge, kills have options of their own: see their --help.",
+        "machines, machine-bands, machine-circles, step-gauge, kills have options of their own: "
+        "see their --help.",
     )
     parser.add_argument("names", nargs="*", type=_benchmark, metavar="NAME", help=", ".join(BENCHMARKS))
     parser.add_argument(

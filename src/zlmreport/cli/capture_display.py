@@ -211,8 +211,8 @@ class PlainLines:
         """Raise `AccessError` with what may be answered."""
         raise AccessError.at(
             Place("zlmreport capture"),
-            f"{say_halted(question, self._writer)}; nothing is filed: stop the program, look where it is, and "
-            "state --answer with the number of the visit, or none",
+            f"{say_halted(question, self._writer)}; nothing is filed: stop the program, look where it is, "
+            "and state --answer with the number of the visit, or none",
         )
 
     def leave(self, message: str) -> None:
