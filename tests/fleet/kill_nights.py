@@ -106,7 +106,7 @@ def counting(patch: pytest.MonkeyPatch, last: int) -> Callable[[], int]:
         return counted
 
     for owner, name in (
-        (files, "sync_folder"),
+        (files, "push_folder"),
         (issuing.Laid, "name"),
         (Night, "issue"),
         (Night, "add"),
