@@ -10,14 +10,14 @@ import pytest
 from document.certificate.documents import job, registry
 from doubtful.doubtful_jobs import SOUND, changed, readings, write
 from zlmreport import pipeline
-from zlmreport.evaluation.disagreements import disagreements
+from zlmreport.evaluation.disagreements import find_disagreements
 
 
 def said(folder: Path, *changes: tuple[str, Any]) -> list[str]:
     """Return what is said of a sound job with some keys changed."""
     write(folder, readings())
     stated = job(folder, changed(*changes, of=SOUND))
-    return [each.en for each in disagreements(stated, pipeline.read(stated, registry()))]
+    return [each.en for each in find_disagreements(stated, pipeline.read(stated, registry()))]
 
 
 def test_a_sound_job_agrees_with_itself(tmp_path: Path) -> None:

@@ -88,7 +88,7 @@ class PlateCsv:
         """Return the keys by which a file may be read, if it has readings of the lines of a plate."""
         options = PlateCsvOptions(file=file, foot=_USUAL_FOOT)
         try:
-            cells, columns = _table_of(options, Place(str(file)))
+            cells, columns = _read_table_of(options, Place(str(file)))
         except InputError:
             return []
         table = cells.table
@@ -117,7 +117,7 @@ class PlateCsv:
                 context.place,
                 f"the feet of a carriage are not {options.foot:g} mm apart; 'foot' is in millimetres",
             )
-        cells, columns = _table_of(options, context.place)
+        cells, columns = _read_table_of(options, context.place)
         table = cells.table
         side = -1.0 if options.falls else 1.0
         readings, names = [], dict[str, str]()
@@ -151,7 +151,7 @@ def _say_no_line_asked(names: list[str]) -> Iterator[str]:
     yield f"What is {shown}? The lines of a union jack are {', '.join(LINES)}; other ones are left out."
 
 
-def _table_of(options: PlateCsvOptions, place: Place) -> tuple[Cells, dict[str, TextColumn]]:
+def _read_table_of(options: PlateCsvOptions, place: Place) -> tuple[Cells, dict[str, TextColumn]]:
     """Return the cells of a table, and which columns it has."""
     table = options.read_table()
     columns = _find_columns(table, options, place)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from zlmreport.cli.layout import lay_out_sections
-from zlmreport.cli.machine_compensate import compensate, exit_code
+from zlmreport.cli.machine_compensate import compensate, find_exit_code
 from zlmreport.cli.terminal import Colour, print_json, show_path
 from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import Place
@@ -43,7 +43,7 @@ def run(options: Namespace) -> int:
         print_json(values)
     else:
         print(*lines, sep="\n")
-    return exit_code(values)
+    return find_exit_code(values)
 
 
 def _lay_out(machine: MachineFile, sections: Iterable[Section | None], *more: str) -> Iterable[str]:

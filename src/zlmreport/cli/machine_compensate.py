@@ -11,18 +11,18 @@ from zlmreport.document.blocks import Section
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document, write_new
 from zlmreport.language import Language
-from zlmreport.machines.cross_confirmation import CrossVerdict, confirmed
+from zlmreport.machines.cross_confirmation import CrossVerdict, confirm
 from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_trial
 from zlmreport.machines.cross_report import (
     CONFIRMATION_SCHEMA,
     SCHEMA,
-    confirmation_values,
-    cross_values,
+    collect_confirmation,
+    collect_cross,
 )
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.cross_tables import (
-    confirmation_section,
     forecast_section,
+    lay_out_confirmation,
     lay_out_tables,
     lay_out_trial,
     sign_section,
@@ -53,17 +53,17 @@ def compensate(
         return [lay_out_trial(table, PEAK, _SAY)], shown, values
     made = make_cross(machine, registry, wanted)
     if options.confirm:
-        found = confirmed(machine, made, options.confirm, registry, _COMMAND)
-        return [confirmation_section(found, _SAY)], (), confirmation_values(found)
+        found = confirm(machine, made, options.confirm, registry, _COMMAND)
+        return [lay_out_confirmation(found, _SAY)], (), collect_confirmation(found)
     shown = _write_tables(made.files, machine, options, "")
     sections = [lay_out_tables(made.plan, made.decoded, made.control.cross_notes, _SAY)]
     if made.control.cross_sign == "stated":
         sections.append(sign_section(made.moves, _SAY))
     sections.append(forecast_section(made.forecast, _SAY))
-    return sections, shown, {**cross_values(made), "files": shown}
+    return sections, shown, {**collect_cross(made), "files": shown}
 
 
-def exit_code(values: Mapping[str, Any]) -> int:
+def find_exit_code(values: Mapping[str, Any]) -> int:
     """Return 1 for tables that circles do not confirm, by the values of an action; 0 for all else."""
     return int(values.get("schema") == CONFIRMATION_SCHEMA and values["verdict"] != CrossVerdict.HELD.value)
 

@@ -56,41 +56,41 @@ _LONG_PAUSE = 3600.0
 _OF_TIMES, _OF_FEED = 1.0, 1.2
 
 
-def disagreements(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
+def find_disagreements(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each statement of a job that another one does not bear out."""
     return (
-        *_days(job.keys),
-        *_temperatures(job),
-        *_coefficients(job.keys),
-        *_certificates(job.keys),
-        *_exclusions(job),
-        *_times(job, measurements),
+        *_find_days_apart(job.keys),
+        *_find_temperatures_apart(job),
+        *_find_other_coefficient(job.keys),
+        *_find_certificates_of_two_dates(job.keys),
+        *_find_exclusions_without_reason(job),
+        *_find_odd_times(job, measurements),
     )
 
 
-def _days(keys: JobKeys) -> Iterator[Words]:
+def _find_days_apart(keys: JobKeys) -> Iterator[Words]:
     first, last, issued = keys.measurement.date, find_last_day(keys.measurement), keys.certificate.issued
     if issued and last and (issued - last).days > _YEAR:
         years = _YEARS.given(number=int((issued - last).days / _DAYS_OF_A_YEAR + 0.01))
-        yield _LATE.given(issued=_written(issued), years=years, measured=_written(last))
+        yield _LATE.given(issued=_write_day(issued), years=years, measured=_write_day(last))
     if first and last and (last - first).days > _LONGEST:
         days = (last - first).days + 1
-        yield _LONG.given(first=_written(first), last=_written(last), days=days)
-    if first is None and any(day for _, _, day in _calibrations(keys)):
+        yield _LONG.given(first=_write_day(first), last=_write_day(last), days=days)
+    if first is None and any(day for _, _, day in _list_calibrations(keys)):
         yield _UNDATED
 
 
-def _written(day: dt.date) -> Words:
+def _write_day(day: dt.date) -> Words:
     return same(day.isoformat())
 
 
-def _calibrations(keys: JobKeys) -> Iterator[tuple[str, str | None, dt.date | None]]:
+def _list_calibrations(keys: JobKeys) -> Iterator[tuple[str, str | None, dt.date | None]]:
     """Yield name, certificate and date of calibration of each instrument and sensor."""
     devices = (keys.instrument, *(keys.environment.thermometers if keys.environment else ()))
     yield from ((each.name, each.certificate, each.calibrated) for each in devices if each)
 
 
-def _temperatures(job: Job) -> Iterator[Words]:
+def _find_temperatures_apart(job: Job) -> Iterator[Words]:
     """Yield temperatures that are stated and so different that one of them hardly holds for the length."""
     environment = job.keys.environment
     if environment is None or not job.axis.has_length:
@@ -110,7 +110,7 @@ def _temperatures(job: Job) -> Iterator[Words]:
             yield apart if of_air else _RECKONED.given(temperatures=both, used=used)
 
 
-def _coefficients(keys: JobKeys) -> Iterator[Words]:
+def _find_other_coefficient(keys: JobKeys) -> Iterator[Words]:
     """Yield a coefficient of the correction that is not the machine's."""
     material = keys.corrections.material if keys.corrections else None
     corrected = material.expansion_coefficient if material else None
@@ -119,19 +119,21 @@ def _coefficients(keys: JobKeys) -> Iterator[Words]:
         yield _COEFFICIENTS.given(corrected=corrected, stated=stated)
 
 
-def _certificates(keys: JobKeys) -> Iterator[Words]:
+def _find_certificates_of_two_dates(keys: JobKeys) -> Iterator[Words]:
     """Yield the certificates that are stated with two dates."""
     named = [
-        (number, day) for _, number, day in _calibrations(keys) if number and day and is_reference(number)
+        (number, day)
+        for _, number, day in _list_calibrations(keys)
+        if number and day and is_reference(number)
     ]
     said = set()
     for (one, first), (other, second) in combinations(named, 2):
         if one.casefold() == other.casefold() and first != second and one.casefold() not in said:
             said.add(one.casefold())
-            yield _TWO_DATES.given(number=one, first=_written(first), second=_written(second))
+            yield _TWO_DATES.given(number=one, first=_write_day(first), second=_write_day(second))
 
 
-def _exclusions(job: Job) -> Iterator[Words]:
+def _find_exclusions_without_reason(job: Job) -> Iterator[Words]:
     """Yield the readings that are set aside for no reason."""
     for each in job.keys.measurement.excluded:
         if not says_something(each.reason):
@@ -144,7 +146,7 @@ def _exclusions(job: Job) -> Iterator[Words]:
             )
 
 
-def _times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+def _find_odd_times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield what the times of the readings say against each other, or against the stated feed."""
     times = measurements.time
     if times is None or measurements.axis.measurand.is_continuous or np.isfinite(times).sum() < 2:
@@ -160,10 +162,10 @@ def _times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
         yield _PAUSE.given(run=run, hours=float(f"{seconds[longest] / 3600:.2g}"))
     feed = job.keys.measurement.feed
     if feed is not None:
-        yield from _feed(feed, measurements, there, seconds)
+        yield from _find_exceeded_feed(feed, measurements, there, seconds)
 
 
-def _feed(
+def _find_exceeded_feed(
     feed: float, measurements: MeasurementSet, there: BoolArray, seconds: FloatArray
 ) -> Iterator[Words]:
     """Yield whether readings follow each other faster than the stated feed lets the axis move."""

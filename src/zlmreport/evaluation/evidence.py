@@ -13,7 +13,7 @@ import numpy as np
 from zlmreport.evaluation.copies import are_nearly_copies, estimate_agreement_by_chance, group_copies
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.stray_targets import find_stray_target, join_found_in_both
-from zlmreport.evaluation.turned_runs import mirrored_run, run_of_another_reversal
+from zlmreport.evaluation.turned_runs import find_mirrored_run, find_run_of_another_reversal
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
@@ -104,14 +104,14 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
         *_find_stray_targets(measurements, readings),
         *_find_copied_runs(measurements, readings),
         *_find_copied_directions(measurements, readings),
-        *_turned_runs(measurements, readings),
+        *_find_turned_runs(measurements, readings),
         *_find_other_unit(measurements),
         *_find_other_temperatures(job, measurements),
         *_find_coarser_steps(job, measurements),
     )
 
 
-def as_left_once_more(as_found: MeasurementSet, as_left: MeasurementSet) -> Iterator[Words]:
+def find_as_left_once_more(as_found: MeasurementSet, as_left: MeasurementSet) -> Iterator[Words]:
     """Yield whether the readings before an adjustment are those after it."""
     if not as_found.tests and _are_identical(as_found.deviation, as_left.deviation):
         yield _AS_LEFT
@@ -251,14 +251,14 @@ def _find_copied_directions(measurements: MeasurementSet, readings: FloatArray) 
             yield words.given(runs=of_runs.given(runs=_list_run_numbers(measurements, found)))
 
 
-def _turned_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
+def _find_turned_runs(measurements: MeasurementSet, readings: FloatArray) -> Iterator[Words]:
     """Yield the run whose sign, or whose reversal, is not that of the others."""
-    mirrored = mirrored_run(readings)
+    mirrored = find_mirrored_run(readings)
     if mirrored is not None:
         yield _MIRRORED.given(run=int(measurements.runs[mirrored]))
     if mirrored is not None or not measurements.is_bidirectional or measurements.reversal_is_relative:
         return
-    turned = run_of_another_reversal(readings)
+    turned = find_run_of_another_reversal(readings)
     if turned:
         words = _INTERCHANGED if turned.is_interchanged else _ANOTHER_REVERSAL
         yield words.given(

@@ -35,7 +35,7 @@ class Turned(NamedTuple):
     is_interchanged: bool  #: Whether it is theirs with the other sign.
 
 
-def run_of_another_reversal(readings: FloatArray) -> Turned | None:
+def find_run_of_another_reversal(readings: FloatArray) -> Turned | None:
     """Return the run whose mean reversal stands apart from all others, if one does.
 
     `readings`: (approach, position, run), m or rad; NaN where there is none.
@@ -71,10 +71,10 @@ def run_of_another_reversal(readings: FloatArray) -> Turned | None:
     return Turned(run, float(means[run]), level, is_interchanged)
 
 
-def mirrored_run(readings: FloatArray) -> int | None:
+def find_mirrored_run(readings: FloatArray) -> int | None:
     """Return the index of the run whose curve mirrors that of the others, if one does.
 
-    `readings`: as of `run_of_another_reversal`.
+    `readings`: as of `find_run_of_another_reversal`.
     """
     curves = readings.reshape(-1, readings.shape[-1])
     curves = curves[np.isfinite(curves).all(axis=1)]

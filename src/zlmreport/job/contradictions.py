@@ -154,10 +154,10 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
         keys.uncertainty, keys.axis.kind, is_circle=keys.circle is not None
     ):
         yield ("uncertainty", *steps), message
-    yield from _per_metre(keys)
+    yield from _find_per_metre(keys)
 
 
-def _per_metre(keys: JobKeys) -> Iterator[Contradiction]:
+def _find_per_metre(keys: JobKeys) -> Iterator[Contradiction]:
     """Yield an uncertainty that grows with the length of an axis that has none."""
     instrument = keys.instrument
     stated = instrument.stated_uncertainty if instrument else None

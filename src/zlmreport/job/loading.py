@@ -155,7 +155,7 @@ def _check_job(
     composition: Composition, folder: Path, registry: Installed, formats: tuple[str, ...] = ()
 ) -> Job:
     """Return the job in a folder that files make together, without the further tests that its model names."""
-    tree = _add_axis(_share_keys(_with_shared_source(composition.keys), registry), registry)
+    tree = _add_axis(_share_keys(_add_shared_source(composition.keys), registry), registry)
     refuse_other_format(
         tree, JOB, lambda: [each for offered in registry.extensions for each in offered.formats]
     )
@@ -314,7 +314,7 @@ def _share_keys(tree: Keys, registry: Installed) -> Keys:
     return make_keys_of(tree.place, tuple(entries.values()))
 
 
-def _with_shared_source(tree: Keys) -> Keys:
+def _add_shared_source(tree: Keys) -> Keys:
     """Return the keys of a job with the source of its measurement in each test that has none of its own."""
     measurement, tests = find_at(tree, ("measurement",)), find_at(tree, _TESTS)
     if (

@@ -64,7 +64,7 @@ def find_error_of(job: Job) -> str:
     if name not in ERRORS:
         raise InputError.at(
             job.place_of("measurement.error"),
-            f"{quoted(name)} is none of the 21 errors of three linear axes; {_meant(name)}",
+            f"{quoted(name)} is none of the 21 errors of three linear axes; {_say_meant(name)}",
         )
     return name
 
@@ -75,7 +75,7 @@ def find_line_of_job(job: Job) -> ErrorLine:
     return find_line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
 
 
-def _meant(name: str) -> str:
+def _say_meant(name: str) -> str:
     """Return which error a wrong name may mean: a letter O in the place of the zero of a squareness, too."""
     with_zero = name.upper().replace("O", "0")
     return f"with a zero it is {with_zero}" if with_zero in ERRORS else did_you_mean(name, ERRORS)
@@ -269,7 +269,7 @@ def read_curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Prob
     for name, value in own.items():
         place = node.entries[name].place
         if name not in ERRORS:
-            problems.append(Problem(place, f"{quoted(name)} is none of the 21 errors; {_meant(name)}"))
+            problems.append(Problem(place, f"{quoted(name)} is none of the 21 errors; {_say_meant(name)}"))
             continue
         curve = _read_stated(name, value, stated, problems, node.entries[name].value)
         if curve:
@@ -330,7 +330,7 @@ def read_bounds_of(stated: Mapping[str, float], tree: Keys, problems: list[Probl
             problems.append(
                 Problem(
                     tree.entries[name].place,
-                    f"{quoted(name)} is none of the 21 errors; {_meant(name)}",
+                    f"{quoted(name)} is none of the 21 errors; {_say_meant(name)}",
                 )
             )
     return found

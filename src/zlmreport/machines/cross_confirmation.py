@@ -69,7 +69,7 @@ class CrossConfirmation:
     circles: tuple[ConfirmedCircle, ...]
 
 
-def confirmed(
+def confirm(
     machine: MachineFile, made: CrossMade, jobs: Sequence[Path], registry: Registry, place: Place
 ) -> CrossConfirmation:
     """Hold the circles of jobs, run with tables in effect, against those of a machine file.
@@ -96,21 +96,21 @@ def confirm_circles(
 
     Raises `InputError` at `place` if one of them was not run before: same plane, centre, radius and feed.
     """
-    pairs = [(_like(each, before, place), each) for each in after]
+    pairs = [(_find_like(each, before, place), each) for each in after]
     corrected = compensate_machine(machine, tables)
     changes = [_change(one, other) for one, other in pairs]
-    taken = [_taken(machine, corrected, each) for each in changes]
-    part, u = _part(changes, taken)
+    taken = [_compute_taken(machine, corrected, each) for each in changes]
+    part, u = _fit_part(changes, taken)
     circles = []
     for one, other in pairs:
-        expected = one.deviation - _taken(machine, corrected, one)
+        expected = one.deviation - _compute_taken(machine, corrected, one)
         sizes = ((one, one.deviation), (one, expected), (other, other.deviation))
         was, forecast, now = (compute_root_mean_square(centre(circle, values)) for circle, values in sizes)
         circles.append(ConfirmedCircle(other.name, was, forecast, now))
-    return CrossConfirmation(_verdict(part, u), part, u, tuple(circles))
+    return CrossConfirmation(_decide_verdict(part, u), part, u, tuple(circles))
 
 
-def _verdict(part: float, u: float) -> CrossVerdict:
+def _decide_verdict(part: float, u: float) -> CrossVerdict:
     if not u < _UNKNOWN:
         return CrossVerdict.NOT_SEEN
     named = {
@@ -121,7 +121,7 @@ def _verdict(part: float, u: float) -> CrossVerdict:
     return named[nearest] if abs(part - nearest) <= max(_NEAR, u) else CrossVerdict.OTHER
 
 
-def _like(circle: CircularTest, before: Sequence[CircularTest], place: Place) -> CircularTest:
+def _find_like(circle: CircularTest, before: Sequence[CircularTest], place: Place) -> CircularTest:
     """Return the circle of before that was run on the same path."""
     own = circle.nominal
     for each in before:
@@ -143,7 +143,7 @@ def _change(before: CircularTest, after: CircularTest) -> CircularTest:
     """Return a circle of which the deviation is what went: mean before minus mean after, over arcs."""
     angle, sense, went = [], [], []
     for way in (1.0, -1.0):
-        (count, was), (now_count, now) = (_means(each, way) for each in (before, after))
+        (count, was), (now_count, now) = (_compute_means(each, way) for each in (before, after))
         both = np.flatnonzero((count > 0) & (now_count > 0))
         places = (both + 0.5) * 2.0 * np.pi / _ARCS
         order = np.argsort(way * places, kind="stable")
@@ -161,7 +161,7 @@ def _change(before: CircularTest, after: CircularTest) -> CircularTest:
     )
 
 
-def _means(circle: CircularTest, way: float) -> tuple[FloatArray, FloatArray]:
+def _compute_means(circle: CircularTest, way: float) -> tuple[FloatArray, FloatArray]:
     """Return number and mean of the readings of one sense in each arc of a turn."""
     kept = clear_of_reversals(circle)
     own = kept.sense == way
@@ -170,18 +170,18 @@ def _means(circle: CircularTest, way: float) -> tuple[FloatArray, FloatArray]:
     return count, np.bincount(where, kept.deviation[own], _ARCS) / np.maximum(count, 1.0)
 
 
-def _taken(machine: Machine, corrected: Machine, circle: CircularTest) -> FloatArray:
+def _compute_taken(machine: Machine, corrected: Machine, circle: CircularTest) -> FloatArray:
     """Return what tables take away of a circle, (N,), m."""
     course = circle.course()
     return np.asarray(predict(machine, course).values - predict(corrected, course).values)
 
 
-def _part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> tuple[float, float]:
+def _fit_part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> tuple[float, float]:
     """Return what part of the tables went, and its U; U is infinite where the circles do not see them."""
     design = thinned(changes)
     column = design.thin(np.concatenate(taken))
     went = design.thin(np.concatenate([each.deviation for each in changes]))
-    beside = np.column_stack(list(_free(design)))
+    beside = np.column_stack(list(_list_free(design)))
     left = column - beside @ np.linalg.lstsq(beside, column, rcond=None)[0]
     if np.sum(left**2) <= 1e-6 * np.sum(column**2) or not np.any(column):
         return 0.0, float("inf")
@@ -194,7 +194,7 @@ def _part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> tuple
     return part, 2.0 * float(np.sqrt(noise.weights @ (variances + (values - part) ** 2)))
 
 
-def _free(design: ThinnedDesign) -> Iterator[FloatArray]:
+def _list_free(design: ThinnedDesign) -> Iterator[FloatArray]:
     """Yield what may change by itself: the centre of each turn, the radius of each test."""
     for turn in design.turns.tolist():
         for wave in (np.cos(design.angle), np.sin(design.angle)):

@@ -80,7 +80,7 @@ def make_cross(machine: MachineFile, registry: Registry, wanted: CrossWanted) ->
     Raises `InputError` if the control takes no such tables, its sign is neither known nor stated, or nothing
     is known that they could hold.
     """
-    control = cross_control(registry, wanted)
+    control = choose_cross_control(registry, wanted)
     plan = plan_tables(machine.machine, wanted.place, wanted.step)
     moves = _sign(control, wanted)
     files = control.cross_files(plan.tables, moves)
@@ -99,7 +99,7 @@ def make_trial(
     machine: MachineFile, registry: Registry, wanted: CrossWanted
 ) -> tuple[Any, CrossTable, Mapping[str, str]]:
     """Return a control, a table with nothing but a positive value in the middle, and its files."""
-    control = cross_control(registry, wanted)
+    control = choose_cross_control(registry, wanted)
     table = plan_tables(machine.machine, wanted.place, wanted.step).tables[0]
     share = np.linspace(0.0, 1.0, len(table.positions))
     middle = share[len(share) // 2]
@@ -107,7 +107,7 @@ def make_trial(
     return control, trial, control.cross_files([trial], 1)
 
 
-def cross_control(registry: Registry, wanted: CrossWanted) -> Any:
+def choose_cross_control(registry: Registry, wanted: CrossWanted) -> Any:
     """Return the control; refuse one without tables across axes by its name."""
     known = [each.identifier for each in registry.controllers if hasattr(each, "cross_files")]
     if not wanted.controller:

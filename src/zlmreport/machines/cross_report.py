@@ -14,7 +14,7 @@ SCHEMA = "zlmreport/machine-compensation/1"
 CONFIRMATION_SCHEMA = "zlmreport/machine-confirmation/1"
 
 
-def cross_values(made: CrossMade) -> dict[str, Any]:
+def collect_cross(made: CrossMade) -> dict[str, Any]:
     """Return tables with their forecast; lengths in µm, positions in mm."""
     return {
         "schema": SCHEMA,
@@ -53,7 +53,7 @@ def _forecast(found: CrossForecast) -> Iterator[tuple[str, Any]]:
     yield "largest", [in_um(each) for each in found.largest] if found.largest else None
 
 
-def confirmation_values(found: CrossConfirmation) -> dict[str, Any]:
+def collect_confirmation(found: CrossConfirmation) -> dict[str, Any]:
     """Return how later circles stand to the forecast; lengths in µm."""
     in_um = MICROMETRE.from_si
     is_seen = found.expanded_uncertainty < float("inf")

@@ -67,7 +67,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
     return CrossPlan(tuple(tables), tuple(taken), tuple(sorted(small)))
 
 
-def worthwhile(machine: Machine) -> CrossPlan | None:
+def plan_worthwhile(machine: Machine) -> CrossPlan | None:
     """Return the tables of a machine; None if no error is known that is worth one."""
     try:
         return plan_tables(machine, Place("machine"))

@@ -20,7 +20,7 @@ from zlmreport.machines.contest import (
     make_nameless_curves,
 )
 from zlmreport.machines.forms import CircleForm, list_forms_of, make_whole_form, split_parts_of
-from zlmreport.machines.noise import NoiseModel, Whitened, found_anew
+from zlmreport.machines.noise import NoiseModel, Whitened, find_anew
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Verdict
@@ -169,7 +169,7 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
     while True:
         curves = make_nameless_curves(current.design)
         outcome, hidden = _hold_effects(current, catalogue, curves, len(stages))
-        beside = _evidence_of_curve(current, outcome, curves)
+        beside = _weigh_curve(current, outcome, curves)
         stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered, beside)
         stages.append(stage)
         leader = stage.leader
@@ -181,14 +181,14 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
         gathered += leader.evidence - (FURTHER if len(stages) > 1 else 0.0)
         kept = current.noise.shapes
         current = add_effect(current, leader.effect, leader.form)
-        gathered += found_anew(current.model, current.deviation, kept)
+        gathered += find_anew(current.model, current.deviation, kept)
 
 
 def _is_left(outcome: CircleContest) -> bool:
     return outcome.p_value.value <= LEVEL
 
 
-def _evidence_of_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
+def _weigh_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
     """Return the evidence of the best curve without a name, its noise found anew; 0 where nothing is left."""
     if outcome.shape_evidence <= 0 or not _is_left(outcome):
         return 0.0
@@ -200,7 +200,7 @@ def _evidence_of_curve(study: CircleStudy, outcome: CircleContest, curves: Seque
         for size in SIZES
     ]
     likeliest = max(models, key=lambda each: each.log_likelihood(shapes[0], deviation)[0])
-    return outcome.shape_evidence + found_anew(likeliest, deviation, shapes)
+    return outcome.shape_evidence + find_anew(likeliest, deviation, shapes)
 
 
 def _hold_effects(

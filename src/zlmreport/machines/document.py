@@ -35,7 +35,7 @@ from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space, say_known
-from zlmreport.machines.subjects.cross_tables import promised_section
+from zlmreport.machines.subjects.cross_tables import lay_out_promised
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -208,7 +208,7 @@ def _lay_out_sections(material: _Material, registry: Registry, say: Sayer) -> It
     machine, diagnosis = material.machine.machine, material.diagnosis
     yield lay_out_errors(machine, say, is_full=True)
     yield lay_out_space(machine, say)
-    promised = promised_section(material.machine, registry, say)
+    promised = lay_out_promised(material.machine, registry, say)
     if promised:
         yield promised
     if diagnosis:

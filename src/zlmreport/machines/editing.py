@@ -20,7 +20,7 @@ from zlmreport.job.list_edits import (
 from zlmreport.job.parse import LARGEST, decode, parse
 from zlmreport.job.tree import Scalar
 from zlmreport.machines.keys import MachineKeys
-from zlmreport.machines.reading import MachineFile, always_belongs
+from zlmreport.machines.reading import MachineFile, is_always_there
 from zlmreport.model.effects.circle_effect import CircleEffect
 from zlmreport.plugin.registry import Registry
 
@@ -51,7 +51,7 @@ def list_effects_without(machine: MachineFile, name: str) -> tuple[CircleEffect,
             f"{quoted(name)} does not stand in the model; {did_you_mean(name, machine.effect_names)}",
         )
     left = tuple(each for each in machine.effects if each.identifier != name)
-    if any(always_belongs(each, machine.circles) for each in machine.effects if each.identifier == name):
+    if any(is_always_there(each, machine.circles) for each in machine.effects if each.identifier == name):
         raise InputError.at(
             machine.file.place_of("model", "effects"),
             f"{name} belongs into every model: where a bar stands, and how long it is, are no errors of the "

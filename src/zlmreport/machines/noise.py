@@ -267,7 +267,7 @@ class NoiseFound:
         )
 
 
-def found_anew(model: NoiseModel, deviation: FloatArray, kept: Sequence[NoiseShape]) -> float:
+def find_anew(model: NoiseModel, deviation: FloatArray, kept: Sequence[NoiseShape]) -> float:
     """Return 2·ln of what a model gains if its noise may have any shape, and not only some.
 
     Evidence is weighed under the noise that readings show without an effect. Where the effect is many times

@@ -138,21 +138,21 @@ def read_machine(path: Path, registry: Registry, opened: Opened = open_no_pdf) -
     )
     return MachineFile(
         path, file, machine, tuple(circles), tuple(lines), (file.file, *file.extended, *sources),
-        (*_of_every_bar(effects, [each.circle for each in circles], registry), *effects),
+        (*_list_of_every_bar(effects, [each.circle for each in circles], registry), *effects),
         registry.circle_effects,
     )  # fmt: skip
 
 
-def _of_every_bar(
+def _list_of_every_bar(
     stated: Sequence[CircleEffect], circles: Sequence[CircularTest], registry: Registry
 ) -> Iterator[CircleEffect]:
     """Yield the effects that belong into every model of circles, and are not stated."""
     for each in registry.circle_effects:
-        if circles and each not in stated and always_belongs(each, circles):
+        if circles and each not in stated and is_always_there(each, circles):
             yield each
 
 
-def always_belongs(effect: CircleEffect, circles: Sequence[CircularTest]) -> bool:
+def is_always_there(effect: CircleEffect, circles: Sequence[CircularTest]) -> bool:
     """Tell whether an effect belongs into every model of some circles, stated or not."""
     is_calibrated = all(each.nominal.is_calibrated for each in circles)
     return effect.is_base and not (effect.is_length_of_bar and is_calibrated)

@@ -71,7 +71,7 @@ def read_moment(text: str) -> dt.datetime | None:
     >>> moment("2026/11/18 20:15") == moment("11/18/2026 8:15 PM"), moment("8:15 pm") == moment("20:15")
     (True, True)
     """
-    text = _usual(text)
+    text = _write_usual(text)
     try:
         return dt.datetime.fromisoformat(text)
     except ValueError:
@@ -91,7 +91,7 @@ def read_moment(text: str) -> dt.datetime | None:
     return found + dt.timedelta(hours=int(hour), minutes=int(minute), seconds=seconds)
 
 
-def _usual(text: str) -> str:
+def _write_usual(text: str) -> str:
     """Return a moment as ISO 8601 writes it that has strokes, halves of the day, or hours of one digit.
 
     Day and month of 11/10/2026 nobody can tell apart, unless by AM and PM, which are written in one order.

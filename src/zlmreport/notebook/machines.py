@@ -11,9 +11,9 @@ from zlmreport.errors import InputError, Place, did_you_mean, quoted
 from zlmreport.files import Document, write_new
 from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
-from zlmreport.machines.cross_confirmation import confirmed
+from zlmreport.machines.cross_confirmation import confirm as confirmed
 from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross
-from zlmreport.machines.cross_report import confirmation_values, cross_values
+from zlmreport.machines.cross_report import collect_confirmation, collect_cross
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.machines.prediction import collect_prediction
@@ -71,7 +71,7 @@ class MachineTables:
     @property
     def values(self) -> dict[str, Any]:
         """As ``zlmreport machine compensate --json`` has it."""
-        return cross_values(self.made)
+        return collect_cross(self.made)
 
     @property
     def files(self) -> dict[str, str]:
@@ -112,7 +112,7 @@ class MachineTables:
         if not jobs:
             raise InputError.at(_PLACE, "confirm takes the job of a circle that was run again")
         file, registry = self.machine.file, self.machine.registry
-        return confirmation_values(
+        return collect_confirmation(
             confirmed(file, self.made, [Path(each) for each in jobs], registry, _PLACE)
         )
 

@@ -6,7 +6,7 @@ from zlmreport.evaluation.uncertainty.budget import (
     Acts,
     Contribution,
     Distribution,
-    of_the_reading,
+    write_of_the_reading as of_the_reading,
 )
 from zlmreport.evaluation.uncertainty.expanded import (
     add_uncertainty as with_uncertainty,

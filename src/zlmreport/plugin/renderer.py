@@ -50,7 +50,7 @@ from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords
 from zlmreport.document.certificate.endings import Ending, find_endings as endings
 from zlmreport.document.certificate.statements import (
-    traceable_through,
+    say_traceable_through as traceable_through,
 )
 from zlmreport.document.writer import (
     Writer,

@@ -76,26 +76,26 @@ def check_cross_files(controller: Any, example: CrossExample | None) -> None:
     )
     tables = sample_cross_tables()
     for moves in (1, -1) if sign == "stated" else (1,):
-        files = _files(controller, tables, moves, where)
+        files = _write_files(controller, tables, moves, where)
         _expect_taken(controller.read_cross(files, tables, moves), tables, where)
     if sign == "stated":
-        files = _files(controller, tables, 1, where)
+        files = _write_files(controller, tables, 1, where)
         wrong = controller.read_cross(files, tables, -1)
         negative = tuple(replace(each, values=-each.values, slope=-each.slope) for each in tables)
         _expect_taken(wrong, negative, f"{where}: read by who states the other sign")
         expect(
-            files != _files(controller, tables, -1, where),
+            files != _write_files(controller, tables, -1, where),
             f"{where}: the files are the same whichever way a positive value moves the axis",
         )
     _expect_axes(controller, tables, where)
     expect(
-        _files(controller, tables, 1, where) == _files(controller, tables, 1, where),
+        _write_files(controller, tables, 1, where) == _write_files(controller, tables, 1, where),
         f"{where}: writing the same tables again gives other files",
     )
     _expect_example(controller, example, sign, where)
 
 
-def _files(controller: Any, tables: Sequence[CrossTable], moves: int, where: str) -> Mapping[str, str]:
+def _write_files(controller: Any, tables: Sequence[CrossTable], moves: int, where: str) -> Mapping[str, str]:
     files: Mapping[str, str] = controller.cross_files(tables, moves)
     expect(
         isinstance(files, Mapping)
@@ -124,28 +124,28 @@ def _expect_taken(decoded: Sequence[CrossTable], tables: Sequence[CrossTable], w
             f"{pair} is read at other positions: {MILLIMETRE.from_si(found.positions)} mm",
         )
         of_square = meant.slope * (meant.positions - meant.positions[0])
-        off = min(_off(found.values, meant.values), _off(found.values, of_square))
+        off = min(_measure_off(found.values, meant.values), _measure_off(found.values, of_square))
         expect(
             off <= _ROUNDING,
             f"{pair} is read {MICROMETRE.from_si(off):.3g} µm off (sign, unit and zero of the first row)",
         )
 
 
-def _off(found: FloatArray, meant: FloatArray) -> float:
+def _measure_off(found: FloatArray, meant: FloatArray) -> float:
     return float(np.abs(found - meant).max())
 
 
 def _expect_axes(controller: Any, tables: Sequence[CrossTable], where: str) -> None:
     """Expect files that say which axis moves and which is moved aside, and where: others for others."""
     first = tables[0]
-    files = _files(controller, [first], 1, where)
+    files = _write_files(controller, [first], 1, where)
     turned = replace(first, input=first.output, output=first.input)
     others = {
         "which axis moves and which is moved aside": turned,
         "of which axis": replace(first, output="Z"),
     }
     for what, other in others.items():
-        expect(_files(controller, [other], 1, where) != files, f"{where}: the files do not say {what}")
+        expect(_write_files(controller, [other], 1, where) != files, f"{where}: the files do not say {what}")
 
 
 def _expect_example(controller: Any, example: CrossExample | None, sign: Any, where: str) -> None:
@@ -172,7 +172,7 @@ def _expect_example(controller: Any, example: CrossExample | None, sign: Any, wh
     (found,) = controller.read_cross(example.files, [blank], example.moves)
     read = np.array([found.at(np.array([each]))[0] for each in positions])
     expect(
-        _off(read, wanted) <= _ROUNDING,
+        _measure_off(read, wanted) <= _ROUNDING,
         f"{where}: of the maker's file {MICROMETRE.from_si(read)} µm are read at {at} mm; the control takes "
         f"{values} µm away (sign, axes and unit are the control's)",
     )

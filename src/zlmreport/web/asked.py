@@ -13,7 +13,7 @@ from zlmreport.evaluation.uncertainty.job_budget import INSTRUMENT
 from zlmreport.evaluation.uncertainty.wording import DEVICE, name_contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words
-from zlmreport.model.diagnosis.asking import length_called
+from zlmreport.model.diagnosis.asking import name_length
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import Loaded
 
@@ -143,11 +143,11 @@ def _list_lacking(job: Job, loaded: Loaded, registry: Registry) -> Iterator[Fiel
             )
 
 
-def key_called(key: str) -> Words | None:
+def name_key(key: str) -> Words | None:
     """Return what people call a key that the page asks for; None for one that has no name but its own."""
     group, _, name = key.partition(".")
     if group == "axis":
-        return COMPENSATION_TABLE if name == "compensation_table" else length_called(name)
+        return COMPENSATION_TABLE if name == "compensation_table" else name_length(name)
     if group == "uncertainty":
         return name_contributor(name.removeprefix("negligible."))
     field = _FIELDS.get(key.removesuffix(".kind"))

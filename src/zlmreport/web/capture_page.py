@@ -22,10 +22,10 @@ from zlmreport.live.capture.told import (
     WORTH_NAMING,
     AxisWriter,
     CaptureLine,
-    candidate,
     list_what_to_do,
     say_halted,
     tell_event,
+    write_candidate,
 )
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import Registry
@@ -90,10 +90,12 @@ class CapturePage:
             "next": None if progress.is_over else progress.next.number,
             "taken": progress.taken,
             "minutes": round(rest / _SECONDS_A_MINUTE),
-            "steps": [] if progress.is_over else list(map(_sentence, list_what_to_do(progress, writer))),
+            "steps": []
+            if progress.is_over
+            else list(map(_write_sentence, list_what_to_do(progress, writer))),
             "moment": _show_moment(state["now"], progress, assignment, writer),
             "asked": _show_question(state["asked"], progress, writer),
-            "lines": list(_lines(state["events"], progress, writer)),
+            "lines": list(_list_lines(state["events"], progress, writer)),
             "problems": state["problems"],
         }
 
@@ -165,7 +167,9 @@ def _show_moment(
     }
 
 
-def _lines(records: Iterable[Record], progress: Progress, writer: AxisWriter) -> Iterator[dict[str, str]]:
+def _list_lines(
+    records: Iterable[Record], progress: Progress, writer: AxisWriter
+) -> Iterator[dict[str, str]]:
     """Yield what has happened, each by its name and in words; a line of none that is known as it was said."""
     for record in records:
         try:
@@ -183,23 +187,23 @@ def _show_question(asked: Record | None, progress: Progress, writer: AxisWriter)
     event = None if asked["event"] is None else from_record(asked["event"], progress.visits)
     is_question = isinstance(event, Unclear)
     return {
-        "message": _sentence(say_halted(event, writer)),
+        "message": _write_sentence(say_halted(event, writer)),
         "steps": []
         if is_question
-        else list(map(_sentence, list_what_to_do(progress.after(Resumed()), writer, event))),
-        "choices": list(_choices(event, writer)) if isinstance(event, Unclear) else [],
+        else list(map(_write_sentence, list_what_to_do(progress.after(Resumed()), writer, event))),
+        "choices": list(_list_choices(event, writer)) if isinstance(event, Unclear) else [],
     }
 
 
-def _choices(question: Unclear, writer: AxisWriter) -> Iterator[dict[str, str]]:
+def _list_choices(question: Unclear, writer: AxisWriter) -> Iterator[dict[str, str]]:
     """Yield the visits that an unclear stop may be, and what is answered for each."""
     for visit, share in question.candidates:
         if share >= WORTH_NAMING:
             shown = write_percentage(share, writer.language.decimal_sign)
-            label = writer.say(candidate(visit, shown))
+            label = writer.say(write_candidate(visit, shown))
             yield {"label": label, "answer": str(visit.number) if visit else "none"}
 
 
-def _sentence(text: str) -> str:
+def _write_sentence(text: str) -> str:
     """Return what is said as a sentence of its own."""
     return f"{text[0].upper()}{text[1:]}."

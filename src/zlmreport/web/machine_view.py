@@ -17,7 +17,7 @@ from zlmreport.machines.diagnosis import compute_rms_of
 from zlmreport.machines.editing import list_effects_with
 from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space
-from zlmreport.machines.subjects.cross_tables import promised_section
+from zlmreport.machines.subjects.cross_tables import lay_out_promised
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.machines.subjects.tests import (
     describe_stretch,
@@ -126,7 +126,7 @@ class MachineView:
             "sections": list_all_sections(
                 [
                     lay_out_space(machine.machine, self.say),
-                    promised_section(machine, self.bench.registry, self.say),
+                    lay_out_promised(machine, self.bench.registry, self.say),
                     lay_out_errors(machine.machine, self.say, is_full=True),
                 ],
                 names,

@@ -18,7 +18,7 @@ from zlmreport.model.diagnosis.diagnosis import Diagnosis
 from zlmreport.model.diagnosis.faults import DataFault
 from zlmreport.model.diagnosis.study import Study
 from zlmreport.model.effects.effect import Effect
-from zlmreport.web.asked import collect_field, key_called, list_what_is_lacking
+from zlmreport.web.asked import collect_field, list_what_is_lacking, name_key
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.commands import list_offered
 from zlmreport.web.journal import REDO, UNDO, BenchJournal, JournalStep, find_redoable, find_undoable
@@ -148,7 +148,7 @@ class _StatedKeys:
         """Return the keys in one language, parted by commas."""
         if language is Language.ENGLISH:
             return ", ".join(self.keys)
-        return ", ".join((key_called(key) or same(key)).in_language(language) for key in self.keys)
+        return ", ".join((name_key(key) or same(key)).in_language(language) for key in self.keys)
 
 
 def say_done_by(entry: JournalStep) -> Words:

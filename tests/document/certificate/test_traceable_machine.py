@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, job
-from zlmreport.document.certificate.statements import traceable_through
+from zlmreport.document.certificate.statements import say_traceable_through
 from zlmreport.language import Language
 
 READINGS = "target,direction,run,deviation\n" + "".join(
@@ -27,7 +27,7 @@ def said(folder: Path, first: dict[str, Any], second: dict[str, Any]) -> str:
     measurement = {"date": "2026-11-18", "error": "C0Y", "tests": tests}
     report = {**COMPLETE["certificate"], "kind": "report"}
     whole = {**keys, "certificate": report, "measurement": measurement, "evaluate": ["iso230-1:2012"]}
-    found = traceable_through(job(folder, whole))
+    found = say_traceable_through(job(folder, whole))
     return found.in_language(Language.ENGLISH) if found else ""
 
 

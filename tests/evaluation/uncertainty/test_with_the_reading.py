@@ -10,7 +10,7 @@ import pytest
 
 from evaluation.uncertainty.budgets import contribution
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.uncertainty.budget import Acts, Budget, of_the_reading
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, write_of_the_reading
 from zlmreport.evaluation.uncertainty.monte_carlo import propagate
 from zlmreport.job.types import Options
 from zlmreport.measurement.axis import Axis
@@ -25,7 +25,7 @@ STANDARD = find_plugins().standard("iso230-2:2014")
 
 def scaled(line: MeasurementSet, share: float = 0.01) -> Budget:
     """Return the budget of an instrument whose scale has u as a share of the reading, and no other error."""
-    of_scale = replace(contribution(0.0, Acts.WITH_THE_READING), **of_the_reading(share, line, "scale"))
+    of_scale = replace(contribution(0.0, Acts.WITH_THE_READING), **write_of_the_reading(share, line, "scale"))
     return Budget((of_scale,))
 
 

@@ -230,7 +230,7 @@ def _fill(cell: Any, value: float | str | _Shown) -> int:
     return len(f"{number:.0f}") + len(shown) - 1
 
 
-def _of_parameter(parameter: Json) -> Iterator[_Cell]:
+def _make_cells_of_parameter(parameter: Json) -> Iterator[_Cell]:
     """Yield the cells of a parameter: it and its U are shown as far as U has two digits."""
     shown, _ = rounded_pair(0.0, parameter.get("expanded_uncertainty") or 0.0)
     _, _, decimals = shown.partition(".")
@@ -243,12 +243,12 @@ def _of_parameter(parameter: Json) -> Iterator[_Cell]:
         yield _Shown(value, formats[key]) if key in formats and value is not None else value
 
 
-def _shown_mean(key: str, value: float | None) -> _Cell:
+def _make_cell_of_mean(key: str, value: float | None) -> _Cell:
     """Return the cell of a value by position; a number of readings is a whole one."""
     return value if value is None or key.startswith("n_") else _Shown(value, _THREE_DECIMALS)
 
 
-def _as_read(value: float) -> float:
+def _round_as_read(value: float) -> float:
     """Return the decimal number that was read: not what the conversion to metres and back has made of it."""
     return float(f"{value:.{_SURE_DIGITS}g}")
 
@@ -287,7 +287,7 @@ class _Sheets:
             [
                 self._certificate.number,
                 evaluation["standard"],
-                *_of_parameter(parameter),
+                *_make_cells_of_parameter(parameter),
                 parameter.get("decision", {}).get("statement"),
                 *([missing] if missing else ()),
             ]
@@ -309,7 +309,7 @@ class _Sheets:
             *(key if key.startswith("n_") else f"{key} / {units['deviation']}" for key in keys),
         ]
         table = [
-            [standard, row["target"], *(_shown_mean(key, row.get(key)) for key in keys)]
+            [standard, row["target"], *(_make_cell_of_mean(key, row.get(key)) for key in keys)]
             for standard, row in positions
         ]
         if not table:
@@ -340,8 +340,8 @@ class _Sheets:
             [
                 int(run),
                 ways[Approach(approach).index],
-                _as_read(targets[target]),
-                None if deviation != deviation else _as_read(deviation),  # noqa: PLR0124 (what is missing is no number)
+                _round_as_read(targets[target]),
+                None if deviation != deviation else _round_as_read(deviation),  # noqa: PLR0124 (what is missing is no number)
             ]
             for run, approach, target, deviation in zip(
                 measurements.run, measurements.approach, measurements.target, deviations, strict=True

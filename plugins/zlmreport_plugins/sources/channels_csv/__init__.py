@@ -44,14 +44,14 @@ from zlmreport.plugin.source import (
 from zlmreport.plugin.table import folded, heading_of
 from zlmreport_plugins.sources.channels_csv.averaging import average_channel, choose_interval_for
 from zlmreport_plugins.sources.channels_csv.options import DATE, TIME, VALUE, ChannelsCsvOptions
-from zlmreport_plugins.sources.channels_csv.proposals import SENSOR, channels_called, columns_called
+from zlmreport_plugins.sources.channels_csv.proposals import SENSOR, find_channels_called, find_columns_called
 from zlmreport_plugins.sources.channels_csv.tracks import (
     Channel,
     Channels,
     Track,
+    add_dates,
     find_unit_of,
     read_channels_of,
-    with_dates,
 )
 
 #: What a condition that is no known one ends in, if it is a temperature.
@@ -86,12 +86,12 @@ class ChannelsCsv:
 
     def proposals(self, file: Path) -> Iterable[SourceProposal]:
         """Return the keys by which a file may be read, if it has sensors over time and nothing else."""
-        called = columns_called(file)
+        called = find_columns_called(file)
         if called is None:
             return []
         context = SourceContext(Axis("X", quantity=DISPLACEMENT), Place(str(file)))
         try:
-            called = channels_called(
+            called = find_channels_called(
                 called, _read_channels(ChannelsCsvOptions(file=file, **called.keys), context)
             )
             channels = _read_channels(ChannelsCsvOptions(file=file, **called.keys), context)
@@ -133,7 +133,7 @@ class ChannelsCsv:
             problems = list(_ask_about_larger_unit(track, own))
         if problems:
             raise InputError(problems)
-        remarks = [_counted(options).given(channel=own.name, unit=unit.symbol)]
+        remarks = [_say_counted_from(options).given(channel=own.name, unit=unit.symbol)]
         averaging = None
         interval = options.interval or choose_interval_for(channels.most_readings, channels.lasts)
         if interval and track.time.size:
@@ -167,7 +167,7 @@ class ChannelsCsv:
         return collect_readings(readings, axis, provenance, place=table.source.place())
 
 
-def _counted(options: ChannelsCsvOptions) -> Words:
+def _say_counted_from(options: ChannelsCsvOptions) -> Words:
     """Return from when on times are counted, of a channel."""
     if options.counted_from is not None:
         return _FROM_MOMENT.given(moment=options.counted_from)
@@ -176,7 +176,7 @@ def _counted(options: ChannelsCsvOptions) -> Words:
 
 def _read_channels(options: ChannelsCsvOptions, context: SourceContext) -> Channels:
     """Return the channels of the table that the keys name."""
-    table = with_dates(options.read_table(lambda name: _is_column_name(name, options)), options)
+    table = add_dates(options.read_table(lambda name: _is_column_name(name, options)), options)
     # The decimal sign is that of all numbers: which columns have any is known only with it.
     numbers = [
         index

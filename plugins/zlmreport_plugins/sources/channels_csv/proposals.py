@@ -35,7 +35,7 @@ class Called:
     asks: tuple[str, ...] = ()  #: What is guessed.
 
 
-def columns_called(file: Path) -> Called | None:
+def find_columns_called(file: Path) -> Called | None:
     """Return the keys for the columns of time, date, channel and value; None where no time can be told."""
     options = ChannelsCsvOptions(file=file)
     try:
@@ -59,12 +59,12 @@ def columns_called(file: Path) -> Called | None:
     return Called({"columns": columns} if columns else {})
 
 
-def channels_called(called: Called, channels: Channels) -> Called:
+def find_channels_called(called: Called, channels: Channels) -> Called:
     """Return the keys with those for the channels of sensors, and of the state of air and machine."""
     found: dict[str, str] = {}
     asks: list[str] = []
     for key, channel in channels.of.items():
-        name = _sensor_in(key) or _condition_called(key, asks, channel.name)
+        name = _find_sensor_in(key) or _find_condition_called(key, asks, channel.name)
         if name is None or folded(name) == key:
             continue
         if name in found:
@@ -74,7 +74,7 @@ def channels_called(called: Called, channels: Channels) -> Called:
     return replace(called, keys=keys, asks=(*called.asks, *asks))
 
 
-def _condition_called(key: str, asks: list[str], name: str) -> str | None:
+def _find_condition_called(key: str, asks: list[str], name: str) -> str | None:
     if key in CONDITIONS:
         return key
     if key in _SOME_TEMPERATURE:
@@ -84,7 +84,7 @@ def _condition_called(key: str, asks: list[str], name: str) -> str | None:
     return meant if meant in CONDITIONS else None
 
 
-def _sensor_in(key: str) -> str | None:
+def _find_sensor_in(key: str) -> str | None:
     """Return the sensor that a channel is called by, X1: alone, or as one word of its name."""
     words = [word for word in _WORDS.findall(key) if SENSOR.fullmatch(word)]
     return words[0].upper() if len(words) == 1 else None

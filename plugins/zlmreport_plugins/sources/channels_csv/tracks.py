@@ -144,7 +144,7 @@ def _say_out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:
     )
 
 
-def with_dates(table: TextTable, options: ChannelsCsvOptions) -> TextTable:
+def add_dates(table: TextTable, options: ChannelsCsvOptions) -> TextTable:
     """Return a table whose times have their dates before them, where these stand in a column of their own."""
     among = read_headings(table, options)
     time, date = (find_heading(name, among, table, options) for name in (TIME, DATE))
@@ -168,7 +168,7 @@ def read_channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceC
     if heading is None:
         raise InputError([missing_column(TIME, among, table, options)])
     time = column_with_unit(TIME, heading, options, TIMES, context.place, table)
-    beginning = _counted_from(options, table, time, context.place), options.later_by or 0.0
+    beginning = _find_counted_from(options, table, time, context.place), options.later_by or 0.0
     named, value, date = (find_heading(name, among, table, options) for name in (CHANNEL, VALUE, DATE))
     if named is not None and value is None:
         raise InputError([missing_column(VALUE, among, table, options)])
@@ -191,7 +191,7 @@ def read_channels_of(cells: Cells, options: ChannelsCsvOptions, context: SourceC
     return Channels(cells, time, found, *beginning)
 
 
-def _counted_from(
+def _find_counted_from(
     options: ChannelsCsvOptions, table: TextTable, time: TextColumn, place: Place
 ) -> float | None:
     """Return the stated moment, s from the first time of a table; None without one."""

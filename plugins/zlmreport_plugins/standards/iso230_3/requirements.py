@@ -48,7 +48,7 @@ def check_requirements(
     yield _check_temperatures(tests)
     yield _complete(tests)
     yield from _check_averaged(tests)
-    yield from _one_clock(tests)
+    yield from _check_one_clock(tests)
 
 
 def list_temperatures(measurements: MeasurementSet) -> Iterator[tuple[str, FloatArray]]:
@@ -188,7 +188,7 @@ def _check_averaged(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
         yield Finding(_HIDDEN, found, None, Basis.APPLIED)
 
 
-def _one_clock(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
+def _check_one_clock(tests: Mapping[str, MeasurementSet]) -> Iterator[Finding]:
     """Yield that several loggers need one beginning: by the readings alone nobody knows whether they have."""
     files = {file.sha256 for each in tests.values() for file in each.provenance.files}
     if len(files) > 1:

@@ -159,7 +159,7 @@ class UnionJack:
                     stated=said,
                     source=source,
                     contributor=_FEET,
-                    **of_the_reading(expanded / _COVERAGE_FACTOR / _foot(line), line, _FEET),
+                    **of_the_reading(expanded / _COVERAGE_FACTOR / _find_foot(line), line, _FEET),
                 )
             ]
             for name, line in measurements.tests.items()
@@ -170,7 +170,7 @@ class UnionJack:
         return draw_figures(evaluation)
 
 
-def _foot(line: MeasurementSet) -> float:
+def _find_foot(line: MeasurementSet) -> float:
     """Return how far the feet stood apart, m: the front one of the first station from the beginning."""
     return float(line.target_positions[0])
 

@@ -22,8 +22,8 @@ from zlmreport.document.certificate.statements import (
 )
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation import traceability
-from zlmreport.evaluation.disagreements import disagreements
-from zlmreport.evaluation.evidence import as_left_once_more, find_evidence
+from zlmreport.evaluation.disagreements import find_disagreements
+from zlmreport.evaluation.evidence import find_as_left_once_more, find_evidence
 from zlmreport.language import Words
 from zlmreport.version import __version__
 
@@ -156,7 +156,7 @@ def _collect_shown(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return what readings, days and calibrations of a measurement show that its job does not say."""
     return (
         *find_evidence(job, measurements),
-        *disagreements(job, measurements),
+        *find_disagreements(job, measurements),
         *traceability.find_doubts(job, measurements),
     )
 
@@ -171,7 +171,7 @@ def _collect_shown_as_found(
     from zlmreport.document.certificate.as_found import NAMES  # noqa: PLC0415 - of the few that need it
 
     earlier = as_found[0].evaluation.measurements
-    found = (*_collect_shown(before, earlier), *as_left_once_more(earlier, measurements))
+    found = (*_collect_shown(before, earlier), *find_as_left_once_more(earlier, measurements))
     name = NAMES[job.keys.as_found.work][0]
     yield from say_of_each([(name, [each for each in found if each not in said])])
 

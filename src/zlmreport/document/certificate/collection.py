@@ -10,7 +10,7 @@ from zlmreport.document.blocks import Block, Facts, Graph, Notice, RowGroup, Sec
 from zlmreport.document.certificate import columns, conformity, cover, origin, statements, uncertainty
 from zlmreport.document.certificate.attachments import SourceRole, list_sources
 from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date
-from zlmreport.document.certificate.conditions import machine_kind
+from zlmreport.document.certificate.conditions import name_machine_kind
 from zlmreport.document.certificate.digest import DIGEST, digest_of
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.measured_lines import say_of_each
@@ -160,7 +160,7 @@ def _list_identity(
         address = ", ".join(cover.split_address(customer.address))
         said = ", ".join(filter(None, (customer.name, address)))
         yield Fact(Words("Customer"), said, ("customer.name", "customer.address"))
-    kind = machine_kind(job, writer)
+    kind = name_machine_kind(job, writer)
     item = f"{machine.type} ({kind})" if machine.type else kind
     yield Fact(statements.ITEM[keys.certificate.kind], item, ("machine.manufacturer", "machine.model"))
     yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))
@@ -220,7 +220,7 @@ def _lay_out_on_sheet(part: Certificate, writer: Writer) -> Iterator[Block]:
 def _lay_out_sections(name: str, part: Certificate, writer: Writer) -> Iterator[Section]:
     """Yield the sections of a part, each with its name; the first begins a page."""
     first, *others = (each for each in part.sections if each.key != "origin")
-    first = replace(first, blocks=(*_not_said_in(first, part.cover), *first.blocks))
+    first = replace(first, blocks=(*_drop_said_in(first, part.cover), *first.blocks))
     if part.is_compact:
         first = fit_on_a_page(first, columns.PAGES[part.paper])
     for number, section in enumerate((first, *others)):
@@ -234,7 +234,7 @@ def _lay_out_sections(name: str, part: Certificate, writer: Writer) -> Iterator[
         )
 
 
-def _not_said_in(section: Section, blocks: Iterable[Block]) -> Iterator[Block]:
+def _drop_said_in(section: Section, blocks: Iterable[Block]) -> Iterator[Block]:
     """Yield blocks without the facts that the section below them states again."""
     said = {pair for block in section.blocks if isinstance(block, Facts) for pair in block.pairs}
     for block in blocks:

@@ -121,7 +121,7 @@ def say_no_influence(job: Job, measurements: MeasurementSet, writer: Writer) -> 
         yield Paragraph(writer.say(_NO_INFLUENCE))
 
 
-def machine_kind(job: Job, writer: Writer) -> str:
+def name_machine_kind(job: Job, writer: Writer) -> str:
     """Return what kind of machine, or other item, a document is on: as stated, or else as is usual."""
     stated = job.keys.machine.kind
     return writer.say(_MACHINE_KINDS[stated] if stated else job.axis.measurand.item or _MACHINE_TOOL)
@@ -130,7 +130,7 @@ def machine_kind(job: Job, writer: Writer) -> str:
 def find_identified(job: Job, writer: Writer) -> frozenset[str]:
     """Return what an identification of the machine says in one line."""
     machine = job.keys.machine
-    kind = machine_kind(job, writer)
+    kind = name_machine_kind(job, writer)
     return frozenset({machine.manufacturer or "", machine.model or "", machine.serial or "", kind})
 
 
@@ -159,7 +159,7 @@ def _is_along_lines(job: Job) -> bool:
 
 def _list_machine_facts(job: Job, writer: Writer) -> Iterator[Fact]:
     machine = job.keys.machine
-    kind = machine_kind(job, writer)
+    kind = name_machine_kind(job, writer)
     yield Fact(Words("Manufacturer"), machine.manufacturer, ("machine.manufacturer",))
     yield Fact(Words("Model", context="type of machine"), machine.model, ("machine.model",))
     yield Fact(Words("Serial number"), machine.serial, ("machine.serial",))

@@ -14,13 +14,13 @@ from zlmreport.document.certificate.conditions import (
     lay_out_conditions as conditions_section,
     list_groups as conditions_in_groups,
     list_groups_beside_identification,
-    machine_kind,
+    name_machine_kind,
     say_measured_of,
     say_no_influence,
 )
 from zlmreport.document.certificate.digest import DIGEST
 from zlmreport.document.certificate.readings import list_missing_readings
-from zlmreport.document.certificate.results import Evaluated, make_section_key, subscripted
+from zlmreport.document.certificate.results import Evaluated, list_subscripted, make_section_key
 from zlmreport.document.certificate.statements import make_amendment_notice, write_person
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.evaluation.evaluation import Group
@@ -138,7 +138,7 @@ def list_unlikely(
     for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
         if sentences:
             told = tuple(map(writer.say, sentences))
-            yield Notice(writer.say(heading), told, symbols=subscripted(evaluations))
+            yield Notice(writer.say(heading), told, symbols=list_subscripted(evaluations))
 
 
 def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
@@ -227,7 +227,7 @@ def list_identity(of: Material, evaluations: Sequence[Evaluation]) -> Iterator[F
             ", ".join(filter(None, (customer.name, address))),
             ("customer.name", "customer.address"),
         )
-    kind = machine_kind(job, writer)
+    kind = name_machine_kind(job, writer)
     yield Fact(
         statements.ITEM[keys.certificate.kind],
         f"{machine.type} ({kind})" if machine.type else kind,

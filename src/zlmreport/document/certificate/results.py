@@ -142,7 +142,7 @@ def list_unmet(evaluation: Evaluation, writer: Writer) -> tuple[str, ...]:
     )
 
 
-def subscripted(evaluations: Iterable[Evaluation]) -> tuple[str, ...]:
+def list_subscripted(evaluations: Iterable[Evaluation]) -> tuple[str, ...]:
     """Return the notations of parameters that sentences speak of by name, and that have a subscript."""
     notations = (each.quantity.notation for evaluation in evaluations for each in evaluation.parameters)
     return tuple(dict.fromkeys(each for each in notations if "_" in each))
@@ -154,7 +154,7 @@ def make_shortfall(
     """Return the notice of requirements that evaluations do not meet."""
     heading = Words("The test deviates from {designation}")
     return Notice(
-        writer.say(heading.given(designation=designations)), items, symbols=subscripted(evaluations)
+        writer.say(heading.given(designation=designations)), items, symbols=list_subscripted(evaluations)
     )
 
 
@@ -297,7 +297,7 @@ def lay_out_requirements(evaluations: Sequence[Evaluation], writer: Writer) -> T
         tuple(
             RowGroup(rows, ", ".join(names) if of_several else "") for rows, names in groups.items() if rows
         ),
-        symbols=subscripted(evaluations),
+        symbols=list_subscripted(evaluations),
     )
 
 

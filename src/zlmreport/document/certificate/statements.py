@@ -119,7 +119,7 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
         )
 
 
-def traceable_through(job: Job) -> Words | None:
+def say_traceable_through(job: Job) -> Words | None:
     """Return through which calibrations the results are traceable; None where the job does not show it."""
     named = traceability.list_certificates(job)
     if len(named) > 1:
@@ -135,7 +135,7 @@ def lay_out_paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
     if keys.agreement.simplified:
         reference = keys.agreement.reference
         yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
-    traceable = traceable_through(job)
+    traceable = say_traceable_through(job)
     if traceable:
         yield Paragraph(writer.say(traceable))
     yield Paragraph(writer.say(_ONLY_THIS_ITEM[keys.certificate.kind]))

@@ -63,7 +63,7 @@ from zlmreport.document.figures.shapes import (
     join_lines,
     outline_area,
 )
-from zlmreport.document.figures.tiles import tile_shapes
+from zlmreport.document.figures.tiles import draw_tiles
 from zlmreport.language import Language
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import BoolArray, FloatArray
@@ -109,7 +109,7 @@ def _draw_over_positions(layout: PanelLayout, *, is_lowest: bool) -> Iterator[Sh
 
     yield from _draw_grid(frame)
     if panel.tiles:
-        yield from tile_shapes(panel.tiles, frame)
+        yield from draw_tiles(panel.tiles, frame)
         yield from layout.tile_values
     yield from _draw_bars(layout)
     for band in panel.bands:

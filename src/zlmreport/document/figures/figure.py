@@ -177,10 +177,10 @@ class Tiles:
     @property
     def edges(self) -> tuple[FloatArray, FloatArray]:
         """Where tiles end along both axes, (n + 1,) and (m + 1,): half-way to the next place."""
-        return _edges(self.x), _edges(self.y)
+        return _find_edges(self.x), _find_edges(self.y)
 
 
-def _edges(places: FloatArray) -> FloatArray:
+def _find_edges(places: FloatArray) -> FloatArray:
     between = (places[1:] + places[:-1]) / 2.0
     ends = (2.0 * places[0] - between[0], 2.0 * places[-1] - between[-1])
     return np.concatenate([[ends[0]], between, [ends[1]]])

@@ -25,7 +25,7 @@ from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Level
 from zlmreport.document.figures.metrics import make_plain_label, make_symbol_label
 from zlmreport.document.figures.polar import PolarGrid, find_largest_square, make_polar_grid
 from zlmreport.document.figures.shapes import TEXT_SIZE, TICK_TEXT_SIZE, Frame, Lettering, PlacedLabel
-from zlmreport.document.figures.tiles import tile_values
+from zlmreport.document.figures.tiles import place_tile_values
 from zlmreport.document.figures.wire import make_wire_frame, place_notes
 from zlmreport.language import Language, Words
 from zlmreport.measurement.arrays import FloatArray
@@ -83,7 +83,7 @@ def lay_out_panel(
         spans, box, _collect_marks(panel, frame), _collect_lines(panel, frame, brackets)
     )
     levels, values = _place_levels(panel, frame), _place_bar_values(panel, frame, language)
-    written = tuple(tile_values(panel.tiles, frame, language)) if panel.tiles else ()
+    written = tuple(place_tile_values(panel.tiles, frame, language)) if panel.tiles else ()
     return PanelLayout(panel, frame, legend, brackets, arrows, levels, values, tile_values=written)
 
 

@@ -45,7 +45,7 @@ _LETTERS, _WITHOUT_DECIMALS = 6.0, 100.0
 _OVERLAP = 0.3
 
 
-def tile_shapes(tiles: Tiles, frame: Frame) -> Iterator[Shape]:
+def draw_tiles(tiles: Tiles, frame: Frame) -> Iterator[Shape]:
     """Yield the tiles."""
     across, upwards = (
         [point(each) for each in edges.tolist()]
@@ -54,10 +54,10 @@ def tile_shapes(tiles: Tiles, frame: Frame) -> Iterator[Shape]:
     for left, right, values in zip(across, across[1:], tiles.values, strict=False):
         for bottom, top, value in zip(upwards, upwards[1:], values.tolist(), strict=False):
             box = Box(left, bottom, right + _OVERLAP, top + _OVERLAP)
-            yield outline_area("tile", box.corners, None, Fill(_colour(value / tiles.darkest)))
+            yield outline_area("tile", box.corners, None, Fill(_choose_colour(value / tiles.darkest)))
 
 
-def tile_values(tiles: Tiles, frame: Frame, language: Language) -> Iterator[Lettering]:
+def place_tile_values(tiles: Tiles, frame: Frame, language: Language) -> Iterator[Lettering]:
     """Yield what is written on every other tile along both axes."""
     digits = 1 if tiles.darkest < _WITHOUT_DECIMALS else 0
     for x, values in zip(tiles.x[::2].tolist(), tiles.values[::2], strict=True):
@@ -67,7 +67,7 @@ def tile_values(tiles: Tiles, frame: Frame, language: Language) -> Iterator[Lett
             yield Lettering("tile", place, WHITE if value / tiles.darkest > _DARK else INK)
 
 
-def _colour(share: float) -> Colour:
+def _choose_colour(share: float) -> Colour:
     """Return the colour of a share of the darkest."""
     steps = np.linspace(0.0, 1.0, len(_COLOURS))
     red, green, blue = (float(np.interp(share, steps, each)) for each in _COLOURS.T)

@@ -151,7 +151,7 @@ class KnownError:
         return float(self.correction[np.argmax(np.abs(self.correction))]) if self.correction.size else 0.0
 
 
-def of_the_reading(share: float, measurements: MeasurementSet, name: str) -> dict[str, Any]:
+def write_of_the_reading(share: float, measurements: MeasurementSet, name: str) -> dict[str, Any]:
     """Return what a contribution is that acts in proportion to what was read: its size, and how it acts.
 
     `share`: u over the reading. `name`: Of the error. Lines that were read one after the other were read by

@@ -29,7 +29,7 @@ from zlmreport.evaluation.uncertainty.budget import (
     compute_misalignment_range,
     compute_temperature_range,
     from_range,
-    of_the_reading,
+    write_of_the_reading,
 )
 from zlmreport.evaluation.uncertainty.reasons import says_something
 from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, list_circle_contributions
@@ -334,7 +334,7 @@ def _make_other_contribution(keys: ContributionKeys, measurements: MeasurementSe
     size = float(unit.to_si(standard_uncertainty))
     how: dict[str, Any] = {"standard_uncertainty": size, "acts": Acts(keys.acts)}
     if is_share:
-        how = of_the_reading(size, measurements, keys.name)
+        how = write_of_the_reading(size, measurements, keys.name)
     yield Contribution(
         name=same(keys.name), distribution=distribution, stated=stated, source=wording.STATED, **how
     )

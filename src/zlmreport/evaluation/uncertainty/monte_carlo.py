@@ -332,7 +332,7 @@ def _simulate_statistics(
             yield position_statistics(tests, positions), of_shown, len(tests)
         return
     lines = measurements.tests
-    of_lines = _draws_of_lines(budget, trials, generator)
+    of_lines = _sample_errors_of_lines(budget, trials, generator)
     for together in zip(
         *(
             _simulate_tests(budget.tests[name], each, ways, trials, generator, at_once, of_lines)
@@ -398,7 +398,7 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         own_of_positions = [each for each in at_positions if each not in bent]
         errors += sample_singly(own_of_positions, errors.shape, generator)
         for each in bent:
-            errors += each.standard_uncertainty * _bends(effect, count, generator)
+            errors += each.standard_uncertainty * _sample_bends(effect, count, generator)
         for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
             curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
             errors += each.standard_uncertainty * curves
@@ -420,7 +420,7 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         yield tests, rounded.shown if rounded else None
 
 
-def _bends(shares: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
+def _sample_bends(shares: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
     """Return half waves of any phase along a line, of root mean square 1 at each position: (count, m)."""
     phases = np.pi * generator.random((count, 1))
     return np.asarray(
@@ -428,7 +428,9 @@ def _bends(shares: FloatArray, count: int, generator: np.random.Generator) -> Fl
     )
 
 
-def _draws_of_lines(budget: Budget, trials: int, generator: np.random.Generator) -> dict[str, FloatArray]:
+def _sample_errors_of_lines(
+    budget: Budget, trials: int, generator: np.random.Generator
+) -> dict[str, FloatArray]:
     """Return the errors that several lines share, in units of u, by their names."""
     shared = {each.shared_as: each for line in budget.lines for each in line.contributions if each.shared_as}
     return {

@@ -391,13 +391,13 @@ def _say_departure(difference: float, writer: AxisWriter) -> Words:
 def write_candidates(event: Unclear, writer: AxisWriter) -> str:
     """Write what an unclear stop may be: ``visit 12 (run 2) 60 %, visit 2 (run 1) 39 %, no visit 1 %``."""
     return ", ".join(
-        writer.say(candidate(visit, writer.number(100 * share, 0)))
+        writer.say(write_candidate(visit, writer.number(100 * share, 0)))
         for visit, share in event.candidates
         if share >= WORTH_NAMING
     )
 
 
-def candidate(visit: ListedVisit | None, share: str) -> Words:
+def write_candidate(visit: ListedVisit | None, share: str) -> Words:
     """Say that a stop may be a visit, or none, with its probability in per cent."""
     if visit is None:
         return _NO_CANDIDATE.given(share=share)

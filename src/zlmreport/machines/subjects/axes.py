@@ -106,10 +106,10 @@ def lay_out_space(machine: Machine, say: Sayer) -> Section:
 def _draw_slices(found: VolumeMap) -> Figure:
     """Return the length of Δ in slices: maps over two axes, or curves where but one was measured."""
     moving = [index for index, grid in enumerate(found.grids) if len(grid) > 1]
-    return _maps(found, moving) if len(moving) > 1 else _curve(found, moving[0])
+    return _draw_maps(found, moving) if len(moving) > 1 else _draw_curve(found, moving[0])
 
 
-def _curve(found: VolumeMap, axis: int) -> Figure:
+def _draw_curve(found: VolumeMap, axis: int) -> Figure:
     size, place = MICROMETRE.from_si(found.length).ravel(), MILLIMETRE.from_si(found.grids[axis])
     panel = Panel(curves=(Curve("", Role.MEAN_BIDIRECTIONAL, place, size),))
     largest = _SEEN_ON_A_LINE.given(largest=float(np.round(size.max(), 2)))
@@ -118,7 +118,7 @@ def _curve(found: VolumeMap, axis: int) -> Figure:
     )
 
 
-def _maps(found: VolumeMap, moving: list[int]) -> Figure:
+def _draw_maps(found: VolumeMap, moving: list[int]) -> Figure:
     """Return maps over the first two axes that move: at both ends and in the middle of the third."""
     first, second, *third = moving
     size = MICROMETRE.from_si(found.length)

@@ -10,7 +10,7 @@ from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Se
 from zlmreport.language import Words
 from zlmreport.language.formatting import round_pair
 from zlmreport.machines.cross_confirmation import CrossConfirmation, CrossVerdict
-from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, worthwhile
+from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, plan_worthwhile
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.model.compensation.cross import CrossTable
@@ -45,9 +45,9 @@ def lay_out_tables(
     return Section("cross-tables", say(_TABLES), tuple(blocks))
 
 
-def promised_section(machine: MachineFile, registry: Registry, say: Sayer) -> Section | None:
+def lay_out_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Section | None:
     """Return what tables across axes would leave, whatever the control; None where nothing is worth one."""
-    plan = worthwhile(machine.machine)
+    plan = plan_worthwhile(machine.machine)
     if plan is None:
         return None
     found = forecast(machine.machine, plan.tables, machine.measured, registry)
@@ -83,7 +83,7 @@ def forecast_section(found: CrossForecast, say: Sayer) -> Section:
     return Section("forecast", say(_FORECAST), (table, Paragraph(say(_NO_MEASUREMENT))))
 
 
-def confirmation_section(found: CrossConfirmation, say: Sayer) -> Section:
+def lay_out_confirmation(found: CrossConfirmation, say: Sayer) -> Section:
     """Return what became of tables by circles that were run again."""
     verdict = found.verdict
     said = _BECAME[verdict]

@@ -33,7 +33,7 @@ class AskedLength:
     effects: tuple[str, ...]  #: Identifiers of the effects that can be tried once it is stated.
 
 
-def length_called(key: str) -> Words | None:
+def name_length(key: str) -> Words | None:
     """Return what people call a length of the job's `axis`; None if it is none that is asked for."""
     return _LENGTHS[key][0] if key in _LENGTHS else None
 

@@ -289,10 +289,10 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
         if lost >= NAMED:
             break
         found = without[number]
-    return _sure(search, found) if search.has_nameless(found) else found
+    return _keep_sure(search, found) if search.has_nameless(found) else found
 
 
-def _sure(search: SetSearch, found: EffectSet) -> EffectSet:
+def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:
     """Return a set without those that another set does as well, beside something that has no name.
 
     Of what has no name only the kind is known. A set that is told from the same set without an effect may be

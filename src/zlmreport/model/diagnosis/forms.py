@@ -194,7 +194,7 @@ def list_unnamed_forms(design: Design) -> Iterator[UnnamedForm]:
     for form in _ALONG_AXIS:
         starts = _choose_starts(form, design.target_positions)
         if form is PLATEAU:
-            starts = _stretches(design.target_positions)
+            starts = _list_stretches(design.target_positions)
         for carrier in carriers if len(starts) else ():
             # A periodic form in one direction is the sum of the like and the opposite: these are enough.
             if not ({"L"} & {*form.searched} and carrier in {"up", "down"}):
@@ -243,7 +243,7 @@ def _choose_starts(form: Form, along: FloatArray) -> FloatArray:
     return np.array(rows, dtype=np.float64).reshape(len(rows), len(form.searched))
 
 
-def _stretches(along: FloatArray) -> FloatArray:
+def _list_stretches(along: FloatArray) -> FloatArray:
     """Return middle and length of the stretches between two gaps of targets, up to a third of the travel."""
     gaps = (along[:-1] + along[1:]) / 2
     gaps = gaps[:: max(1, len(gaps) // _PLACES)]

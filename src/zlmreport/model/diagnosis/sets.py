@@ -140,12 +140,12 @@ class SetSearch:
         beside = self._climb(self._with(start, self.contest.quiet), is_thorough=False)
         told(0.6)
         together = self._climb(self._united(beside, named), is_thorough=False)
-        best = self._climb(min((released, beside, together), key=_score))
+        best = self._climb(min((released, beside, together), key=_find_score))
         told(0.8)
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
             named = self._named_alone(named.members, is_thorough=True)
-            best = min(best, self._climb(self._with(named.members, named.amplitudes)), key=_score)
+            best = min(best, self._climb(self._with(named.members, named.amplitudes)), key=_find_score)
         told(1.0)
         return best
 
@@ -185,7 +185,7 @@ class SetSearch:
 
         `names`: As they are installed.
         """
-        forms = _forms(found)
+        forms = _list_forms(found)
         others = [
             each.score for (known, own), each in self._best.items() if not known & names and own <= forms
         ]
@@ -195,7 +195,7 @@ class SetSearch:
         """Return the best set with these named members alone; what has no name as it then is."""
         names = _names(kept)
         known = [each for (own, _), each in self._best.items() if own == names]
-        return min((self._with((*kept, *found.unnamed), found.amplitudes), *known), key=_score)
+        return min((self._with((*kept, *found.unnamed), found.amplitudes), *known), key=_find_score)
 
     def own_evidence(self, found: EffectSet) -> list[float]:
         """Return for each member the evidence that the set loses without it, all else following."""
@@ -288,7 +288,7 @@ class SetSearch:
         columns = [each.columns for each in members]
         score = self.contest.criterion(amplitudes, columns) + self._cost(members, amplitudes)
         found = EffectSet(tuple(members), amplitudes, score)
-        key = _names(found.named), _forms(found)
+        key = _names(found.named), _list_forms(found)
         if key not in self._best or score < self._best[key].score:
             self._best[key] = found
         return found
@@ -704,11 +704,11 @@ def _names(members: Sequence[SetMember]) -> frozenset[str]:
     return frozenset(find_installed_name(each.effect) for each in members)
 
 
-def _forms(found: EffectSet) -> frozenset[str]:
+def _list_forms(found: EffectSet) -> frozenset[str]:
     return frozenset(each.identifier for each in found.unnamed)
 
 
-def _score(found: EffectSet) -> float:
+def _find_score(found: EffectSet) -> float:
     return found.score
 
 
