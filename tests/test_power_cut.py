@@ -102,10 +102,10 @@ def test_whenever_the_power_goes_a_file_is_old_or_new(
 #: Each push to the disk in the module that writes: what stands there, and behind which words.
 _PUSHES = {
     "of a file": ("os.fsync(file.fileno())", "file.flush()"),
-    "of a new folder": ("sync_folder(folder)", "for folder in touched:"),
-    "of names": ("sync_folder(folder)", "for folder in {path.parent for path in names}:"),
+    "of a new folder": ("push_folder(folder)", "for folder in touched:"),
+    "of names": ("push_folder(folder)", "for folder in {path.parent for path in names}:"),
     "of a record": ("os.fsync(self._handle)", "record = record[os.write(self._handle, record) :]"),
-    "of a journal's name": ("sync_folder(folder)", "for folder in folders:"),
+    "of a journal's name": ("push_folder(folder)", "for folder in folders:"),
     "of a cut": ("os.fsync(self._handle)", "os.ftruncate(self._handle, length)"),
 }
 
@@ -128,5 +128,5 @@ def test_a_push_that_is_left_out_shows(planted: str, tmp_path: Path) -> None:
 
 def test_every_push_of_the_module_is_left_out_once() -> None:
     source = Path(files.__file__).read_text(encoding="utf-8")
-    pushes = source.count("os.fsync(") + source.count("sync_folder(") - 2  # its definition, and its own push
+    pushes = source.count("os.fsync(") + source.count("push_folder(") - 2  # its definition, and its own push
     assert pushes == len(_PUSHES)

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from zlmreport.errors import Place
-from zlmreport_step_gauge.calibration import read_calibration, section
+from zlmreport_step_gauge.calibration import cut_section, read_calibration
 
 sys.path.append(str(Path(__file__).parents[2] / "tests"))
 from step_gauge.simulated_cmm import MachineErrors, SimulatedTest, initial_points_csv, probed_csv, simulate
@@ -31,7 +31,7 @@ def files() -> dict[str, str]:
     """Return the files by their names."""
     gauge = read_calibration(HERE / "gauge.yaml").gauge
     test = SimulatedTest(
-        gauge=section(gauge, 2, 13, Place("job.yaml")),
+        gauge=cut_section(gauge, 2, 13, Place("job.yaml")),
         begin=(0.120, 0.085, 0.195),
         direction=(0.85, 0.5, 0.06),
         temperature_difference=0.4,

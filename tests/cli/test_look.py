@@ -167,7 +167,7 @@ def test_what_sensors_read_over_time_is_told(table: Any, capsys: pytest.CaptureF
     printed = " ".join(capsys.readouterr().out.split())
     assert "Z: 25 readings over 24 h; 0 to 24 µm; with air_temperature" in printed
     assert "How far are X1 and X2 apart (mm)?" in printed
-    assert "tests: X1: {source: {plugin: channels-csv, file: x-axis.csv}}" in printed
+    assert "source: plugin: channels-csv file: x-axis.csv tests: {X1: {}, X2: {}, Z: {}}" in printed
 
 
 def test_sensors_whose_times_fall_are_told_by_their_reader(table: Any) -> None:

@@ -24,6 +24,7 @@ OTHER_KEYS = {
     "iso230-1:2012": {"square": {"error": 1.5, "expanded_uncertainty": 0.5}},
     "iso230-4:2005": {"circle": {"radius": 150, "feed": 1000, "calibrated_length": False}},
     "iso230-6:2002": {"axes": {"X": [0, 400], "Y": [0, 400], "Z": [0, 300]}},
+    "union-jack": {"carriage": {"expanded_uncertainty": 0.1}},
 }
 
 

@@ -86,7 +86,7 @@ def test_jobs_are_not_set_aside_for_workers_that_never_began(tmp_path: Path) -> 
 
 def test_a_worker_that_nobody_ends_is_ended_by_the_system() -> None:
     deed = (
-        "import time; from zlmreport.fleet.workers import _ended_after as after\n"
+        "import time; from zlmreport.fleet.workers import _end_after as after\n"
         "with after(60): pass\nwith after(0.01): time.sleep(60)"
     )
     assert run(PYTHON, "-c", deed).returncode == -signal.SIGALRM

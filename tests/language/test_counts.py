@@ -43,6 +43,7 @@ _NEVER_OF_ONE = (
     "{count} readings chosen",
     "{count} readings were set aside and did not enter the results",
     "{count} measurements of {machine}",
+    "{count} files; unless the job says otherwise",
     "{count} turns of radius {radius} mm",
     "{count} of {all} readings is missing; nothing was filled in",
     "{count} of {all} readings are missing; nothing was filled in",

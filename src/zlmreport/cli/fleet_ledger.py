@@ -1,4 +1,4 @@
-"""``zlmreport fleet report``, ``back_up``, ``rebuild``: what is made of a ledger, and the ledger itself."""
+"""``zlmreport fleet report``, ``backup``, ``rebuild``: what is made of a ledger, and the ledger itself."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _state(fleet: FleetFile) -> FleetState:
         return state_of(fleet.name, ledger.entries(), jobs, seen, rules)
 
 
-def back_up(options: Namespace) -> int:
+def backup(options: Namespace) -> int:
     """Copy the ledger; the file is whole or not there."""
     fleet = load_fleet(options.fleet)
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:

@@ -22,7 +22,7 @@ from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.plugin.protocols import Standard
+from zlmreport.plugin.protocols import Standard, find_contributions_of
 from zlmreport.testing.expectations import check, expect, is_same_value
 from zlmreport.testing.measurements import good_tests, poor_tests
 
@@ -190,7 +190,9 @@ def _collect_outcome(standard: Standard, measurements: MeasurementSet, options: 
     one = _make_for(standard, measurements)
     found = evaluate(one, measurements, options, {})
     values = [(each.quantity.symbol, each.value) for each in found.parameters]
-    return values, [each.values for each in found.columns], found.findings, list(one.figures(found, options))
+    columns, figures = [each.values for each in found.columns], list(one.figures(found, options))
+    of_lines = find_contributions_of(one, measurements, options) if measurements.tests else {}
+    return values, columns, found.findings, figures, of_lines
 
 
 def _make_for(standard: Standard, measurements: MeasurementSet) -> Standard:

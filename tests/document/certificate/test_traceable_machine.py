@@ -24,7 +24,7 @@ def said(folder: Path, first: dict[str, Any], second: dict[str, Any]) -> str:
         "x": {"error": "EYX", "source": source, "instrument": {"name": "A", **first}},
         "y": {"error": "EXY", "source": source, "instrument": {"name": "B", **second}},
     }
-    measurement = {"date": "2026-11-18", "error": "C0Y", "tests": tests}
+    measurement = {"date": "2022-04-18", "error": "C0Y", "tests": tests}
     report = {**COMPLETE["certificate"], "kind": "report"}
     whole = {**keys, "certificate": report, "measurement": measurement, "evaluate": ["iso230-1:2012"]}
     found = say_traceable_through(job(folder, whole))
