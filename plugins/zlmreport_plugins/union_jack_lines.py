@@ -35,7 +35,7 @@ _Line = TypeVar("_Line")
 def reverse_name(name: str) -> str:
     """Return what a line is called that is measured the other way.
 
-    >>> reversed_name("NW-SE")
+    >>> reverse_name("NW-SE")
     'SE-NW'
     """
     first, last = name.split("-")

@@ -130,7 +130,7 @@ def did_you_mean(name: str, known: Sequence[str]) -> str:
 def quoted(text: str) -> str:
     """Return what a file or a user says as a message shows it: in quotation marks, on one line, not too long.
 
-    >>> quoted("12,5"), quoted("x" * 61)[-20:]
+    >>> quoted("12,5"), quoted("x" * 61)[-19:]
     ("'12,5'", "x'… (61 characters)")
     """
     if len(text) <= _LONGEST_QUOTE:

@@ -334,7 +334,7 @@ def tell_counted(counts: Counter[What]) -> Iterator[str]:
 def write_duration(seconds: float) -> str:
     """Return a duration as people say it.
 
-    >>> duration(4.2), duration(200), duration(7300)
+    >>> write_duration(4.2), write_duration(200), write_duration(7300)
     ('4 s', '3:20 min', '2:01 h')
     """
     if seconds < 60:
@@ -375,7 +375,7 @@ class NightProgress:
 def draw_bar(done: int, total: int, failed: int, seconds: float) -> str:
     """Return the bar.
 
-    >>> bar(30, 120, 1, 10.0)
+    >>> draw_bar(30, 120, 1, 10.0)
     ' 30/120 [#######.......................]  3.0/s, 30 s left, 1 failed'
     """
     filled = done * _BAR // total

@@ -69,7 +69,7 @@ def write_cell_text(cell: Cell, symbol: Callable[[str], str] = write_plain) -> s
 def split_at_symbols(text: str, notations: Iterable[str]) -> Iterator[str | Symbol]:
     """Yield the stretches of a text in which symbols stand as a plain line, each of these as a symbol.
 
-    >>> list(with_symbols("Umax: largest, Umaximum", ["U_{max}"]))
+    >>> list(split_at_symbols("Umax: largest, Umaximum", ["U_{max}"]))
     [Symbol(notation='U_{max}'), ': largest, Umaximum']
     """
     by_name = {write_plain(each): each for each in notations}

@@ -136,7 +136,7 @@ class EffectChoice:
 def number_effect(identifier: str, number: int) -> str:
     """Return what an effect is called that stands in a list for the n-th time.
 
-    >>> numbered("scale-joint", 1), numbered("scale-joint", 2)
+    >>> number_effect("scale-joint", 1), number_effect("scale-joint", 2)
     ('scale-joint', 'scale-joint-2')
     """
     return identifier if number == 1 else f"{identifier}-{number}"
@@ -145,7 +145,7 @@ def number_effect(identifier: str, number: int) -> str:
 def part_number(identifier: str) -> tuple[str, int]:
     """Return the effect and the number of a name such as ``scale-joint-2``; 1 where it has none.
 
-    >>> parted("scale-joint-2"), parted("scale-joint"), parted("scale-joint-1")
+    >>> part_number("scale-joint-2"), part_number("scale-joint"), part_number("scale-joint-1")
     (('scale-joint', 2), ('scale-joint', 1), ('scale-joint-1', 1))
     """
     name, _, number = identifier.rpartition("-")

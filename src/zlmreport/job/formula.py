@@ -362,7 +362,7 @@ def name_rates(tree: Tree) -> Tree:
 def find_column_of(name: str) -> str | None:
     """Return the column whose rate a name stands for; None of any other name.
 
-    >>> column_of("rate(oil)"), column_of("oil")
+    >>> find_column_of("rate(oil)"), find_column_of("oil")
     ('oil', None)
     """
     return name[len(RATE) + 1 : -1] if name.startswith(f"{RATE}(") else None

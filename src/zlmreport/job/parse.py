@@ -112,7 +112,7 @@ def _is_joining(text: str, place: int) -> bool:
 def describe_character(character: str) -> str:
     r"""Say which character that nobody sees stands in a text.
 
-    >>> described("\x07"), described("\u202e")
+    >>> describe_character("\x07"), describe_character("\u202e")
     ('control character U+0007', 'invisible character U+202E (right-to-left override)')
     """
     code = f"U+{ord(character):04X}"
@@ -123,7 +123,7 @@ def describe_character(character: str) -> str:
 def count_in_words(number: int, thing: str) -> str:
     """Return a number of things.
 
-    >>> counted(1, "value"), counted(100000, "character")
+    >>> count_in_words(1, "value"), count_in_words(100000, "character")
     ('1 value', '100,000 characters')
     """
     return f"{number:,} {thing}{'' if number == 1 else 's'}"

@@ -128,7 +128,7 @@ class LocatedText(str):
 def replace_decimal_comma(text: str) -> str | None:
     """Return a number that is written with a decimal comma as it should be written.
 
-    >>> with_decimal_point("0,5"), with_decimal_point("0.5"), with_decimal_point("a, b")
+    >>> replace_decimal_comma("0,5"), replace_decimal_comma("0.5"), replace_decimal_comma("a, b")
     ('0.5', None, None)
     """
     return text.replace(",", ".") if "," in text and _NUMBER.fullmatch(text) else None
@@ -158,7 +158,7 @@ def _take_words(text: str) -> str:
 def parse_along_the_length(text: str) -> tuple[float, float] | None:
     """Return the constant part and the part per metre of an uncertainty; None for words.
 
-    >>> along_the_length("0.6 + 0.3*L"), along_the_length("see its certificate")
+    >>> parse_along_the_length("0.6 + 0.3*L"), parse_along_the_length("see its certificate")
     ((0.6, 0.3), None)
     """
     found = _ALONG_THE_LENGTH.fullmatch(text)

@@ -60,9 +60,11 @@ def write_fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalS
     Half to even on the decimal value of the double (JCGM 100 leaves the rule open; this one has no
     bias); a result that rounds to zero carries no minus sign.
 
-    >>> fixed_number(-0.25, 1), fixed_number(-0.04, 1), fixed_number(1234.5, 2, DecimalSign.COMMA)
-    ('−0.2', '0.0', '1234,50')
-    >>> fixed_number(5678.9, -1)
+    >>> write_fixed_number(-0.25, 1), write_fixed_number(-0.04, 1)
+    ('−0.2', '0.0')
+    >>> write_fixed_number(1234.5, 2, DecimalSign.COMMA)
+    '1234,50'
+    >>> write_fixed_number(5678.9, -1)
     '5680'
     """
     rounded = Decimal(repr(float(value))).quantize(Decimal(1).scaleb(-decimals), context=_ANY_DOUBLE)
@@ -73,8 +75,10 @@ def write_fixed_number(value: float, decimals: int, sign: DecimalSign = DecimalS
 def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, digits: int = 6) -> str:
     """Write a value with up to so many significant digits and no trailing zeros.
 
-    >>> general_number(250.0), general_number(-0.0315), general_number(2.5, DecimalSign.COMMA)
-    ('250', '−0.0315', '2,5')
+    >>> write_general_number(250.0), write_general_number(-0.0315)
+    ('250', '−0.0315')
+    >>> write_general_number(2.5, DecimalSign.COMMA)
+    '2,5'
     """
     text = f"{value:.{digits}g}"
     if "e" in text:
@@ -85,9 +89,9 @@ def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, di
 def hold_units(text: str) -> str:
     r"""Return a text of a page in which no line parts a number from its unit, or a standard's name.
 
-    >>> held("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
+    >>> hold_units("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
     '2\xa0°C below, 11.5\xa0µm/(m·K), U = 2\xa0µm (k\xa0=\xa02)'
-    >>> held("VDI/VDE 2617: ÷ (n − 1)")
+    >>> hold_units("VDI/VDE 2617: ÷ (n − 1)")
     'VDI/\u2060VDE 2617: ÷ (n\xa0−\xa01)'
     """
     return _BODIES.sub(WORD_JOINER, _TOGETHER.sub(HELD, text))
@@ -98,8 +102,10 @@ def write_percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decima
 
     One that is smaller than the last digit says so: it is small, and not nothing.
 
-    >>> percentage(0.984), percentage(0.004), percentage(0.0), percentage(0.0004, decimals=1)
-    ('98', '< 1', '0', '< 0.1')
+    >>> write_percentage(0.984), write_percentage(0.004), write_percentage(0.0)
+    ('98', '< 1', '0')
+    >>> write_percentage(0.0004, decimals=1)
+    '< 0.1'
     """
     if 0 < share < 0.01 * 10.0**-decimals:
         return f"< {write_fixed_number(10.0**-decimals, decimals, sign)}"
@@ -119,9 +125,9 @@ def write_p_value(
     `least`: A power of ten: below it, a smaller chance is no stronger evidence.
     `is_extrapolated`: Whether no simulated test came near it: then it has one digit.
 
-    >>> p_value(0.0123), p_value(3.21e-5, DecimalSign.COMMA), p_value(1e-9)
+    >>> write_p_value(0.0123), write_p_value(3.21e-5, DecimalSign.COMMA), write_p_value(1e-9)
     ('p\xa0=\xa00.012', 'p\xa0=\xa00,000032', 'p\xa0<\xa00.000001')
-    >>> p_value(3.21e-5, is_extrapolated=True)
+    >>> write_p_value(3.21e-5, is_extrapolated=True)
     'p\xa0≈\xa00.00003'
     """
     # Written out: the typeface of the documents has no raised minus.
@@ -142,7 +148,7 @@ def round_pair(
 
     `value`, `expanded_uncertainty`: In the unit that is printed.
 
-    >>> rounded_pair(-4.01187, 0.1319), rounded_pair(12.3456, 0.0996), rounded_pair(5678.9, 432.1)
+    >>> round_pair(-4.01187, 0.1319), round_pair(12.3456, 0.0996), round_pair(5678.9, 432.1)
     (('−4.01', '0.13'), ('12.35', '0.10'), ('5680', '430'))
     """
     decimals = _DECIMALS
@@ -184,7 +190,7 @@ def split_spans(notation: str) -> tuple[Span, ...]:
 
     Examples
     --------
-    >>> [(span.text, span.italic, span.subscript) for span in spans("P_{s max}")]
+    >>> [(span.text, span.italic, span.subscript) for span in split_spans("P_{s max}")]
     [('P', True, False), ('s max', False, True)]
     """
     found: list[Span] = []

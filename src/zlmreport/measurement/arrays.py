@@ -32,7 +32,7 @@ def read_only_integers(values: ArrayLike) -> IntArray:
 def count_decimals_of(values: FloatArray, most: int) -> int:
     """Return the decimals in which values were given: the fewest that hold them all, at most `most`.
 
-    >>> decimals_of(np.array([0.25, np.nan, 3.0]), 3), decimals_of(np.array([1 / 3]), 3)
+    >>> count_decimals_of(np.array([0.25, np.nan, 3.0]), 3), count_decimals_of(np.array([1 / 3]), 3)
     (2, 3)
     """
     finite = values[np.isfinite(values)]

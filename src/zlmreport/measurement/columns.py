@@ -54,7 +54,7 @@ class NamedColumns(Protocol):
 def fold(name: str) -> str:
     """Return a name without what people do not mind: case, and blanks, hyphens or underscores.
 
-    >>> folded(" Air Temperature ")
+    >>> fold(" Air Temperature ")
     'air_temperature'
     """
     return re.sub(r"[\s_-]+", "_", name.strip().casefold())
@@ -111,7 +111,7 @@ def _take_unit_off(cell: str, thousands: str) -> str:
 def take_thousands_off(number: str, signs: str) -> str:
     """Return a number without what parts its groups of three digits; as it is if that is none of the signs.
 
-    >>> without_thousands("1 250,5", " "), without_thousands("1.250", "'")
+    >>> take_thousands_off("1 250,5", " "), take_thousands_off("1.250", "'")
     ('1250,5', '1.250')
     """
     match = _GROUPS.fullmatch(number)
@@ -257,7 +257,7 @@ def read_heading(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = 
 
     `is_no_unit`: Whether what stands in brackets is no unit, but belongs to the name.
 
-    >>> [heading_of(text).bracket for text in ("Soll [mm]", "Soll / mm", "Soll in mm", "soll_mm", "Run")]
+    >>> [read_heading(text).bracket for text in ("Soll [mm]", "Soll / mm", "Soll in mm", "soll_mm", "Run")]
     ['mm', 'mm', 'mm', 'mm', None]
     """
     match = _BRACKETED.fullmatch(text)

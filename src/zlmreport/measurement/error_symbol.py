@@ -62,7 +62,7 @@ class ErrorSymbol:
 def find_error_named(text: str) -> ErrorSymbol:
     """Return the error of a symbol; raise `ValueError` for one that names none that is measured.
 
-    >>> error_named("eyx").measurand.identifier, error_named("C0Y").reference
+    >>> find_error_named("eyx").measurand.identifier, find_error_named("C0Y").reference
     ('straightness', 'X')
     """
     symbol = text.strip().upper().replace("O", "0")

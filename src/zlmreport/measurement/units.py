@@ -193,7 +193,7 @@ TIME_UNITS = _list_spellings(
 def find_unit_named(spelling: str, units: Mapping[str, _U]) -> _U:
     """Return the unit of a spelling, with either micro sign; raise ValueError if it is none of the units.
 
-    >>> unit_named("µm", LENGTH_UNITS).ascii
+    >>> find_unit_named("µm", LENGTH_UNITS).ascii
     'um'
     """
     found = units.get(spelling.strip().casefold())

@@ -93,7 +93,7 @@ def read_entries(text: TextFile, problems: list[Problem]) -> Mapping[Key, EcmcEn
 def write_key(key: Key) -> str:
     """Return a key as logs write it.
 
-    >>> written((FORWARD, (3, 1)))
+    >>> write_key((FORWARD, (3, 1)))
     'REF_DATA_FWD[3,1]'
     """
     name, indices = key

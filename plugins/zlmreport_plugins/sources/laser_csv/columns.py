@@ -13,7 +13,7 @@ from zlmreport_plugins.sources.laser_csv.options import LaserCsvOptions, names_d
 def read_heading(text: str) -> Heading:
     """Return a name in a header, its unit taken off; a direction in brackets belongs to the name.
 
-    >>> reading_heading("Run (up)").name
+    >>> read_heading("Run (up)").name
     'Run up'
     """
     return heading_of(text, is_no_unit=names_direction)

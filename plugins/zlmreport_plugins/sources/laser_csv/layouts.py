@@ -147,7 +147,7 @@ def count_runs(readings: Iterable[Reading]) -> Iterator[Reading]:
 def find_senses(targets: Sequence[float]) -> list[int]:
     """Return for each target, in order, in which sense it was approached: +1 or −1.
 
-    >>> senses([0, 5, 10, 10, 5, 0, 0, 5])
+    >>> find_senses([0, 5, 10, 10, 5, 0, 0, 5])
     [1, 1, 1, -1, -1, -1, 1, 1]
     """
     senses: list[int] = []

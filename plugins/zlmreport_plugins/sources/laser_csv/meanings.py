@@ -109,7 +109,7 @@ def find_meaning(name: str) -> str | None:
 def find_reading_of(name: str) -> tuple[int, Approach | None] | None:
     """Return the run, and the direction if it is named, of a column of readings: ``M1 (auf)``, ``2. Lauf ↓``.
 
-    >>> reading_of("2. Lauf ab"), reading_of("Hin"), reading_of("Mittelwert 1")
+    >>> find_reading_of("2. Lauf ab"), find_reading_of("Hin"), find_reading_of("Mittelwert 1")
     ((2, <Approach.NEGATIVE: -1>), (1, <Approach.POSITIVE: 1>), None)
     """
     called = read_heading(name).name

@@ -289,7 +289,7 @@ def write_polynomial(
 ) -> str:
     """Write a polynomial: it needs more digits than each of its terms is known to.
 
-    >>> polynomial([-0.5, 2e-5, -3e-8], [("X", 0), ("X", 1), ("X", 2)])
+    >>> write_polynomial([-0.5, 2e-5, -3e-8], [("X", 0), ("X", 1), ("X", 2)])
     '−0.5 + 2e−5·X − 3e−8·X²'
     """
     terms = []

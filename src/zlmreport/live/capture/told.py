@@ -441,7 +441,7 @@ def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None 
 def write_duration(seconds: float) -> str:
     """Write how long something takes.
 
-    >>> duration(42), duration(150), duration(5000)
+    >>> write_duration(25), write_duration(150), write_duration(5000)
     ('less than a minute', 'about 2 min', 'about 1 h 23 min')
     """
     minutes = round(seconds / _SECONDS_A_MINUTE)

@@ -88,7 +88,7 @@ def is_apart_in_time(design: Design) -> bool:
 def find_resolution(values: FloatArray) -> float:
     """Return the step of which readings are multiples, in their unit; 0 where they are not of any.
 
-    >>> resolution(np.array([0.4, 1.2, -0.6])), resolution(np.array([5.0, 10.0, 20.0]))
+    >>> find_resolution(np.array([0.4, 1.2, -0.6])), find_resolution(np.array([5.0, 10.0, 20.0]))
     (0.2, 5.0)
     """
     largest = float(np.abs(values).max(initial=0.0))

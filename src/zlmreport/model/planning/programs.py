@@ -325,7 +325,7 @@ def write_remark(reading: Reading) -> str:
 def write_program_number(value: float) -> str:
     """Write a feed or a dwell as every control reads it: no exponent, no trailing zeros.
 
-    >>> program_number(2000.0), program_number(4.5)
+    >>> write_program_number(2000.0), write_program_number(4.5)
     ('2000', '4.5')
     """
     text = f"{value:.{_RATE_DIGITS}f}"
