@@ -89,7 +89,7 @@ class FoundTable:
     units: TextRow | None  #: The row of units below it.
     rows: Sequence[TextRow]  #: Those with a target.
     below: Sequence[TextRow]  #: Those after them.
-    meanings: Sequence[str | None]  #: What its columns are (`meanings.resolved`).
+    meanings: Sequence[str | None]  #: What its columns are (`meanings.resolve_meanings`).
     notation: Notation  #: How its numbers are written.
 
     @property

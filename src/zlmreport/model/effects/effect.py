@@ -124,7 +124,7 @@ class Parameter:
         range says it, and where both have as many metres as radians.
     question, question_below
         What is asked of a value far beyond the usual, and of one that is too small where that is another
-        question; ``{value}`` and ``{times}`` stand in it (`asked_of`).
+        question; ``{value}`` and ``{times}`` stand in it (`ask_of`).
     named
         Values that have a name of their own.
     """
