@@ -57,7 +57,7 @@ class _Fit:
     """How well columns explain what a study leaves."""
 
     def __init__(self, study: CircleStudy) -> None:
-        self._whitened = study.noise.best
+        self._whitened = study.whitened
         read = self._whitened.of(study.deviation[:, np.newaxis])
         self._left = read - self._whitened.taken @ (self._whitened.taken.T @ read)
         self._variance = study.noise.sigma**2

@@ -21,7 +21,7 @@ from zlmreport.language import Words
 from zlmreport.machines.design import ThinnedDesign
 from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.noise import NoiseFound, NoiseModel, Whitened
-from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.model.diagnosis.null_distribution import LEVEL, NullDistribution, PValue, Scores
 from zlmreport.model.effects.circle_design import AXES
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -136,7 +136,7 @@ def contest(
     shapes = [noise.shapes[index] for index in drawn.tolist()]
     simulated = model.noise.simulated(shapes, model.known, random)
     together = np.column_stack([deviation / noise.sigma, simulated])
-    arenas = [_Arena(each, together) for each in noise.whitened]
+    arenas = [_Arena(model.under(each), together) for each in noise.shapes]
     null = np.array([arena.null for arena in arenas])
     weight = _compute_shares(null)
     by_effect, best = [], []
@@ -189,24 +189,32 @@ class _Arena:
         self._freedom = whitened.freedom
         self.null = -0.5 * whitened.log_determinant - 0.5 * self._freedom * np.log(self._squares)
 
-    def evidence(self, columns: FloatArray, subsets: Sequence[Sequence[int]]) -> list[FloatArray]:
-        """Return ln of the Bayes factor of subsets of columns, their size averaged over."""
+    def evidence(self, columns: FloatArray, subsets: Sequence[Sequence[int]]) -> FloatArray:
+        """Return ln of the Bayes factor of subsets of columns, their size averaged over: (subsets, B)."""
         own = self._whitened.of(columns / np.sqrt(np.mean(columns**2, axis=0)))
         inside, products = self._whitened.taken.T @ own, own.T @ self._left
-        return [
-            self._of(*_make_independent(own[:, chosen], inside[:, chosen], products[chosen]))
-            for chosen in subsets
-        ]
+        lengths, gram = np.sum(own**2, axis=0), own.T @ own - inside.T @ inside
+        found = np.zeros((len(subsets), len(self._squares)))
+        for count in {len(each) for each in subsets}:
+            alike = np.array([index for index, each in enumerate(subsets) if len(each) == count])
+            chosen = np.array([subsets[index] for index in alike.tolist()])
+            strengths, turn = np.linalg.eigh(gram[chosen[:, :, np.newaxis], chosen[:, np.newaxis, :]])
+            kept = strengths > _LEAST_VISIBLE * lengths[chosen].max(axis=1, keepdims=True)
+            turned = turn.swapaxes(1, 2) @ products[chosen]
+            found[alike] = self._average_over_sizes(strengths, kept, turned)
+        return found
 
-    def _of(self, strengths: FloatArray, products: FloatArray) -> FloatArray:
-        if not len(strengths):
-            return np.zeros(len(self._squares))
-        explained = np.sum(products**2 / strengths[:, np.newaxis], axis=0) / self._squares
-        worth = SIZES**2 * float(strengths.mean())
-        share = worth / (1.0 + worth)
-        inside = 1.0 - np.minimum(explained, 1.0 - _LEAST) * share[:, np.newaxis]
-        logs = -0.5 * len(strengths) * np.log1p(worth)[:, np.newaxis] - 0.5 * self._freedom * np.log(inside)
-        return _compute_log_mean(logs)
+    def _average_over_sizes(self, strengths: FloatArray, kept: BoolArray, products: FloatArray) -> FloatArray:
+        """Return ln of the mean Bayes factor over the sizes; forms lead, (F, k) and (F, k, B)."""
+        parts = np.divide(
+            products**2, strengths[..., np.newaxis], out=np.zeros_like(products), where=kept[..., np.newaxis]
+        )
+        explained = np.minimum(parts.sum(axis=1) / self._squares, 1.0 - _LEAST)
+        number = kept.sum(axis=1)
+        worth = SIZES[:, np.newaxis] ** 2 * np.sum(strengths * kept, axis=1) / np.maximum(number, 1)
+        inside = 1.0 - explained * (worth / (1.0 + worth))[..., np.newaxis]
+        prior = -0.5 * number * np.log1p(worth)
+        return _compute_log_mean(prior[..., np.newaxis] - 0.5 * self._freedom * np.log(inside))
 
     def curve(self, columns: FloatArray) -> FloatArray:
         """Return the same of a random curve: its coefficients are averaged over, whatever their number."""

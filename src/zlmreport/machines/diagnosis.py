@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TypeAlias
 
 import numpy as np
 
@@ -162,13 +163,21 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     )  # fmt: skip
 
 
+#: An effect with the forms of it that a design can show.
+_Forms: TypeAlias = tuple[CircleEffect, tuple[CircleForm, ...]]
+
+
 def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list[_Stage]:
     """Return the models that come about when the best effect comes in again and again."""
     stages: list[_Stage] = []
     current, gathered = study, 0.0
+    curves = make_nameless_curves(study.design)
+    forms_of = [
+        (effect, tuple(form for form in list_forms_of(effect, study.design) if form.terms))
+        for effect in catalogue
+    ]
     while True:
-        curves = make_nameless_curves(current.design)
-        outcome, hidden = _hold_effects(current, catalogue, curves, len(stages))
+        outcome, hidden = _hold_effects(current, forms_of, curves, len(stages))
         beside = _weigh_curve(current, outcome, curves)
         stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered, beside)
         stages.append(stage)
@@ -199,34 +208,29 @@ def _weigh_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Na
         if each.shape == outcome.shape
         for size in SIZES
     ]
-    likeliest = max(models, key=lambda each: each.log_likelihood(shapes[0], deviation)[0])
+    likeliest = max(models, key=lambda each: each.log_likelihoods(shapes[:1], deviation)[0, 0])
     return outcome.shape_evidence + find_anew(likeliest, deviation, shapes)
 
 
 def _hold_effects(
-    study: CircleStudy, catalogue: Sequence[CircleEffect], curves: Sequence[Nameless], seed: int
+    study: CircleStudy, forms_of: Sequence[_Forms], curves: Sequence[Nameless], seed: int
 ) -> tuple[CircleContest, list[str]]:
     """Hold all effects that are not in the model against what it leaves."""
+    basis, _ = np.linalg.qr(study.base)
     tried, unseen = [], []
-    for effect in catalogue:
+    for effect, forms in forms_of:
         if effect.identifier in study.names:
             continue
-        forms = tuple(
-            form for form in list_forms_of(effect, study.design) if form.terms and _is_seen(form, study)
-        )
-        if forms:
-            tried.append((effect, forms))
+        seen = tuple(form for form in forms if _is_seen(form.columns, basis))
+        if seen:
+            tried.append((effect, seen))
         else:
             unseen.append(effect.identifier)
     return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
 
 
-def _is_seen(form: CircleForm, study: CircleStudy) -> bool:
-    """Return whether the base model leaves anything of a form."""
-    if not study.base.shape[1]:
-        return True
-    basis, _ = np.linalg.qr(study.base)
-    columns = form.columns
+def _is_seen(columns: FloatArray, basis: FloatArray) -> bool:
+    """Return whether the base model, an orthonormal basis of it, leaves anything of a form."""
     left = columns - basis @ (basis.T @ columns)
     return bool(np.sum(left**2) > 1e-6 * np.sum(columns**2))
 
@@ -282,7 +286,7 @@ def _add_equals(
     """Return a candidate with those that the plan cannot tell from it, by columns and evidence."""
     if not candidate.is_plausible:
         return candidate
-    under = study.noise.best
+    under = study.whitened
     own = under.of(curve[:, np.newaxis])
     length = float(under.product(own, own)[0, 0])
     equals = []

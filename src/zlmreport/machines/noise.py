@@ -19,7 +19,7 @@ import numpy as np
 from numpy.linalg import cholesky
 
 from zlmreport.machines.design import ThinnedDesign
-from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
 
 #: Correlation length along the path, and of irregular geometry, rad.
 PATH_LENGTH, GEOMETRY_LENGTH = float(np.radians(6.0)), float(np.radians(10.0))
@@ -31,6 +31,8 @@ _KEPT, _MOST = 0.98, 6
 _LEAST_VARIANCE = 1e-4
 #: A hair of the diagonal: columns of the base that nearly coincide must not stop the work.
 _HAIR = 1e-12
+#: Deviations that are nothing but zeros have a logarithm, too.
+_LEAST_SQUARE = 1e-300
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,15 +156,6 @@ class Whitened:
         return np.asarray(one.T @ other - (self.taken.T @ one).T @ (self.taken.T @ other))
 
 
-@dataclass(frozen=True, slots=True)
-class _Equations:
-    """The mixed-model equations of one noise: columns side by side, and the factor of their matrix."""
-
-    lower: FloatArray
-    together: FloatArray  #: (N, r): The base, the geometry that is there, what is known to be uncertain.
-    log_determinant: float
-
-
 class NoiseModel:
     """The noise of a design beside a model, for any of its shapes."""
 
@@ -180,31 +173,51 @@ class NoiseModel:
 
     def under(self, shape: NoiseShape) -> Whitened:
         """Return the readings under one noise."""
-        own = self._equations(shape)
-        taken = np.asarray(np.linalg.solve(own.lower, own.together.T).T, dtype=np.float64)
-        return Whitened(self.noise.whitening(shape.path), taken, own.log_determinant, self.freedom)
+        matrix, used, log_rest = self._matrix(shape)
+        lower = np.asarray(cholesky(matrix), dtype=np.float64)
+        taken = np.linalg.solve(lower, self._of_path(shape.path)[0][:, used].T).T
+        log_determinant = log_rest + 2.0 * float(np.sum(np.log(np.diag(lower))))
+        return Whitened(
+            self.noise.whitening(shape.path),
+            np.asarray(taken, dtype=np.float64),
+            log_determinant,
+            self.freedom,
+        )
 
-    def log_likelihood(self, shape: NoiseShape, deviation: FloatArray) -> tuple[float, float]:
-        """Return the restricted log-likelihood of deviations, σ maximised, and their P-square."""
-        own, (read, square) = self._equations(shape), self._read(shape.path, deviation)
-        inside = np.linalg.solve(own.lower, own.together.T @ read)
-        left = max(square - float(inside @ inside), 1e-12 * square, 1e-300)
-        return -0.5 * own.log_determinant - 0.5 * self.freedom * float(np.log(left)), left
+    def log_likelihoods(self, shapes: Sequence[NoiseShape], deviation: FloatArray) -> FloatArray:
+        """Return restricted log-likelihoods of deviations, σ maximised, and their P-squares, (shapes, 2)."""
+        reads = {path: self._read(path, deviation) for path in {each.path for each in shapes}}
+        return np.array([self._log_likelihood(each, *reads[each.path]) for each in shapes])
+
+    def _log_likelihood(self, shape: NoiseShape, products: FloatArray, square: float) -> tuple[float, float]:
+        matrix, used, log_rest = self._matrix(shape)
+        # With the deviations as a last column, the factor's last element is the root of their P-square.
+        bordered = np.empty((len(matrix) + 1, len(matrix) + 1))
+        bordered[:-1, :-1], bordered[-1, :-1] = matrix, products[used]
+        bordered[-1, -1] = square * (1.0 + _HAIR) + _LEAST_SQUARE
+        factor = np.diag(cholesky(bordered))
+        log_determinant = log_rest + 2.0 * float(np.sum(np.log(factor[:-1])))
+        left = float(factor[-1]) ** 2
+        return -0.5 * log_determinant - 0.5 * self.freedom * float(np.log(left)), left
 
     def solved(self, shape: NoiseShape, deviation: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the coefficients of the base's columns and their covariance over σ², (p,) and (p, p)."""
-        own, (read, _) = self._equations(shape), self._read(shape.path, deviation)
+        matrix, used, _ = self._matrix(shape)
+        products, _ = self._read(shape.path, deviation)
         count = self._base.shape[1]
-        half = np.linalg.solve(own.lower, np.eye(len(own.lower))[:, :count])
-        values = half.T @ np.linalg.solve(own.lower, own.together.T @ read)
-        return values / self._lengths, half.T @ half / np.outer(self._lengths, self._lengths)
+        wanted = np.column_stack([np.eye(len(matrix))[:, :count], products[used]])
+        half = np.linalg.solve(cholesky(matrix), wanted)
+        values, covariance = half[:, :count].T @ half[:, count], half[:, :count].T @ half[:, :count]
+        return values / self._lengths, covariance / np.outer(self._lengths, self._lengths)
 
     def _read(self, path: float, deviation: FloatArray) -> tuple[FloatArray, float]:
+        """Return the products of all columns with deviations, whitened, and the square of these."""
         read = self.noise.whitening(path).of(deviation[:, np.newaxis])[:, 0]
-        return read, float(read @ read)
+        return self._of_path(path)[0].T @ read, float(read @ read)
 
-    def _equations(self, shape: NoiseShape) -> _Equations:
-        columns, gram = self._of_path(shape.path)
+    def _matrix(self, shape: NoiseShape) -> tuple[FloatArray, BoolArray, float]:
+        """Return the equations' matrix, which columns are in it, and ln|V| + ln|XᵀV⁻¹X| less its own ln."""
+        _, gram = self._of_path(shape.path)
         base, even = self._base.shape[1], self.noise.even.shape[1]
         sizes = np.concatenate(
             [
@@ -215,17 +228,11 @@ class NoiseModel:
             ]
         )
         used = sizes > 0
-        inside = gram[np.ix_(used, used)].copy()
-        inside[np.diag_indices_from(inside)] += 1.0 / sizes[used]
-        inside[np.diag_indices_from(inside)] *= 1.0 + _HAIR
-        lower = np.asarray(cholesky(inside), dtype=np.float64)
-        finite = sizes[used][np.isfinite(sizes[used])]
-        log_determinant = (
-            self.noise.whitening(shape.path).log_determinant
-            + 2.0 * float(np.sum(np.log(np.diag(lower))))
-            + float(np.sum(np.log(finite)))
-        )
-        return _Equations(lower, columns[:, used], log_determinant)
+        matrix = gram[np.ix_(used, used)]
+        diagonal = np.diag_indices_from(matrix)
+        matrix[diagonal] = (matrix[diagonal] + 1.0 / sizes[used]) * (1.0 + _HAIR)
+        finite = sizes[used & np.isfinite(sizes)]
+        return matrix, used, self.noise.whitening(shape.path).log_determinant + float(np.sum(np.log(finite)))
 
     def _of_path(self, path: float) -> tuple[FloatArray, FloatArray]:
         """Return all columns side by side, whitened, and their products."""
@@ -249,15 +256,14 @@ class NoiseFound:
     """The noise that readings show: its likely shapes, with their probabilities."""
 
     shapes: tuple[NoiseShape, ...]
-    whitened: tuple[Whitened, ...]
     weights: FloatArray
     #: Standard deviation of a single white reading, m.
     sigma: float
 
     @property
-    def best(self) -> Whitened:
-        """The readings under the likeliest shape."""
-        return self.whitened[int(np.argmax(self.weights))]
+    def likeliest(self) -> NoiseShape:
+        """The likeliest shape."""
+        return self.shapes[int(np.argmax(self.weights))]
 
     @property
     def rms(self) -> float:
@@ -273,14 +279,14 @@ def find_anew(model: NoiseModel, deviation: FloatArray, kept: Sequence[NoiseShap
     Evidence is weighed under the noise that readings show without an effect. Where the effect is many times
     the noise, they show another beside it.
     """
-    logs = np.array([model.log_likelihood(shape, deviation)[0] for shape in SHAPES])
+    logs = model.log_likelihoods(SHAPES, deviation)[:, 0]
     own = [index for index, shape in enumerate(SHAPES) if shape in kept]
     return 2.0 * float(np.logaddexp.reduce(logs) - np.logaddexp.reduce(logs[own]))
 
 
 def find_noise(model: NoiseModel, deviation: FloatArray) -> NoiseFound:
     """Return the noise by restricted likelihood, over a grid of shapes; those are kept that count."""
-    found = np.array([model.log_likelihood(shape, deviation) for shape in SHAPES])
+    found = model.log_likelihoods(SHAPES, deviation)
     weights = np.exp(found[:, 0] - found[:, 0].max())
     weights /= weights.sum()
     order = np.argsort(-weights)
@@ -289,4 +295,4 @@ def find_noise(model: NoiseModel, deviation: FloatArray) -> NoiseFound:
     share = weights[kept] / weights[kept].sum()
     sigma = float(np.sqrt(share @ found[kept, 1] / model.freedom))
     shapes = tuple(SHAPES[index] for index in kept.tolist())
-    return NoiseFound(shapes, tuple(model.under(shape) for shape in shapes), share, sigma)
+    return NoiseFound(shapes, share, sigma)

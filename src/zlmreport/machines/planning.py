@@ -154,8 +154,7 @@ def _compute_least_decision(
         ],
         axis=1,
     )
-    likeliest = study.noise.shapes[int(np.argmax(study.noise.weights))]
-    whitened = NoiseModel(CircleNoise(design), base, np.zeros((design.count, 0))).under(likeliest)
+    whitened = NoiseModel(CircleNoise(design), base, np.zeros((design.count, 0))).under(study.noise.likeliest)
     least = 1.0
     by_name = {each.effect.identifier: each for each in diagnosis.candidates}
     for one in between:
@@ -188,7 +187,7 @@ def _compute_normal(x: float) -> float:
 
 def find_visible_sizes(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> Iterator[VisibleSize]:
     """Yield the smallest size of each plain effect that circles show half of the time."""
-    whitened = study.noise.best
+    whitened = study.whitened
     for effect in catalogue:
         is_searched = any(each.is_refined for each in effect.searched)
         if is_searched or effect.is_base or effect.identifier in study.names:

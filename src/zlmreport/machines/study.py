@@ -12,7 +12,7 @@ from zlmreport.machines.course import CircularTest, Course
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
 from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.machine import Machine, predict
-from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, find_noise
+from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, Whitened, find_noise
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import Unit
 from zlmreport.model.effects.circle_effect import CircleEffect, CircleTerm, Estimate, SearchedParameter
@@ -146,6 +146,11 @@ class CircleStudy:
     def noise(self) -> NoiseFound:
         """The noise that the readings show under this model."""
         return find_noise(self.model, self.deviation)
+
+    @cached_property
+    def whitened(self) -> Whitened:
+        """The readings under the likeliest noise."""
+        return self.model.under(self.noise.likeliest)
 
     @cached_property
     def solution(self) -> tuple[FloatArray, FloatArray]:
