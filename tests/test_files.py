@@ -133,6 +133,7 @@ def test_a_disk_that_pushes_no_folders_is_good_enough(tmp_path, monkeypatch):
     push_folder(tmp_path)
 
 
+@pytest.mark.long
 def test_no_other_module_opens_a_file_to_write_it():
     modules = [*ROOT.glob("src/**/*.py"), *ROOT.glob("plugins/*/**/*.py")]
     found = {path.relative_to(ROOT).as_posix() for path in modules if any(map(_is_writing, _calls(path)))}

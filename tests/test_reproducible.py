@@ -135,10 +135,12 @@ def first(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     return _made(tmp_path_factory.mktemp("first"), Circumstances())
 
 
+@pytest.mark.long
 def test_every_installed_format_is_compared(first: dict[str, str]) -> None:
     assert len(first) == len(RENDERERS) > 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("circumstances", CIRCUMSTANCES.values(), ids=CIRCUMSTANCES)
 def test_the_same_job_gives_the_same_bytes(
     circumstances: Circumstances, first: dict[str, str], tmp_path: Path

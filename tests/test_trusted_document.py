@@ -42,6 +42,7 @@ def documents(registry: Registry, tmp_path_factory: pytest.TempPathFactory) -> d
     return {document.path.suffix: document.content for document in made.documents}
 
 
+@pytest.mark.long
 def test_its_pdf_keeps_what_it_claims(documents):
     assert complaints(documents[".pdf"]) == []
 
@@ -54,10 +55,12 @@ def test_its_digital_certificate_keeps_the_rules_of_ptb(documents):
     assert [each.text for each in found.successful_reports if each.role == "error"] == []
 
 
+@pytest.mark.long
 def test_it_holds(documents, registry, tmp_path):
     assert verify(_written(documents[".pdf"], tmp_path), registry).holds
 
 
+@pytest.mark.long
 def test_it_does_not_hold_with_a_single_stroke_more(documents, registry, tmp_path):
     altered = with_page_content(documents[".pdf"], 1, lambda content: content + b"\n0 0 m 9 9 l S")
 

@@ -26,6 +26,7 @@ def test_a_seed_makes_the_same_file_again() -> None:
     assert len(set(made)) > 40
 
 
+@pytest.mark.long
 @pytest.mark.early
 @pytest.mark.skipif(sys.platform != "linux", reason="processes are forked")
 def test_nothing_is_found_in_a_short_attack() -> None:
@@ -39,6 +40,7 @@ def sheet() -> bytes:
     return certificate("pdf-typst", layout="sheet")
 
 
+@pytest.mark.long
 def test_no_file_that_holds_shows_two_readers_two_things(sheet: bytes) -> None:
     drawn = list(attacked(sheet, seed=20261120, inputs=25))
     assert [told for _, _, told in drawn if told] == []

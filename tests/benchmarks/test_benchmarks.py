@@ -37,6 +37,7 @@ def run(*arguments: str | Path) -> CompletedProcess[str]:
     return processes.run(processes.PYTHON, BENCHMARKS, *arguments)
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_benchmarks_measure_on_the_smallest_sizes(tmp_path: Path) -> None:
     names = ("evaluation", "cold", "typst", "capture", "memory", "warm")
@@ -71,6 +72,7 @@ def test_documents_of_very_different_length_are_not_compared(monkeypatch: pytest
         alike.pages_of_same_document({}, short, long)
 
 
+@pytest.mark.long
 def test_the_coverage_of_stated_uncertainties_is_counted_for_each_budget() -> None:
     done = run("coverage", "--trials", "2", "--simulated", "50", "nmtba")
     assert done.returncode == 0, done.stderr
@@ -95,6 +97,7 @@ def test_the_coverage_of_whole_jobs_is_counted_for_each_world() -> None:
         ]
 
 
+@pytest.mark.long
 def test_the_coverage_of_each_quantity_is_counted_in_its_worlds_and_kept(tmp_path: Path) -> None:
     file = tmp_path / "kept.jsonl"
     sizes = ("--trials", "2", "--simulated", "50", "--world", "instrument", "--keep", file)
@@ -121,6 +124,7 @@ def test_the_page_prints_the_tables_of_hard_worlds_that_were_measured(
     assert worlds.tables(results) in page.read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_a_world_that_is_among_the_results_is_not_measured_again(tmp_path: Path) -> None:
     results = tmp_path / "worlds.jsonl"
     few = ("worlds", "--tests", "2", "--simulated", "50", "--results", results)

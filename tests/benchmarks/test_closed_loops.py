@@ -12,6 +12,7 @@ sys.path.append(str(ROOT / "benchmarks"))
 import closed_loops
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("source", closed_loops.SOURCES)
 def test_second_tests_lie_within_the_forecast(source: str) -> None:
     found = closed_loops.loops(source, 40)

@@ -13,6 +13,7 @@ from processes import PYTHON, run
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_the_nights_of_a_fleet_are_measured(tmp_path: Path) -> None:
     file = tmp_path / "results.json"

@@ -12,6 +12,7 @@ sys.path.append(str(ROOT / "benchmarks"))
 import fleet_trends
 
 
+@pytest.mark.long
 def test_a_fleet_in_which_nothing_changes_raises_few_alarms_and_shows_steps() -> None:
     found = fleet_trends.night("1/40, and 1/8 of every fiftieth axis", 7, 5, 300, 3)
     assert found.alarms.mean <= 1  # a fleet that spoke for its wild axes, too, named two a night

@@ -11,6 +11,7 @@ from processes import PYTHON, run
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_unchanged_nights_are_measured() -> None:
     text = "import fleet_unchanged as each; each._STEPS = (4, 2, 1); each.main(['--jobs', '4'])"

@@ -10,6 +10,7 @@ import pytest
 from machines_hidden import Case, run, simulated
 
 
+@pytest.mark.long
 def test_a_hidden_lag_is_named_and_measured_within_its_uncertainty() -> None:
     found = run(Case("both senses", "servo-mismatch", 2.0, seed=0))
     assert (found.outcome, found.named) == ("right", ["servo-mismatch"])

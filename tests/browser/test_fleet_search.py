@@ -102,5 +102,6 @@ def test_without_scripts_everything_is_shown(window: Callable[..., Page], page_f
     assert not page.locator("#tools").is_visible()
 
 
+@pytest.mark.long
 def test_what_is_due_is_a_list_with_the_earliest_first(page: Page) -> None:
     assert page.locator("section#due tbody th .content").all_inner_texts()[:2] == ["CAL-009", "CAL-008"]

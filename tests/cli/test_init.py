@@ -71,6 +71,7 @@ def test_starter_job_meets_every_requirement_and_limit(tmp_path: Path) -> None:
     assert evaluations[0].measurements.missing() == ()
 
 
+@pytest.mark.long
 def test_starter_job_makes_its_certificate(tmp_path: Path) -> None:
     main(["init", str(tmp_path)])
     run(*ZLMREPORT, "job.yaml", "--quiet", cwd=tmp_path, check=True)

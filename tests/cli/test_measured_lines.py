@@ -93,6 +93,7 @@ def test_each_line_has_results_budget_and_place_of_its_own(shop: Shop) -> None:
     assert "Square" not in [each["name"] for each in found["x"]["uncertainty"]["contributions"]]
 
 
+@pytest.mark.long
 def test_a_larger_uncertainty_of_the_square_is_one_of_the_angle(shop: Shop) -> None:
     small = results(shop, job())["evaluations"][0]["parameters"][0]["expanded_uncertainty"]
     coarse = job().replace("expanded_uncertainty: 0.5", "expanded_uncertainty: 5")
@@ -101,6 +102,7 @@ def test_a_larger_uncertainty_of_the_square_is_one_of_the_angle(shop: Shop) -> N
     assert large == pytest.approx(5.0, rel=0.05)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("layout", ["sheet", "full"])
 def test_a_certificate_of_several_lines_is_verified_from_what_it_carries_alone(
     shop: Shop, layout: str

@@ -22,6 +22,7 @@ def begin(shop: Shop) -> None:
     change(shop, (LAST, f"{LAST}    # all the rest is to be found\n"))
 
 
+@pytest.mark.long
 def test_a_build_finds_all_that_the_axis_has(shop: Shop) -> None:
     begin(shop)
     built = told(shop.run("model", "build", "job.yaml", "--json"))
@@ -36,6 +37,7 @@ def test_a_build_finds_all_that_the_axis_has(shop: Shop) -> None:
     assert fitted["error"]["rms"] == pytest.approx(built["steps"][-1]["rms_after"])
 
 
+@pytest.mark.long
 def test_the_job_has_the_effects_then_and_keeps_its_comments(shop: Shop) -> None:
     begin(shop)
     before = (shop.folder / "job.yaml").read_text(encoding="utf-8")
@@ -46,6 +48,7 @@ def test_the_job_has_the_effects_then_and_keeps_its_comments(shop: Shop) -> None
     assert sorted(added) == ["- screw-pitch"]
 
 
+@pytest.mark.long
 def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     begin(shop)
     before = (shop.folder / "job.yaml").read_bytes()
@@ -56,6 +59,7 @@ def test_a_build_on_trial_writes_nothing(shop: Shop) -> None:
     assert (shop.folder / "job.yaml").read_bytes() == before
 
 
+@pytest.mark.long
 def test_a_model_that_lacks_nothing_is_left_as_it_is(shop: Shop) -> None:
     shop.run("model", "add", "job.yaml", "screw-pitch")
     before = (shop.folder / "job.yaml").read_bytes()
@@ -70,6 +74,7 @@ def test_only_a_build_is_made_on_trial(shop: Shop) -> None:
     assert "--dry-run belongs to build, not to fit" in run.messages
 
 
+@pytest.mark.long
 def test_a_notebook_builds_as_the_command_does(shop: Shop) -> None:
     axis = {"name": "X", "kind": "linear", "travel": [0, 600], "screw_pitch": 10}
     model = z.fit(z.read(shop.folder / "x-axis.csv", axis=axis), ["offset", "scale-error", "backlash"])

@@ -41,6 +41,7 @@ def shop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     return shop
 
 
+@pytest.mark.long
 def test_tests_whose_models_describe_their_readings_teach_and_a_job_uses_it(shop: Shop) -> None:
     run = shop.run("model", "learn", "earlier", "-o", "priors.yaml")
     assert run.code == 0, run.messages
@@ -63,6 +64,7 @@ def test_tests_whose_models_describe_their_readings_teach_and_a_job_uses_it(shop
     assert "scale-expansion" in diagnosed.output
 
 
+@pytest.mark.long
 def test_the_certificate_carries_the_file_and_holds(shop: Shop) -> None:
     shop.write("priors.yaml", _PRIORS)
     assert shop.run("job.yaml", "-o", "out", "--format", "pdf-typst").code == 0
@@ -90,6 +92,7 @@ def test_a_file_that_says_something_else_is_refused(
     assert message in run.messages
 
 
+@pytest.mark.long
 def test_what_is_no_file_is_named_and_waited_for_by_nobody(shop: Shop) -> None:
     os.mkfifo(shop.folder / "earlier" / "pipe.yaml")
     (shop.folder / "earlier" / "folder.yaml").mkdir()

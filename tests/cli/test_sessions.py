@@ -23,6 +23,7 @@ def shop(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.Capture
     return Shop(tmp_path, capsys)
 
 
+@pytest.mark.long
 def test_what_one_test_leaves_open_a_second_decides_and_the_effect_is_added(shop: Shop) -> None:
     alone = shop.run("model", "diagnose", "cool.yaml", "--json").summary["candidates"][0]
     assert {alone["effect"], *alone["indistinguishable_from"]} == {"scale-error", "scale-expansion"}
@@ -50,6 +51,7 @@ def test_what_one_test_leaves_open_a_second_decides_and_the_effect_is_added(shop
     ]
 
 
+@pytest.mark.long
 def test_sessions_never_enter_the_evaluation_and_the_certificate_carries_their_files(shop: Shop) -> None:
     for name, formats in (("cool.yaml", "json"), ("together.yaml", "pdf-typst,json")):
         run = shop.run(name, "-o", "out", "--format", formats)

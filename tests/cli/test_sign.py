@@ -24,6 +24,7 @@ def key(tmp_path: Path) -> Path:
     return pkcs12_file(tmp_path / "laboratory.p12")
 
 
+@pytest.mark.long
 def test_a_pdf_is_signed_and_every_other_file_is_as_it_is_without(
     key: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

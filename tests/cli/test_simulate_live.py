@@ -37,6 +37,7 @@ def specification(tmp_path: Path) -> Path:
     return path
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_plan_machine_instrument_capture_and_certificate_go_together(specification: Path) -> None:
     """The readings are longer by Δn of the warm air, which the job is told to correct."""

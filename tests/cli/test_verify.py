@@ -43,6 +43,7 @@ def with_value(pdf: bytes, value: float) -> bytes:
     return with_results(pdf, lambda results: results["evaluations"][0]["parameters"][0].update(value=value))
 
 
+@pytest.mark.long
 def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes, run: Run) -> None:
     code, output, messages = run(report)
     assert (code, messages) == (0, "")
@@ -56,6 +57,7 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     assert "  P        7.2563      7.2563  holds" in others
 
 
+@pytest.mark.long
 def test_a_german_certificate_is_told_in_german(run: Run, tmp_path: Path) -> None:
     german = LABORATORY.replace("kind: report", "kind: report, language: de")
     pdf = issue(lay_out(tmp_path / "de", laboratory=german))
@@ -72,6 +74,7 @@ def test_a_german_certificate_is_told_in_german(run: Run, tmp_path: Path) -> Non
     assert run(pdf, "--json")[1].count('"verdict": "holds"') > 1
 
 
+@pytest.mark.long
 def test_a_certificate_that_does_not_hold_ends_with_1_and_says_what_differs(report: bytes, run: Run) -> None:
     code, output, messages = run(with_value(report, 7.25))
     assert (code, messages) == (1, "")
@@ -79,11 +82,13 @@ def test_a_certificate_that_does_not_hold_ends_with_1_and_says_what_differs(repo
     assert "  P          7.25      7.2563  differs\n" in output
 
 
+@pytest.mark.long
 def test_as_many_digits_are_shown_as_tell_two_numbers_apart(report: bytes, run: Run) -> None:
     _, output, _ = run(with_value(report, 7.2563142))
     assert ["P", "7.2563142", "7.2563143", "differs"] in [line.split() for line in output.splitlines()]
 
 
+@pytest.mark.long
 def test_each_place_that_an_altered_reading_changes_is_told(report: bytes, run: Run) -> None:
     readings = READINGS.replace("200,+,2,3.1", "200,+,2,8.1").encode()
     code, output, _ = run(with_attachment(report, "x-axis.csv", readings))
@@ -92,6 +97,7 @@ def test_each_place_that_an_altered_reading_changes_is_told(report: bytes, run: 
     assert "differs  nmtba 200.0 mean_fwd: 3 is stated, and 5.5 recomputed" in output
 
 
+@pytest.mark.long
 def test_machines_read_every_finding(report: bytes, run: Run) -> None:
     code, output, _ = run(with_value(report, 7.25), "--json")
     found = json.loads(output)
@@ -126,6 +132,7 @@ def test_without_a_file_the_command_says_what_it_takes(capsys: pytest.CaptureFix
     assert "FILE.pdf" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_what_a_foreign_file_says_of_itself_does_not_steer_the_terminal(report: bytes, run: Run) -> None:
     def change(results: dict) -> None:
         results["certificate"]["title"] = "\x1b[2J\u202eReport"

@@ -99,6 +99,7 @@ def test_each_has_the_numbers_and_the_unit_that_it_has_alone(shop: Shop) -> None
         assert numbers[0] == numbers[1]
 
 
+@pytest.mark.long
 def test_what_the_document_says_holds_for_all_of_them(shop: Shop) -> None:
     decided = results(shop, whole())["parts"]["EXX"]["evaluations"][0]["parameters"][0]["decision"]
     assert decided["statement"] == "undecided"  # by guard-band, the document's rule; its own is simple
@@ -122,6 +123,7 @@ def test_the_numbers_of_each_are_told_apart_in_a_table(shop: Shop) -> None:
     assert (shop.folder / "MACHINE-1.xlsx").stat().st_size > 0
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("formats", "layout"), [("pdf, json, dcc", "standard"), ("pdf-typst, json", "sheet")]
 )

@@ -97,6 +97,7 @@ def made(
     return Made(job, tuple(written), laid_out)
 
 
+@pytest.mark.long
 def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(made: Made) -> None:
     stem = made.job.keys.certificate.number
     suffixes = {"dcc": "xml"}
@@ -118,6 +119,7 @@ def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> No
     assert not {where: what for where, what in found.items() if what}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("press", ["pdf", "pdf-typst"])
 @pytest.mark.parametrize(
     ("example", "layout"),

@@ -25,6 +25,7 @@ def reader(tmp_path_factory: pytest.TempPathFactory, zlmreport_distribution: Dis
     return Environment(folder)
 
 
+@pytest.mark.long
 def test_the_guide_leads_to_a_certificate(
     reader: Environment, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -53,17 +53,20 @@ def _diagnosis(rows: list[tuple[float, int, int, float]]) -> Diagnosis:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", VERDICTS)
 def test_no_verdict_rests_on_the_labels_of_the_directions(name: str) -> None:
     rows = _rows(name)
     assert [_diagnosis(each).verdict for each in (rows, _exchanged(rows))] == 2 * [VERDICTS[name]]
 
 
+@pytest.mark.long
 def test_readings_that_stand_off_become_the_first_two_of_the_test() -> None:
     found = _diagnosis(_exchanged(_rows("ecmc_1139bca6")))
     assert found.outliers.tolist() == [0, 1]
 
 
+@pytest.mark.long
 def test_the_drift_of_y_is_named_beside_what_nobody_knows_along_the_axis() -> None:
     rows = _rows("ecmc_13e6c326")
     for each in (rows, _exchanged(rows)):

@@ -56,6 +56,7 @@ def fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
     return fleet
 
 
+@pytest.mark.long
 def test_a_night_writes_once_what_its_tests_teach_and_the_next_tests_build_on_it(fleet: Fleet) -> None:
     folder = fleet.folder / "knowledge"
     first = fleet.spend()
@@ -75,6 +76,7 @@ def test_a_night_writes_once_what_its_tests_teach_and_the_next_tests_build_on_it
     assert "tests: 2\n" in third.priors[0].read_text(encoding="utf-8")
 
 
+@pytest.mark.long
 def test_a_folder_that_cannot_be_written_is_told_and_stops_nothing(fleet: Fleet) -> None:
     fleet.write("knowledge", "a file is in the way")
     witness = fleet.spend()

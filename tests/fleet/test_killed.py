@@ -13,6 +13,7 @@ from processes import PYTHON, run
 KILLS = 12
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_nights_killed_at_random_moments_are_made_good_by_the_next(tmp_path: Path) -> None:
     script = Path(__file__).with_name("kill_nights.py")

@@ -164,6 +164,7 @@ def kind_of(line: str) -> str:
     return next((kind for word, kind in words.items() if word in line), line)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 2, 3, 10])
 def test_every_document_is_right_and_every_event_told_once(
     seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

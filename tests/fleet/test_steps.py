@@ -273,6 +273,7 @@ def test_a_step_of_a_third_of_the_limit_is_seen_at_once_after_four_tests(scatter
     assert at_least(0.95, np.concatenate(seen))
 
 
+@pytest.mark.long
 @FLEETS
 def test_the_smallest_step_that_is_printed_is_seen_at_once(scatters: np.ndarray) -> None:
     """Each axis steps by what is printed for it, be it more than a third of the limit or less."""

@@ -122,6 +122,7 @@ def test_the_chance_of_a_slope_is_kept_by_series_that_do_not_drift(number: int) 
 FLEETS = 300
 
 
+@pytest.mark.long
 def test_a_fleet_that_does_not_drift_names_somebody_no_more_often_than_stated() -> None:
     """Twelve axes with three parameters each, which are read off the same readings."""
     random = np.random.default_rng(20261121)
@@ -138,6 +139,7 @@ def test_a_fleet_that_does_not_drift_names_somebody_no_more_often_than_stated() 
     assert alarms <= most
 
 
+@pytest.mark.long
 def test_of_the_axes_that_are_named_few_are_named_by_accident() -> None:
     """Two of ten axes drift by 2 µm a year; the others are named in no more than the stated share."""
     random = np.random.default_rng(7)
@@ -157,6 +159,7 @@ def test_of_the_axes_that_are_named_few_are_named_by_accident() -> None:
     assert found > 2 * FLEETS * 0.9
 
 
+@pytest.mark.long
 def test_a_drift_of_one_scatter_a_quarter_is_found_in_two_years_as_often_as_documented() -> None:
     """Of 25 axes with twelve parameters one drifts; a quarter of the variance is a parameter's own."""
     random = np.random.default_rng(8)

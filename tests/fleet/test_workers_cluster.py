@@ -92,6 +92,7 @@ def test_a_ledger_in_postgresql_has_all_that_a_cluster_with_a_killed_worker_made
         assert set(witness.what.values()) == {What.UNCHANGED}
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_a_night_whose_scheduler_is_killed_says_so_and_the_next_makes_what_is_left(
     scheduler: str, tmp_path: Path

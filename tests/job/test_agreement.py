@@ -117,6 +117,7 @@ def test_many_keys_are_tried() -> None:
     assert ("instrument", "expanded_uncertainty") in PATHS
 
 
+@pytest.mark.long
 @given(path=st.sampled_from(PATHS), value=st.sampled_from(VALUES))
 @settings(max_examples=300)
 def test_a_value_that_fits_is_taken_and_one_that_does_not_is_refused(

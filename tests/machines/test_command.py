@@ -13,6 +13,7 @@ def values(capsys, *arguments):
     return json.loads(capsys.readouterr().out)
 
 
+@pytest.mark.long
 def test_ten_minutes_tell_that_the_y_drive_lags(folder, capsys):
     path = folder / "machine.yaml"
     before = path.read_text(encoding="utf-8")
@@ -39,6 +40,7 @@ def test_ten_minutes_tell_that_the_y_drive_lags(folder, capsys):
     assert path.read_text(encoding="utf-8") == before
 
 
+@pytest.mark.long
 def test_build_writes_what_it_found(folder, capsys):
     path = folder / "machine.yaml"
     built = values(capsys, "machine", "build", path, "--dry-run")
@@ -114,6 +116,7 @@ def test_a_mistake_in_a_table_is_told_with_its_place(folder, capsys, old, new, s
     assert said in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_a_certificate_is_read_back_with_its_uncertainty(folder, capsys):
     assert (
         main([str(folder / "x-positioning.yaml"), "--quiet", "--format", "pdf,json", "-o", str(folder)]) == 0
@@ -128,6 +131,7 @@ def test_a_certificate_is_read_back_with_its_uncertainty(folder, capsys):
             assert found["tests"][0][key] == pytest.approx(by_job["tests"][0][key], rel=1e-9)
 
 
+@pytest.mark.long
 def test_the_notebook_says_the_same(folder):
     machine = z.machine(folder / "machine.yaml")
     assert machine.diagnose().missing == ("servo-mismatch",)
@@ -138,6 +142,7 @@ def test_the_notebook_says_the_same(folder):
         machine.add("servo-missmatch")
 
 
+@pytest.mark.long
 def test_where_the_bar_stands_belongs_into_every_model(folder, capsys):
     """A file without a model finds the same: neither centre nor length of the bar hides what is missing."""
     path = folder / "machine.yaml"
@@ -174,6 +179,7 @@ def test_files_that_are_not_there_are_told_with_all_other_mistakes(folder, capsy
     assert "lost.yaml: cannot be read" in said
 
 
+@pytest.mark.long
 def test_what_lies_beyond_its_uncertainty_is_not_said_to_be_absent(folder, capsys):
     beside = _diagnosis(folder / "machine.yaml", capsys)["beside"]
     parameters = [each for effect in beside for each in effect["parameters"]]

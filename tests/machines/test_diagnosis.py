@@ -41,6 +41,7 @@ CAUSES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("name", "plane"),
     [*((name, "XY") for name in CAUSES), *(("squareness", plane) for plane in ("YZ", "ZX")),
@@ -70,11 +71,13 @@ def test_a_hidden_cause_is_named_and_measured(name, plane):
     assert own.expanded_uncertainty < 0.5 * abs(value)
 
 
+@pytest.mark.long
 def test_a_healthy_machine_raises_few_alarms():
     alarms = sum(diagnosed(circle(nothing, seed=seed)).verdict is not Verdict.ADEQUATE for seed in range(8))
     assert alarms <= 2
 
 
+@pytest.mark.long
 def test_two_causes_are_found_beside_each_other():
     both = added(lagging(0.0, 0.4e-3), unequal_scales(20 * MICRO, 0.0))
     found = diagnosed(circle(both, seed=2, repeats=2))
@@ -82,6 +85,7 @@ def test_two_causes_are_found_beside_each_other():
     assert found.remainder is None
 
 
+@pytest.mark.long
 def test_in_one_sense_squareness_and_servo_mismatch_are_one_thing():
     found = diagnosed(circle(out_of_square(20 * MICRO), seed=2, senses=(1,)))
     values = collect_diagnosis(found, (), ())
@@ -93,6 +97,7 @@ def test_in_one_sense_squareness_and_servo_mismatch_are_one_thing():
     assert "cannot tell them apart" in values["statement"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(2))
 def test_five_lobes_are_nobodys(seed):
     plain = circle(nothing, seed=seed)
@@ -102,6 +107,7 @@ def test_five_lobes_are_nobodys(seed):
     assert found.remainder is not None
 
 
+@pytest.mark.long
 def test_the_axes_uncertainty_is_no_missing_effect():
     """Scales known to ± 40 µm/m cannot show that they differ by 15 µm/m."""
     curves = [straight_curve("EXX", 0.5), straight_curve("EYY", 0.5)]
@@ -114,6 +120,7 @@ def test_the_axes_uncertainty_is_no_missing_effect():
     assert diagnosed(seen, machine=bare_machine(unsure)).verdict is Verdict.ADEQUATE
 
 
+@pytest.mark.long
 def test_two_feeds_tell_cross_talk_from_squareness():
     def bending(path):
         acceleration = -(path.du**2 + path.dv**2) * path.u / (path.u**2 + path.v**2)
@@ -125,6 +132,7 @@ def test_two_feeds_tell_cross_talk_from_squareness():
     assert found.found[:1] == ("dynamic-cross-talk",)
 
 
+@pytest.mark.long
 def test_the_steps_of_a_build_fall():
     both = added(lagging(0.0, 0.4e-3), unequal_scales(20 * MICRO, 0.0))
     values = build_values(diagnosed(circle(both, seed=2, repeats=2)))
@@ -133,6 +141,7 @@ def test_the_steps_of_a_build_fall():
     assert values["verdict"] == "adequate"
 
 
+@pytest.mark.long
 def test_twelve_turns_take_less_than_thirty_seconds():
     import time
 
@@ -155,6 +164,7 @@ def test_twelve_turns_take_less_than_thirty_seconds():
     assert apart == pytest.approx({"T_X-T_Y": -0.3e-3, "T_Y-T_Z": 0.2e-3}, abs=0.03e-3)
 
 
+@pytest.mark.long
 def test_lags_that_do_not_close_over_three_planes_are_nobodys():
     """In each plane the second axis lags behind the first: no three drives can do that."""
     circles = [
@@ -166,6 +176,7 @@ def test_lags_that_do_not_close_over_three_planes_are_nobodys():
     assert found.found == ()
 
 
+@pytest.mark.long
 def test_few_readings_and_part_of_a_circle_are_diagnosed_too():
     few = diagnosed(circle(out_of_square(60 * MICRO), seed=3, count=24))
     assert few.found == ("squareness",)
@@ -175,6 +186,7 @@ def test_few_readings_and_part_of_a_circle_are_diagnosed_too():
     assert diagnosed(whole.of(kept)).found == ("squareness",)
 
 
+@pytest.mark.long
 def test_a_model_without_anything_begins_with_where_the_bar_stands():
     found = diagnosed(circle(lagging(0.0, 0.3e-3), seed=1), effects=())
     assert set(found.found) == {"radius", "centre-offset", "servo-mismatch"}

@@ -3,6 +3,7 @@
 import json
 
 import pypdf
+import pytest
 
 from zlmreport.cli import main
 from zlmreport.plugin.registry import find_plugins
@@ -21,6 +22,7 @@ def text(path):
     return "\n".join(page.extract_text() for page in pypdf.PdfReader(path).pages)
 
 
+@pytest.mark.long
 def test_it_says_what_is_known_and_what_is_missing_and_holds(folder):
     path = made(folder)
     said = text(path)
@@ -31,6 +33,7 @@ def test_it_says_what_is_known_and_what_is_missing_and_holds(folder):
     assert len(found.values) > 0
 
 
+@pytest.mark.long
 def test_a_changed_reading_is_found(folder):
     """The document of other readings, with the results file of these, does not hold."""
     path = made(folder)
@@ -49,6 +52,7 @@ def test_a_changed_reading_is_found(folder):
     assert verify(changed, find_plugins()).holds is False
 
 
+@pytest.mark.long
 def test_a_sheet_is_one_page_and_german_is_german(folder):
     path = made(folder, layout="sheet", language="de")
     assert len(pypdf.PdfReader(path).pages) <= 2

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
+
 from model.axis_tests import EFFECTS, model_of
 from model.hidden_effect import example_diagnosis
 from zlmreport.model.diagnosis.building import build
@@ -13,6 +15,7 @@ from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
 
 
+@pytest.mark.long
 def test_two_effects_that_each_take_the_place_of_the_other_end_a_build() -> None:
     example = example_diagnosis()
     asked: list[tuple[str, ...]] = []

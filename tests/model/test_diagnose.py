@@ -78,6 +78,7 @@ def _hiding(effect: str) -> Diagnosis:
     return _diagnosis(hidden(design, effect, HIDDEN[effect], size=1.5), design=design)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("effect", HIDDEN)
 def test_a_hidden_effect_is_named_first_or_among_its_equals(effect: str) -> None:
     found = _hiding(effect)
@@ -85,6 +86,7 @@ def test_a_hidden_effect_is_named_first_or_among_its_equals(effect: str) -> None
     assert effect in {found.candidates[0].identifier, *found.candidates[0].equals}
 
 
+@pytest.mark.long
 def test_a_parameter_that_is_given_its_true_value_leaves_nothing_to_be_found() -> None:
     """What a given value makes of the readings is no part of what the comparison is about."""
     free = _diagnosis(0.0)
@@ -107,6 +109,7 @@ def screw() -> Diagnosis:
     return _diagnosis(hidden(DESIGN, "screw-pitch", [0.01], size=2.0))
 
 
+@pytest.mark.long
 def test_adding_the_effect_takes_the_error_to_the_noise() -> None:
     first, floor = screw().candidates[0], screw().error.noise_rms
     assert floor is not None
@@ -134,6 +137,7 @@ def test_candidates_come_best_first_with_probabilities_of_one_whole() -> None:
     assert screw().candidates[0].probability > 0.95
 
 
+@pytest.mark.long
 def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -> None:
     found = [_diagnosis(0.0, seed=seed) for seed in range(10)]
     # Each is a false alarm with 5 %: of ten, three or more are with 1 %.
@@ -143,6 +147,7 @@ def test_where_nothing_is_missing_the_model_is_adequate_and_nothing_is_named() -
     assert quiet.remainder is None
 
 
+@pytest.mark.long
 def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     place = DESIGN.position
     shape = (
@@ -154,6 +159,7 @@ def test_a_shape_that_no_effect_has_is_left_without_a_name() -> None:
     assert found.remainder.rms > 0.5 * SIGMA
 
 
+@pytest.mark.long
 def test_what_is_left_without_a_name_is_described_by_its_shape() -> None:
     smooth = np.exp(-0.5 * ((DESIGN.time / DESIGN.duration - 0.6) / 0.06) ** 2)
     found = _diagnosis(5e-6 * smooth)
@@ -163,6 +169,7 @@ def test_what_is_left_without_a_name_is_described_by_its_shape() -> None:
     assert found.remainder.low < 0.6 * DESIGN.duration < found.remainder.high
 
 
+@pytest.mark.long
 def test_two_missing_effects_are_found_together_and_one_after_another() -> None:
     both = hidden(DESIGN, "screw-pitch", [0.01], size=1.5) + hidden(
         DESIGN, "thermal-drift", [300.0], size=1.5
@@ -188,6 +195,7 @@ def test_effects_with_the_same_columns_are_named_together_with_what_tells_them_a
     assert "beam" in first.discriminate_by.en
 
 
+@pytest.mark.long
 def test_what_cannot_be_tried_is_said_and_named_where_it_would_look_alike() -> None:
     bare = replace(DESIGN, conditions={})
     found = _diagnosis(hidden(DESIGN, "thermal-growth", [300.0], size=2.0), design=bare)
@@ -197,6 +205,7 @@ def test_what_cannot_be_tried_is_said_and_named_where_it_would_look_alike() -> N
     assert {"scale-expansion", "screw-expansion"} <= set(found.not_excluded)
 
 
+@pytest.mark.long
 def test_effects_of_another_kind_of_axis_are_not_named_as_alike() -> None:
     found = _diagnosis(hidden(DESIGN, "periodic", [0.31], size=2.0))
     assert found.candidates[0].identifier == "periodic"
@@ -217,6 +226,7 @@ def test_of_two_that_explain_as_much_the_one_that_assumes_less_leads() -> None:
     assert first.evidence < second.evidence
 
 
+@pytest.mark.long
 def test_readings_that_stand_off_one_after_another_are_not_set_aside() -> None:
     block = np.zeros(len(DESIGN.position))
     block[60:66] = 9e-6
@@ -231,6 +241,7 @@ def test_drift_that_the_linear_method_hides_in_the_scatter_is_found() -> None:
     assert "lack-of-fit" not in {each.test.value for each in found.failures}
 
 
+@pytest.mark.long
 def test_a_broken_reading_is_set_aside_and_does_not_hide_the_effect() -> None:
     added = hidden(DESIGN, "screw-pitch", [0.01], size=1.5)
     added[[40, 130]] += [25e-6, -25e-6]
@@ -240,11 +251,13 @@ def test_a_broken_reading_is_set_aside_and_does_not_hide_the_effect() -> None:
     assert "outliers" in {each.test.value for each in found.failures}
 
 
+@pytest.mark.long
 def test_the_same_readings_give_the_same_diagnosis() -> None:
     added = hidden(DESIGN, "screw-expansion", size=1.0)
     assert json.dumps(report(_diagnosis(added))) == json.dumps(report(_diagnosis(added)))
 
 
+@pytest.mark.long
 def test_the_unit_of_the_deviations_changes_no_verdict() -> None:
     readings = known(DESIGN) + realistic_noise(DESIGN) + hidden(DESIGN, "screw-expansion", size=1.0)
     found = [diagnose(USUAL, observations(DESIGN, scale * readings), INSTALLED) for scale in (1.0, 7.0)]
@@ -254,6 +267,7 @@ def test_the_unit_of_the_deviations_changes_no_verdict() -> None:
     assert found[1].candidates[0].evidence == pytest.approx(found[0].candidates[0].evidence, rel=1e-6)
 
 
+@pytest.mark.long
 def test_a_pendulum_test_hides_warm_up_and_the_diagnosis_says_so() -> None:
     shares = {}
     for name, design in (("linear", DESIGN), ("pendulum", pendulum_test())):
@@ -339,6 +353,7 @@ def test_the_share_that_is_done_is_told_and_grows() -> None:
     assert 0.4 < shares[-1] <= 1
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("effect", "theta", "size", "asked"),
     [
@@ -359,6 +374,7 @@ def test_what_is_large_leads_and_is_asked_for(
     assert asked in leading.question.in_language(Language.ENGLISH)
 
 
+@pytest.mark.long
 def test_a_rising_line_is_no_cosine_error() -> None:
     rising = 20e-6 * DESIGN.position + noise(DESIGN)
     found = diagnose(model_of("offset"), observations(DESIGN, rising), INSTALLED)
@@ -367,6 +383,7 @@ def test_a_rising_line_is_no_cosine_error() -> None:
     assert "cosine-error" not in leading.equals
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("size", [6e-6, 10e-6])
 def test_what_is_left_beside_a_bow_is_told_and_is_no_larger_than_what_the_whole_set_leaves(
     size: float,

@@ -37,6 +37,7 @@ def _wave_through_nodes(position: FloatArray, pitch: float) -> FloatArray:
     return 3e-6 * np.interp(turns, nodes, np.sin(2 * np.pi * nodes))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("design", "sigma"), [(_LINEAR, 0.0), (_LINEAR, 3e-8), (_PENDULUM, 1e-9), (_PENDULUM, 3e-7)]
 )
@@ -46,11 +47,13 @@ def test_pitch_error_is_named_however_little_the_readings_scatter(design: Design
     assert _named(found) == (Verdict.MISSING, "screw-pitch")
 
 
+@pytest.mark.long
 def test_expansion_of_the_scale_keeps_its_name_on_a_quiet_machine() -> None:
     found = _diagnosed(_LINEAR, hidden(_LINEAR, "scale-expansion") + noise(_LINEAR, sigma=1e-9))
     assert _named(found) == (Verdict.MISSING, "scale-expansion")
 
 
+@pytest.mark.long
 def test_rounding_that_repeats_is_no_irregular_geometry() -> None:
     exact = hidden(_LINEAR, "screw-pitch", [0.01], size=3.0) + noise(_LINEAR, sigma=1e-8)
     found = _diagnosed(_LINEAR, np.round(exact / 5e-7) * 5e-7)

@@ -128,6 +128,7 @@ def test_a_period_is_in_the_words_in_both_languages(name: str, period: float) ->
     assert (low * high) ** 0.5 == pytest.approx(period * (1e3 if period < 1 else 1), rel=0.06)
 
 
+@pytest.mark.long
 def test_noise_alone_is_rarely_given_a_form() -> None:
     assert sum(_left(0.0, seed=100 + seed) is not None for seed in range(20)) <= 1
 

@@ -100,6 +100,7 @@ def test_scatter_that_grows_along_the_axis_is_known_at_both_ends(ends: tuple[flo
     assert np.median(ratios) == pytest.approx((last / first) ** 2, rel=0.45)
 
 
+@pytest.mark.long
 def test_even_scatter_grows_in_one_test_of_a_hundred() -> None:
     p_values = [spread_tests(DESIGN, noise(DESIGN, seed))[0].p_value for seed in range(200)]
     assert spread_tests(DESIGN, noise(DESIGN))[0].factor is SpreadFactor.GROWTH

@@ -42,6 +42,7 @@ def _diagnosed(observed: Observations) -> Diagnosis:
     return diagnose(add_zeros(_STRAIGHT, observed.design), observed, INSTALLED)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("hidden", ["scale-expansion", "scale-error"])
 def test_two_temperatures_decide_what_one_leaves_open(hidden: str) -> None:
     cool, warm = _session(2.0, 1, hidden), _session(5.0, 2, hidden, zero=-7e-6)
@@ -52,6 +53,7 @@ def test_two_temperatures_decide_what_one_leaves_open(hidden: str) -> None:
     assert together.probability > 0.95  # odds of 20 to 1
 
 
+@pytest.mark.long
 def test_two_tests_at_one_temperature_decide_nothing() -> None:
     cool, again = (_session(2.0, seed, "scale-expansion") for seed in (1, 2))
     leading = _diagnosed(hold_together(cool, [("again.yaml", again)])).candidates[0]

@@ -39,12 +39,14 @@ def _hiding(*effects: tuple[str, list[float]], design: Design = DESIGN, size: fl
     return np.asarray(np.sum(parts, axis=0) + 4e-6 + noise(design))
 
 
+@pytest.mark.long
 def test_three_causes_are_found_from_an_empty_model() -> None:
     found = _found(_hiding(("backlash", []), ("screw-pitch", [0.01]), ("thermal-drift", [300.0])))
     assert _names(found) == {"backlash", "screw-pitch", "thermal-drift"}
     assert found.unnamed == ()
 
 
+@pytest.mark.long
 def test_causes_are_found_beside_a_bump_that_nobody_knows() -> None:
     bump = 6 * SIGMA * np.exp(-4 * np.log(2) * ((DESIGN.position - 0.42) / 0.12) ** 2)
     found = _found(_hiding(("backlash", []), ("thermal-drift", [300.0])) + bump)
@@ -54,6 +56,7 @@ def test_causes_are_found_beside_a_bump_that_nobody_knows() -> None:
     assert left.theta == pytest.approx([0.42, 0.12], abs=0.03)
 
 
+@pytest.mark.long
 def test_a_random_curve_of_the_axis_is_no_polynomial() -> None:
     random = np.random.default_rng(3)
     values = np.convolve(random.standard_normal(60), np.hanning(9), "valid")
@@ -70,6 +73,7 @@ def test_a_wave_in_time_leaves_the_bow_of_the_reversal_to_the_bow() -> None:
     assert _names(found) == {"backlash-bow", "time-periodic"}
 
 
+@pytest.mark.long
 def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
     stretch = 4 * SIGMA * ((DESIGN.position > 0.32) & (DESIGN.position < 0.58))
     found = _found(_hiding(("backlash", [])) + stretch)
@@ -79,6 +83,7 @@ def test_a_stretch_that_is_displaced_is_no_pair_of_joints() -> None:
     assert left.theta == pytest.approx([0.45, 0.26], abs=0.06)
 
 
+@pytest.mark.long
 def test_an_effect_for_which_others_may_stand_has_less_evidence_than_the_set_loses_without_it() -> None:
     curve = 3 * SIGMA * np.sin(9.0 * DESIGN.position**2)
     search = SetSearch(_contest(_hiding(("scale-kink", [0.6]), ("backlash", [])) + curve))
@@ -150,6 +155,7 @@ def test_of_the_forms_of_an_effect_one_is_chosen() -> None:
     assert member.effect.settings.model_dump()["harmonics"] in {(1,), (1, 2)}
 
 
+@pytest.mark.long
 def test_a_search_gives_the_same_set_whatever_the_unit() -> None:
     deviation = _hiding(("backlash", []), ("thermal-drift", [300.0]))
     one, other = (_found(each) for each in (deviation, deviation / 7))  # smaller is as usual

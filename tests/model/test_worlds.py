@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from model.axis_tests import USUAL, known, linear_test, model_of, noise
 from model.worlds import (
@@ -26,17 +27,20 @@ def _said(diagnosis: Diagnosis) -> str:
     return write_verdict_statement(diagnosis).in_language(Language.ENGLISH)
 
 
+@pytest.mark.long
 def test_axis_with_a_bent_scale_and_lost_motion_is_known_from_nothing() -> None:
     found = diagnosed(model_of("offset"), _DESIGN, known(_DESIGN) + noise(_DESIGN))
     assert {each.identifier for each in found.together} == {"polynomial", "backlash"}
     assert found.leaves_noise
 
 
+@pytest.mark.long
 def test_noise_that_lasts_over_a_few_readings_is_noise() -> None:
     readings = known(_DESIGN) + lasting_noise(_DESIGN, 0.6)
     assert diagnosed(USUAL, _DESIGN, readings).verdict is Verdict.ADEQUATE
 
 
+@pytest.mark.long
 def test_second_joint_comes_in_beside_the_first() -> None:
     design = linear_test(13, 3)
     readings = straight(design) + joints(design) + noise(design)
@@ -54,6 +58,7 @@ def test_air_that_was_corrected_twice_is_named_and_asked_for() -> None:
     assert "corrected twice" in leading.question.in_language(Language.ENGLISH)
 
 
+@pytest.mark.long
 def test_zero_that_moved_in_a_night_is_a_step_of_the_zero() -> None:
     design = with_night(_DESIGN, run=2)
     found = diagnosed(USUAL, design, known(design) + noise(design) + 3e-6 * (design.run > 2))
@@ -68,6 +73,7 @@ def test_pitch_that_the_readings_contradict_is_said_beside_that_of_the_job() -> 
     assert "12.0 mm fits, the job says 10.0 mm" in said
 
 
+@pytest.mark.long
 def test_millimetres_for_micrometres_are_told_before_any_cause() -> None:
     readings = 1e-3 * (straight(_DESIGN) + noise(_DESIGN))
     said = _said(diagnosed(model_of("offset"), _DESIGN, readings))

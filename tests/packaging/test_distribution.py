@@ -153,6 +153,7 @@ def test_the_installed_entry_points_are_those_of_this_tree(metadata: dict[str, A
     assert installed == metadata["entry-points"], "entry points are metadata: install again"
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("project", "roots"),
     [(ROOT, ["src", "plugins/zlmreport_plugins", "plugins/zlmreport_step_gauge"]), (HOUSE_STANDARD, ["src"])],
@@ -165,6 +166,7 @@ def test_every_library_that_is_imported_comes_with_the_dependencies(project: Pat
     assert not lacking, f"imported, but no dependency in {project.name}'s pyproject.toml: {lacking}"
 
 
+@pytest.mark.long
 def test_every_library_that_development_imports_comes_with_the_group_test() -> None:
     declared = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     available = declared["project"]["dependencies"] + declared["dependency-groups"]["test"]

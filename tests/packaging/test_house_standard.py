@@ -22,18 +22,21 @@ def outcome(house_environment: Environment, tmp_path_factory: pytest.TempPathFac
     return folder / "out"
 
 
+@pytest.mark.long
 def test_it_is_listed_with_its_distribution(house_environment: Environment, tmp_path: Path) -> None:
     listed = house_environment.run("zlmreport", "plugins", folder=tmp_path).stdout
     (line,) = (line for line in listed.splitlines() if "house:ha-1" in line)
     assert "zlmreport-house-standard" in line
 
 
+@pytest.mark.long
 def test_it_is_not_there_without_being_installed(environment: Environment, tmp_path: Path) -> None:
     done = environment.run("zlmreport", "plugins", folder=tmp_path)
     assert done.returncode == 0, done.stderr
     assert "house:ha-1" not in done.stdout
 
 
+@pytest.mark.long
 def test_its_results_are_those_of_the_worked_example(outcome: Path) -> None:
     results = json.loads((outcome / "HA-EXAMPLE-1.json").read_bytes())
     (evaluation,) = results["evaluations"]
@@ -57,6 +60,7 @@ def test_its_certificate_is_a_pdf_with_its_words(outcome: Path) -> None:
     assert "weighted total deviation" in text
 
 
+@pytest.mark.long
 def test_its_tests_pass_with_nothing_but_the_public_kit(
     house_environment: Environment, tmp_path: Path
 ) -> None:

@@ -23,6 +23,7 @@ model: {effects: [{name: my-wave, formula: "a*P", parameters: {a: {unit: um/m, r
 """
 
 
+@pytest.mark.long
 def test_skeletons_and_examples_pass(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

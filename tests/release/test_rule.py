@@ -16,6 +16,7 @@ __all__ = ["by_typst", "issued"]  # fixtures
 RELEASES = {"0.9.0": {"results": "a"}, "0.10.0": {"results": "b", "texts de": "c"}}
 
 
+@pytest.mark.long
 def test_what_this_release_gives_is_what_it_gave_or_its_version_has_risen(
     issued: bytes, by_typst: bytes
 ) -> None:
@@ -39,6 +40,7 @@ def test_a_change_asks_for_another_version(version: str, results: str, complaint
     assert said == (f"{complaint}. Raise the version: ./run release raise" if complaint else "")
 
 
+@pytest.mark.long
 def test_a_fingerprint_tells_another_result_and_another_word_from_another_rounding(issued: bytes) -> None:
     def result(value: float) -> dict[str, str]:
         changed = with_results(

@@ -88,6 +88,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.mark.long
 def test_nothing_that_an_attack_names_is_opened(made: Path) -> None:
     opened = (made / "opened.txt").read_text(encoding="utf-8").splitlines()
     assert "open x-axis.csv" in opened

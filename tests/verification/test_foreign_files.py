@@ -250,6 +250,7 @@ def test_a_job_whose_stated_path_is_none_is_told_from_the_job(
         assert not verified(with_results(issued, state)).holds
 
 
+@pytest.mark.long
 def test_results_that_are_nested_without_end_are_refused(issued: bytes, verified: Verify) -> None:
     nested: Any = 1.0
     for _ in range(900):

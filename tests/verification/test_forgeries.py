@@ -60,6 +60,7 @@ def test_a_signed_certificate_that_is_forged_is_not_what_was_signed(
     assert found.signature.verdict is not VerificationVerdict.HOLDS
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "saved", [lambda pdf: rewritten(pdf, lambda _: None), plain], ids=["packed", "plain"]
 )

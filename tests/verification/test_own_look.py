@@ -27,6 +27,7 @@ def issued(request: pytest.FixtureRequest, tmp_path: Path) -> bytes:
     return issue(job)
 
 
+@pytest.mark.long
 def test_its_values_are_decided_and_how_its_pages_are_drawn_is_not(
     issued: bytes, verified: Callable[[bytes], Verification]
 ) -> None:
@@ -37,6 +38,7 @@ def test_its_values_are_decided_and_how_its_pages_are_drawn_is_not(
     assert "typeface or by templates" in found.remarks[0].en
 
 
+@pytest.mark.long
 def test_a_number_that_is_taken_from_its_pages_is_found(
     issued: bytes, verified: Callable[[bytes], Verification]
 ) -> None:
@@ -54,6 +56,7 @@ CHANGED = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("digits", "outcome"), CHANGED.values(), ids=CHANGED)
 def test_a_page_whose_number_was_changed_never_holds(
     digits: list[tuple[str, str]],

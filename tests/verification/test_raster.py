@@ -90,6 +90,7 @@ def test_a_mark_may_be_off_by_a_pixel_where_other_libraries_drew(
     assert (told == "") is holds
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("points", "outcome"),
     [(0.3, VerificationOutcome.HOLDS), (2.0, VerificationOutcome.UNDECIDED)],

@@ -29,6 +29,7 @@ def told(pdf: bytes) -> list[str]:
     return list(find_differences(pdf, digest_attachments_of(carrier), len(carrier.reader.pages)))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("printed", ["issued", "by_typst"])
 def test_all_see_the_same_of_a_sound_file(
     printed: str, request: pytest.FixtureRequest, tmp_path: Path

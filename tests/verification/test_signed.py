@@ -55,6 +55,7 @@ def test_a_signed_certificate_holds_and_names_the_signer(issued: bytes, sign: Si
     assert {each.verdict for each in (*found.pages, *found.document)} == {VerificationVerdict.HOLDS}
 
 
+@pytest.mark.long
 def test_a_certificate_with_a_time_stamp_holds_without_a_network(
     verified: Verify, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

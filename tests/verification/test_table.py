@@ -47,6 +47,7 @@ def test_a_signature_may_add_a_revision_and_nothing_else_may(
     assert "no signature" in str(check_table(pdf, is_signed=False).detail)
 
 
+@pytest.mark.long
 def test_every_byte_between_objects_counts(issued: bytes) -> None:
     """A byte that is put anywhere into the file is found: by its place, or by the place of what follows."""
     whole = plain(issued)

@@ -55,6 +55,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureF
     return verify
 
 
+@pytest.mark.long
 def test_a_signature_is_trusted_if_its_certificate_is(issued: bytes, tmp_path: Path, run: Run) -> None:
     certificate = certificate_of(elliptic())
     pdf = signed(issued, tmp_path, certificate=certificate)
@@ -65,6 +66,7 @@ def test_a_signature_is_trusted_if_its_certificate_is(issued: bytes, tmp_path: P
     assert found["time_trusted"] is False
 
 
+@pytest.mark.long
 def test_without_trust_a_signed_certificate_is_consistent_and_no_more(
     issued: bytes, tmp_path: Path, run: Run
 ) -> None:
@@ -76,6 +78,7 @@ def test_without_trust_a_signed_certificate_is_consistent_and_no_more(
     assert "a signature that is trusted is required" in found["signature"]["detail"]
 
 
+@pytest.mark.long
 def test_a_consistent_forgery_is_never_trusted(tmp_path: Path, run: Run) -> None:
     forged = issue(lay_out(tmp_path, x_axis=READINGS.replace(".", ".0")))
     code, found = run(forged)

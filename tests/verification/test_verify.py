@@ -182,6 +182,7 @@ def test_a_state_that_makes_strokes_invisible_is_found(issued: bytes, verified: 
     assert "page 1" in differing(verified(altered(issued, fade)))
 
 
+@pytest.mark.long
 def test_a_reading_that_is_altered_is_found_with_what_it_changes(issued: bytes, verified: Verify) -> None:
     readings = READINGS.replace("200,+,2,3.1", "200,+,2,8.1").encode()
     found = verified(with_attachment(issued, "x-axis.csv", readings))
@@ -189,6 +190,7 @@ def test_a_reading_that_is_altered_is_found_with_what_it_changes(issued: bytes, 
     assert "evaluations/nmtba/parameters/P/value" in differing(found)
 
 
+@pytest.mark.long
 def test_a_reading_is_found_even_if_its_digest_is_stated(issued: bytes, verified: Verify) -> None:
     readings = READINGS.replace("200,+,2,3.1", "200,+,2,3.2").encode()
     found = verified(with_source(issued, "x-axis.csv", readings))
@@ -197,6 +199,7 @@ def test_a_reading_is_found_even_if_its_digest_is_stated(issued: bytes, verified
     assert "page 1" in differing(found)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("key", "value"), [("value", 4.5), ("limit", 30.0), ("conforms", False), ("unit", "mm"), ("symbol", "Q")]
 )
@@ -217,12 +220,14 @@ def test_stated_and_recomputed_value_stand_side_by_side(issued: bytes, verified:
     assert (value.stated, value.recomputed) == (4.5, pytest.approx(7.26, abs=0.005))
 
 
+@pytest.mark.long
 def test_a_parameter_that_is_taken_out_is_found(issued: bytes, verified: Verify) -> None:
     found = verified(with_results(issued, lambda results: results["evaluations"][0]["parameters"].pop()))
     assert all(path.startswith("evaluations/nmtba/parameters/O/") for path in differing(found))
     assert differing(found)
 
 
+@pytest.mark.long
 def test_a_limit_that_is_altered_in_the_job_is_found(issued: bytes, verified: Verify) -> None:
     job = JOB.replace("P: 20", "P: 25").encode()
     found = verified(with_attachment(issued, "job.yaml", job))
@@ -235,6 +240,7 @@ def test_a_job_that_is_spoilt_is_found(issued: bytes, verified: Verify) -> None:
     assert "cannot be evaluated again: job.yaml:1:1: axis is missing" in finding(found, "readings").detail
 
 
+@pytest.mark.long
 def test_another_laboratory_is_found(issued: bytes, verified: Verify) -> None:
     laboratory = LABORATORY.replace("Example Laboratory", "Other Laboratory").encode()
     found = verified(with_attachment(issued, "laboratory.yaml", laboratory))
@@ -261,6 +267,7 @@ def test_an_attachment_that_is_taken_out_is_found(issued: bytes, verified: Verif
     assert "is not attached" in finding(found, subject).detail
 
 
+@pytest.mark.long
 def test_an_attachment_that_is_added_is_found(issued: bytes, verified: Verify) -> None:
     found = verified(altered(issued, lambda writer: writer.add_attachment("more.txt", b"more")))
     assert finding(found, "more.txt").detail == "is no file of this certificate"
@@ -353,6 +360,7 @@ def older(tmp_path_factory: pytest.TempPathFactory) -> bytes:
         return issue(lay_out(tmp_path_factory.mktemp("older")))
 
 
+@pytest.mark.long
 def test_what_another_release_made_holds_if_all_of_it_is_repeated(older: bytes, verified: Verify) -> None:
     found = verified(older)
     assert found.outcome is VerificationOutcome.HOLDS
@@ -384,6 +392,7 @@ def test_what_another_release_stated_and_this_cannot_repeat_is_not_decided(
     assert say(found.remarks[0]).startswith(f"made by zlmreport 0.0.9, and this is {GENERATOR}: ")
 
 
+@pytest.mark.long
 def test_a_value_that_the_readings_do_not_give_is_wrong_in_every_release(
     older: bytes, verified: Verify
 ) -> None:
@@ -393,6 +402,7 @@ def test_a_value_that_the_readings_do_not_give_is_wrong_in_every_release(
     assert verified(with_source(older, "x-axis.csv", readings)).outcome is VerificationOutcome.DOES_NOT_HOLD
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("named", ["zlmreport 0.0.9, checked by PTB", "zlmreport by PTB", "zlmrep0rt 0.0.9"])
 def test_what_is_no_name_of_a_release_is_printed_by_none(issued: bytes, verified: Verify, named: str) -> None:
     stated = with_results(issued, lambda results: results["provenance"].update(generator=named))

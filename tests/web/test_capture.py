@@ -117,6 +117,7 @@ def test_an_instrument_that_goes_is_told_and_the_readings_stay(desk: Desk) -> No
     assert found["hasBegun"] is True
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("desk", ["0 20"], indirect=True)
 def test_a_capture_is_closed_as_it_is(desk: Desk) -> None:
     desk.do("begin")

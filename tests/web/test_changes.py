@@ -172,6 +172,7 @@ def test_undo_puts_back_what_was(job: Path, browser: TestClient, before: dict[st
     assert job.read_text(encoding="utf-8") == text
 
 
+@pytest.mark.long
 def test_what_was_undone_is_done_again_until_something_else_is_done(
     job: Path, browser: TestClient, before: dict[str, Any]
 ) -> None:

@@ -46,6 +46,7 @@ def without_table(job: Path, browser: TestClient) -> Path:
     return job
 
 
+@pytest.mark.long
 def test_documents_are_made_in_the_chosen_formats_and_shown_page_by_page(browser: TestClient) -> None:
     state = made(browser, "certificate", formats=["pdf", "csv"])
     name = "EXAMPLE-2026-0007.pdf"
@@ -66,6 +67,7 @@ def test_documents_are_made_in_the_chosen_formats_and_shown_page_by_page(browser
         assert browser.get(f"/documents/{wrong}").status_code == 404
 
 
+@pytest.mark.long
 def test_a_sheet_that_is_looked_at_lies_in_a_folder_of_its_own_until_the_workbench_ends(
     browser: TestClient, workbench: Workbench, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -87,6 +89,7 @@ def test_a_table_is_refused_in_the_words_of_the_command_until_the_job_says_what_
     assert _DEMANDED in state["problems"][0]
 
 
+@pytest.mark.long
 def test_a_table_is_written_and_a_second_test_held_against_it(
     without_table: Path, browser: TestClient
 ) -> None:
@@ -143,6 +146,7 @@ def tied(job: Path) -> Path:
     return job
 
 
+@pytest.mark.long
 def test_the_experiment_that_decides_a_tie_is_told_with_the_diagnosis_and_its_job_written(
     tied: Path, browser: TestClient
 ) -> None:

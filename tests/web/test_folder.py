@@ -154,6 +154,7 @@ def test_a_folder_without_a_job_is_refused(tmp_path: Path) -> None:
         find_jobs_in(tmp_path)
 
 
+@pytest.mark.long
 def test_a_job_without_an_error_model_is_listed_and_does_not_open() -> None:
     circle = Path(__file__).parents[2] / "configs" / "circle" / "certificate.yaml"
     row, _ = look_at(JobRow("", ""), circle, registry())

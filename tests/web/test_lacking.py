@@ -44,6 +44,7 @@ def test_a_report_lacks_nothing(browser: TestClient) -> None:
     assert _lacking(browser) == []
 
 
+@pytest.mark.long
 def test_what_is_asked_for_makes_the_job_a_certificate(certificate: Path, browser: TestClient) -> None:
     fields = {each["key"]: each for each in _lacking(browser)}
     assert fields["customer.name"]["name"] == "Customer"

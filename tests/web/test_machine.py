@@ -55,6 +55,7 @@ def clicked(page: TestClient, action: str, effect: str = "", digest: str = "") -
     return page.post("/api/change", json={"based_on": digest, "action": action, "effect": effect})
 
 
+@pytest.mark.long
 def test_a_click_adds_the_effect_and_the_error_falls_and_a_step_back_restores_the_file(
     machine: Path, page: TestClient
 ) -> None:
@@ -105,6 +106,7 @@ def test_a_step_is_seen_before_it_is_taken(page: TestClient) -> None:
     assert after < 0.3 * before
 
 
+@pytest.mark.long
 def test_the_diagnosis_says_first_what_to_do_next() -> None:
     english, german = (diagnosed()[each] for each in ("en", "de"))
     assert english["next"].startswith("Next: add Servo mismatch. The error falls from 4.7 µm to 0.32 µm;")
@@ -114,6 +116,7 @@ def test_the_diagnosis_says_first_what_to_do_next() -> None:
     assert german["candidates"][0]["name"] == "Unterschied der Schleppabstände"
 
 
+@pytest.mark.long
 def test_with_one_sense_nothing_is_named_and_the_next_run_comes_first(machine: Path) -> None:
     readings = machine.with_name("circle-xy.csv")
     lines = readings.read_text("utf-8").splitlines(keepends=True)

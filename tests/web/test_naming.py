@@ -41,6 +41,7 @@ def test_a_page_in_english_has_the_words_of_the_job() -> None:
     assert Naming.of(registry().effects, Language.ENGLISH).text("scale-error") == "scale-error"
 
 
+@pytest.mark.long
 def test_no_identifier_is_read_on_the_german_page(browser: TestClient) -> None:
     found = awaited(lambda: browser.get("/api/diagnosis?lang=de").json().get("diagnosis"))
     job = browser.get("/api/job?lang=de").json()

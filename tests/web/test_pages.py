@@ -143,6 +143,7 @@ def test_an_effect_has_its_page(browser: TestClient) -> None:
     assert browser.get("/api/effects/none-such").status_code == 422
 
 
+@pytest.mark.long
 def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(browser: TestClient) -> None:
     found = browser.get("/api/diagnosis").json()
     assert found.keys() == {"seconds", "share"}
@@ -156,6 +157,7 @@ def test_a_diagnosis_is_made_beside_and_says_how_long_it_has_been_under_way(brow
     assert second["axis"] == "position"
 
 
+@pytest.mark.long
 def test_a_diagnosis_is_stopped_and_begun_anew(browser: TestClient) -> None:
     assert "seconds" in browser.get("/api/diagnosis").json()
     assert browser.post("/api/diagnosis/stop", json={}).is_success
@@ -165,6 +167,7 @@ def test_a_diagnosis_is_stopped_and_begun_anew(browser: TestClient) -> None:
     assert found
 
 
+@pytest.mark.long
 def test_a_diagnosis_that_was_made_is_there_at_once_also_for_a_copy_and_after_a_restart(
     workbench: Workbench, browser: TestClient, tmp_path: Path
 ) -> None:
@@ -270,6 +273,7 @@ def test_the_language_is_that_of_the_address_then_of_the_browser_then_of_the_job
     assert 'lang="en"' in browser.get("/", headers={"Accept-Language": "pl"}).text
 
 
+@pytest.mark.long
 def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study: Study) -> None:
     """The name is that of pages, the axis that of the logged column."""
     diagnosis = study.diagnosis(registry().effects)
@@ -284,6 +288,7 @@ def test_a_condition_that_the_residuals_follow_is_named_and_is_their_axis(study:
     assert failure["readings"] == []
 
 
+@pytest.mark.long
 def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Study) -> None:
     diagnosis = study.diagnosis(registry().effects)
     off = Failure(ResidualTest.OUTLIERS, 1e-9, same("here"), same("it stands off"))
@@ -292,6 +297,7 @@ def test_readings_that_were_set_aside_by_the_diagnosis_are_pointed_at(study: Stu
     assert found["failures"][0]["readings"] == [7, 9]
 
 
+@pytest.mark.long
 def test_a_fault_of_the_data_names_the_readings_of_its_run(study: Study) -> None:
     fault = DataFault(
         FaultKind.SWAPPED_DIRECTION, 3, 1.0, same("run 3 looks swapped"), same("correct the file")

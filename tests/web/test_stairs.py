@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import pytest
 from starlette.testclient import TestClient
 
 from processes import awaited
@@ -58,6 +59,7 @@ def test_what_is_no_build_stays_as_it_is(job: Path) -> None:
     assert add_stairs(state, load(job, registry()), registry(), Language.ENGLISH) == state
 
 
+@pytest.mark.long
 def test_a_build_is_a_proposal_whose_steps_are_taken_one_by_one(job: Path, browser: TestClient) -> None:
     text = job.read_text("utf-8")
     assert browser.post("/api/made/build", json={}).json()["state"] == "making"

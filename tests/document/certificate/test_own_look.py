@@ -43,6 +43,7 @@ def refusal(of: Certificate, renderer: str = "html") -> str:
     return str(caught.value)
 
 
+@pytest.mark.long
 def test_text_is_set_in_the_typeface_and_graphs_in_the_bundled_one(tmp_path: Path) -> None:
     found = styled(tmp_path, typeface=TYPEFACE)
     reader = pdf(found)
@@ -52,6 +53,7 @@ def test_text_is_set_in_the_typeface_and_graphs_in_the_bundled_one(tmp_path: Pat
     assert "data:font/sfnt" in registry().renderer("html").render(found).decode()
 
 
+@pytest.mark.long
 def test_it_takes_no_more_room_than_the_bundled_one(tmp_path: Path) -> None:
     (tmp_path / "usual").mkdir()
     pages = len(pdf(certificate(tmp_path / "usual")).pages)

@@ -90,6 +90,7 @@ def test_each_renderer_has_the_colour_and_the_lines(tmp_path: Path, renderer: st
     assert (abs(picture.astype(int) - (0x33, 0x1A, 0x5C)).max(axis=1) < 9).any(), "blue, green, red"
 
 
+@pytest.mark.long
 def test_a_certificate_of_a_look_and_an_order_of_its_own_holds(tmp_path: Path) -> None:
     sections = [*LEAST, {"title": "Note", "text": "For {customer.name}."}]
     keys = having(sections=sections, style={"accent": "#5c1a33", "header": "{machine.serial}"})

@@ -231,6 +231,7 @@ def test_the_graph_of_a_sheet_is_90_mm_high_whatever_the_length_of_what_is_state
     assert figure.height >= 90
 
 
+@pytest.mark.long
 @settings(max_examples=8, deadline=None)
 @given(
     stated=st.fixed_dictionaries(dict.fromkeys(STATED, _TEXTS)),

@@ -89,6 +89,7 @@ def _fill(page: pypdf.PageObject) -> float:
     return (_TOP - lowest) / (_TOP - _BOTTOM)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
 def test_seven_standards_take_no_more_than_eleven_pages(seven: Certificate, renderer: str) -> None:
     assert len(pages(seven, renderer)) <= 11
@@ -108,6 +109,7 @@ def test_one_standard_takes_no_more_than_four_pages(tmp_path: Path) -> None:
     assert len(pages(laid_out(tmp_path, "standard", axis=axis, measurement=measurement))) <= 4
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
 @pytest.mark.parametrize("language", ["en", "de"])
 def test_the_first_page_ends_with_the_statements_and_none_of_it_stands_on_the_second(

@@ -100,6 +100,7 @@ def test_settings_of_matplotlib_stay_as_they_are() -> None:
     assert dict(mpl.rcParams) == before
 
 
+@pytest.mark.long
 def test_a_certificate_needs_no_matplotlib() -> None:
     program = (
         "import sys; from zlmreport.testing.certificates import sample_certificate;"

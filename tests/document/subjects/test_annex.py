@@ -83,6 +83,7 @@ def test_the_annex_is_marked_as_an_opinion_before_anything_else() -> None:
     )
 
 
+@pytest.mark.long
 def test_the_annex_stands_after_all_results(tmp_path: Path) -> None:
     document = composed(job(written(tmp_path)))
     assert [each.key for each in document.sections][-1] == "model"
@@ -95,6 +96,7 @@ def test_a_job_without_a_model_has_no_annex(tmp_path: Path) -> None:
     assert document.diagnosis is None
 
 
+@pytest.mark.long
 def test_the_plugins_of_the_effects_are_named(tmp_path: Path) -> None:
     assert "backlash" in composed(job(written(tmp_path))).plugins
 
@@ -139,6 +141,7 @@ def test_a_test_that_fails_brings_the_graph_that_shows_it(failed: Failure, graph
     assert figures(with_diagnosis(failures=(failed,))) == ["model", "estimate", "fall", *graphs]
 
 
+@pytest.mark.long
 def test_an_effect_that_no_table_takes_away_is_named(tmp_path: Path) -> None:
     warm = modelled(written(tmp_path, (LAST, f"{LAST}    - thermal-drift\n")))
     assert "thermal-drift: not fixed in position" in text(warm)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from model.hidden_effect import job, registry, written
 from zlmreport import pipeline
 
 
+@pytest.mark.long
 def test_graphs_without_readings_have_no_values_of_them(tmp_path: Path) -> None:
     kept = job(written(tmp_path))
     assert pipeline.compose(kept, registry()).linked is not None

@@ -40,6 +40,7 @@ def scripts(text: str) -> list[str]:
     return re.findall(r"<script>(.*?)</script>", text, re.DOTALL)
 
 
+@pytest.mark.long
 def test_the_policy_names_the_only_script() -> None:
     (script,) = scripts(page())
     digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
@@ -82,6 +83,7 @@ def test_hostile_text_is_text(text: str) -> None:
     assert json.loads(written)["texts"]["measured"] == text
 
 
+@pytest.mark.long
 def test_it_is_the_same_twice() -> None:
     resources.read_linked_script.cache_clear()
     again = pipeline.compose(job(CONFIG / "job.yaml"), registry())

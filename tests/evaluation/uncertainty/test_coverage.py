@@ -47,6 +47,7 @@ def errors(of: Budget, truth: MeasurementSet, generator: np.random.Generator) ->
     return along.standard_uncertainty * scale * share + reading.standard_uncertainty * own
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("of", [LASER, MISALIGNED], ids=["laser", "misaligned"])
 def test_the_interval_holds_the_true_value_as_often_as_stated(of: Budget) -> None:
     truth = simulated_test(7)

@@ -20,6 +20,7 @@ MOST = 2 * (1 + 2 * (5 / 4) ** 0.5)
 PAIRS = [*zip(BENCHES.values(), cycle(Method))]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("bench", "method"), PAIRS, ids=lambda part: getattr(part, "instrument", part))
 def test_the_numbers_are_those_of_the_axis(bench: Bench, method: Method, tmp_path: Path) -> None:
     done = calibration(tmp_path, bench, method)

@@ -19,6 +19,7 @@ LEAST = {"umd0": 1300, "umd1": 3300, "umd2": 5500, "nd28x": 60, "ids3010": 300, 
 _LENGTH = 316e-9
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("instrument", LINES)
 def test_no_wrong_reading_is_taken_and_no_visit_is_lost_in_silence(instrument: str, tmp_path: Path) -> None:
     done, line = on_a_bad_line(instrument, tmp_path)

@@ -14,6 +14,7 @@ from zlmreport.live.capture.events import Missed, Recorded
 KILLS = 4
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_a_capture_that_is_killed_at_random_moments_goes_on_to_its_end(tmp_path: Path) -> None:
     """In one test, for the capture is the dear part of it; ``./run benchmark kills`` kills one 50 times."""

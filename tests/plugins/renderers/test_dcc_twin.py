@@ -104,6 +104,7 @@ def said(made: Certificate) -> Iterator[str]:
                 )
 
 
+@pytest.mark.long
 def test_every_statement_of_the_document_stands_in_the_dcc_and_on_the_pages(both):
     made, digital, pages = both
     stated = list(said(made))

@@ -96,6 +96,7 @@ def test_its_readings_come_out_of_a_digital_certificate_as_they_went_in(tmp_path
     assert np.array_equal(after.target, before.target)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("press", ["pdf", "pdf-typst"])
 def test_its_pages_hold(tmp_path: Path, press: str) -> None:
     output = {"directory": str(tmp_path), "formats": [press, "json"]}

@@ -51,6 +51,7 @@ def test_a_plate_is_no_linear_axis(plate: Certificate) -> None:
     assert text.count("<svg") >= 2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
 def test_a_pdf_is_evaluated_again_from_what_it_carries(
     plate: Certificate, renderer: str, tmp_path: Path

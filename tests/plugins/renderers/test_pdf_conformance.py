@@ -51,6 +51,7 @@ def test_it_conforms(made) -> None:
     assert complaints(PdfRenderer().render(made())) == []
 
 
+@pytest.mark.long
 def test_a_certificate_with_a_diagnosis_conforms() -> None:
     registry = find_plugins()
     loaded = load(Path(ROOT, "configs", "hidden-effect", "job.yaml"), registry, formats=("pdf",))

@@ -135,6 +135,7 @@ print([entry for entry in opened if not entry[1].startswith((sys.base_prefix, sy
 """
 
 
+@pytest.mark.long
 def test_each_element_looks_as_by_the_style_sheet_of_weasyprint_which_is_left_out(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -150,6 +151,7 @@ def test_each_element_looks_as_by_the_style_sheet_of_weasyprint_which_is_left_ou
     assert press.Press().print(certificate) == pdf
 
 
+@pytest.mark.long
 def test_it_opens_no_file() -> None:
     watched = run(PYTHON, "-c", _WATCHED, env={**os.environ, "PYTHONPATH": str(TESTS)}, check=True)
     assert watched.stdout == "[]\n"

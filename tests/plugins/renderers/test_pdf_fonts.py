@@ -17,6 +17,7 @@ from zlmreport_plugins.renderers.pdf.press import find_press
 from zlmreport_plugins.renderers.pdf.subset import keep_glyphs
 
 
+@pytest.mark.long
 def test_a_document_is_the_same_where_the_system_has_no_library_of_subsets(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:

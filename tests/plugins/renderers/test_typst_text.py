@@ -80,6 +80,7 @@ def test_it_says_what_the_other_says_letter_for_letter(language: Language) -> No
     assert _letters(sample(language), running) == _letters(pdf_pages.sample(language), running)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("job", ["german/messbericht.yaml", "as-found/certificate.yaml"])
 def test_every_number_and_every_sentence_of_a_real_certificate_stands_in_both(job: str) -> None:
     registry = find_plugins()
