@@ -222,7 +222,8 @@ def test_tables_are_written_beside_the_machine_once_their_sign_is_known_and_thei
 def test_a_circle_run_again_is_held_against_the_tables(page: TestClient) -> None:
     found = asked_for_tables(page, "confirm", moves="minus", circles=["circle-xy.yaml"]).json()
     assert [each["key"] for each in found["sections"]] == ["confirmation"]
-    assert "Not in effect" in found["sections"][0]["blocks"][0]["text"]
+    said = found["sections"][0]["blocks"][0]["text"]
+    assert said.startswith("Not in effect: the circles show 0.000 ± 0.010 of the tables.")
     other = asked_for_tables(page, "confirm", moves="minus", circles=["../circle-xy.yaml"])
     assert "there is no job '../circle-xy.yaml'" in other.json()["problems"][0]
     assert asked_for_tables(page, "confirm", moves="sideways").status_code == 400

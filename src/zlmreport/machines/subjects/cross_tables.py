@@ -17,6 +17,9 @@ from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_rig
 from zlmreport.model.compensation.cross import CrossTable
 from zlmreport.plugin.registry import Registry
 
+#: A part of tables is told to no more than this.
+_FINEST = 0.01
+
 
 def lay_out_cross(made: CrossMade, say: Sayer) -> list[Section]:
     """Return what the tables hold, which way they act where that was stated, and what they will leave."""
@@ -94,7 +97,8 @@ def lay_out_confirmation(found: CrossConfirmation, say: Sayer) -> Section:
     verdict = found.verdict
     said = _BECAME[verdict]
     if verdict is not CrossVerdict.NOT_SEEN:
-        part, u = round_pair(found.applied, found.expanded_uncertainty, say.language.decimal_sign)
+        u_shown = max(found.expanded_uncertainty, _FINEST)
+        part, u = round_pair(found.applied, u_shown, say.language.decimal_sign)
         said = said.given(part=part, u=u)
     rows = [
         (each.name, *map(say.micrometres, (each.before, each.forecast, each.after))) for each in found.circles
