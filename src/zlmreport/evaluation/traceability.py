@@ -17,7 +17,7 @@ from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurand import Coordinate
+from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 if TYPE_CHECKING:
@@ -44,6 +44,11 @@ _OF_KIND = {
     AxisKind.ROTARY: Words("results of a rotary axis"),
 }
 _OF_LENGTH = Words("results over {length} {unit} (the scope ends at {most} {unit})")
+_OTHER_CAPABILITY = Words(
+    "Outside the accredited scope: {quantity}. The capability that the laboratory states is for {own}; no "
+    "U is raised to it"
+)
+_OF_QUANTITY = {each.identifier: each.title for each in (POSITIONING, STRAIGHTNESS, ANGLE, CIRCLE)}
 _OF_STANDARD = Words("results by {standard}")
 _INSTRUMENT = Words("Measuring instrument")
 
@@ -163,7 +168,8 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     if cmc is None:
         return
     axis, targets = job.axis, measurements.target_positions
-    if axis.measurand.coordinate is Coordinate.TIME:  # a scope of axes and their lengths says nothing of it
+    if cmc.quantity != axis.measurand.identifier:
+        yield _OTHER_CAPABILITY.given(quantity=axis.measurand.title, own=_OF_QUANTITY[cmc.quantity])
         return
     if cmc.kind is not None and cmc.kind is not axis.kind:
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])

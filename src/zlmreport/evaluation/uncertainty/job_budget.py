@@ -116,7 +116,7 @@ def make_budget_of(
 def _find_capability(job: Job, set_up: SetUp) -> float:
     """Return the smallest U that the laboratory's accreditation lets it state, m or rad."""
     cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
-    if cmc is None:
+    if cmc is None or not cmc.is_for(job.axis.measurand.identifier, job.axis.kind):
         return 0.0
     return float(job.axis.deviation_unit.to_si(cmc.constant + cmc.per_metre * set_up.length))
 
