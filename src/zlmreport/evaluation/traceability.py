@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from zlmreport.errors import Problem
@@ -67,19 +68,49 @@ def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     return (*(each.words for each in found), *_say_out_of_scope(job, measurements))
 
 
-def list_certificates(job: Job) -> tuple[str, ...]:
-    """Return the calibration certificates through which the results of a job are traceable, each once.
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """The calibration certificates through which results are traceable, each once."""
 
-    Of the instrument of every line of every part; none where one of them names no certificate, or where
-    something that the job says breaks the chain, or a day is not stated.
+    of_instruments: tuple[str, ...] = ()
+    of_artefacts: tuple[str, ...] = ()  #: Of squares, straightedges, bars: what was measured against.
+
+
+def find_chain(job: Job) -> Chain:
+    """Return the calibration certificates through which the results of a job are traceable.
+
+    Of the instrument of every line of every part, and of the artefacts that were measured against; none
+    where an instrument, or an artefact of which U is stated, names no certificate, or where something that
+    the job says breaks the chain, or a day is not stated.
     """
     lines = [line for part in job.parts for line in part.lines.values()]
     of_all = [each.keys for each in (job, *lines, *(one.as_found for one in lines if one.as_found))]
     named = [(each.keys.instrument and each.keys.instrument.certificate) or "" for each in lines]
     is_dated = all(keys.measurement.date for keys in of_all)
     if not is_dated or any(each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)):
-        return ()
-    return tuple(dict.fromkeys(named)) if all(map(is_reference, named)) else ()
+        return Chain()
+    of_artefacts = [each for part in job.parts for each in _list_artefacts(part)]
+    if not all(map(is_reference, (*named, *of_artefacts))):
+        return Chain()
+    own = dict.fromkeys(named)
+    return Chain(tuple(own), tuple(each for each in dict.fromkeys(of_artefacts) if each not in own))
+
+
+def _list_artefacts(job: Job) -> Iterator[str]:
+    """Yield the certificate of each artefact that was measured against; empty where none is named.
+
+    An artefact is a group of keys that a standard takes from the measurement, such as a square, or causes a
+    contribution that the job states with its certificate.
+    """
+    for choice in job.standards:
+        groups = (getattr(choice.options, key, None) for key in choice.options.of_the_measurement)
+        for group in groups:
+            certificate = getattr(group, "certificate", None)
+            if certificate or getattr(group, "expanded_uncertainty", None) is not None:
+                yield certificate or ""
+    for line in job.lines.values():
+        stated = line.keys.uncertainty.contributions if line.keys.uncertainty else ()
+        yield from (each.certificate for each in stated if each.certificate)
 
 
 def find_broken_chain(job: Job) -> Iterator[Problem]:

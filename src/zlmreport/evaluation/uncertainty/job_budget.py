@@ -336,7 +336,11 @@ def _make_other_contribution(keys: ContributionKeys, measurements: MeasurementSe
     if is_share:
         how = write_of_the_reading(size, measurements, keys.name)
     yield Contribution(
-        name=same(keys.name), distribution=distribution, stated=stated, source=wording.STATED, **how
+        name=same(keys.name),
+        distribution=distribution,
+        stated=stated,
+        source=wording.say_calibration(keys.certificate),
+        **how,
     )
 
 
