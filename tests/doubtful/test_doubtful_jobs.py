@@ -574,6 +574,10 @@ def test_the_thermometer_of_a_correction_is_asked_for(tmp_path: Path) -> None:
         ({"length": 500}, "results over 993.3 mm (the scope ends at 500 mm)"),
         ({"kind": "rotary"}, "results of a linear axis"),
         ({"standards": ["vdi-dgq-3441"]}, "results by iso230-2:2014"),
+        (
+            {"quantity": "angle"},
+            "Positioning accuracy. The capability that the laboratory states is for Angular",
+        ),
     ],
 )
 def test_results_outside_the_accredited_scope_are_marked(scope, said: str, tmp_path: Path) -> None:

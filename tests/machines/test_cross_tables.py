@@ -133,7 +133,9 @@ def test_an_unknown_sign_is_asked_for_and_a_trial_shows_it(folder, tmp_path, cap
     assert "--trial writes a file that shows it" in capsys.readouterr().err
     assert not list(tmp_path.glob("*.INI"))
     assert main([*command, "--trial"]) == 0
-    assert "state --moves plus, else --moves minus" in " ".join(capsys.readouterr().out.split())
+    assert "moves an axis so (moves plus), else the other way (moves minus)" in " ".join(
+        capsys.readouterr().out.split()
+    )
     (trial,) = tmp_path.glob("*.INI")
     assert "$AN_CEC[0,10]=0.01000\n" in trial.read_text("ascii")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from machines.simulated import MICRO, bare_machine, circle, nothing
-from zlmreport.machines.curve import make_measured_curve, remove_alignment
+from zlmreport.machines.curve import make_measured_curve, remove_alignment, with_scale_error
 from zlmreport.machines.kinematics import ErrorLine
 from zlmreport.machines.machine import predict
 from zlmreport.machines.volume import find_measured_space, map_volume, predict_diagonals
@@ -99,3 +99,13 @@ def test_out_of_square_axes_stretch_one_diagonal_and_shorten_the_other():
     assert found.length.max() == pytest.approx(20e-6 * 0.2)
     assert found.expanded_uncertainty[found.largest] == pytest.approx(2e-6 * 0.2)
     assert found.bound.max() > 0
+
+
+def test_an_error_of_scale_is_in_proportion_to_what_was_read_and_shared_by_all():
+    random = np.random.default_rng(3)
+    measured = readings(8 * MICRO * TARGETS, random, 0.0, 0.0, 1)
+    curve = make_measured_curve("EYX", measured, InstrumentError(), ErrorLine({}), "")
+    found = with_scale_error(curve, 0.02)
+    covariance = found.factor @ found.factor.T
+    assert np.sqrt(np.diag(covariance)) == pytest.approx(0.02 * np.abs(found.values))
+    assert np.linalg.matrix_rank(covariance) == 1

@@ -189,3 +189,44 @@ def test_a_machine_that_cannot_be_read_is_refused_before_its_page_opens(machine:
     machine.write_text(machine.read_text("utf-8").replace("XYFZ ", "XYZ "), "utf-8")
     with pytest.raises(InputError, match="is no chain"):
         MachineWorkbench.of(machine, registry())
+
+
+def asked_for_tables(page: TestClient, action: str, **wanted: Any) -> Any:
+    """Ask for tables across axes of Siemens' CEC, as the page does."""
+    return page.post("/api/tables", json={"action": action, "controller": "siemens-840d-cec", **wanted})
+
+
+def test_tables_are_written_beside_the_machine_once_their_sign_is_known_and_their_forecast_seen(
+    machine: Path, page: TestClient
+) -> None:
+    offered = page.get("/api/job").json()["offered"]["tables"]
+    assert {each["controller"]: each["isSignKnown"] for each in offered["controllers"]} == {
+        "linuxcnc": True,
+        "siemens-840d-cec": False,
+    }
+    refused = asked_for_tables(page, "write")
+    assert (refused.status_code, list(machine.parent.glob("*.INI"))) == (422, [])
+    assert "a wrong sign doubles the error" in refused.json()["problems"][0]
+    trial = asked_for_tables(page, "trial").json()
+    assert trial["files"] == ["machine-trial-across_CEC.INI"]
+    assert "moves minus" in trial["sections"][0]["blocks"][0]["text"]
+    seen = asked_for_tables(page, "forecast", moves="minus").json()
+    assert [each["key"] for each in seen["sections"]] == ["cross-tables", "sign", "forecast"]
+    assert seen["files"] == []
+    assert not machine.with_name("machine-across_CEC.INI").exists()
+    written = asked_for_tables(page, "write", moves="minus").json()
+    assert (written["sections"], written["files"]) == (seen["sections"], ["machine-across_CEC.INI"])
+    assert page.get("/documents/machine-across_CEC.INI").content == (
+        machine.with_name("machine-across_CEC.INI").read_bytes()
+    )
+    assert asked_for_tables(page, "write", moves="minus").status_code == 422  # nothing is written over
+
+
+def test_a_circle_run_again_is_held_against_the_tables(page: TestClient) -> None:
+    found = asked_for_tables(page, "confirm", moves="minus", circles=["circle-xy.yaml"]).json()
+    assert [each["key"] for each in found["sections"]] == ["confirmation"]
+    said = found["sections"][0]["blocks"][0]["text"]
+    assert said.startswith("Not in effect: the circles show 0.000 ± 0.010 of the tables.")
+    other = asked_for_tables(page, "confirm", moves="minus", circles=["../circle-xy.yaml"])
+    assert "there is no job '../circle-xy.yaml'" in other.json()["problems"][0]
+    assert asked_for_tables(page, "confirm", moves="sideways").status_code == 400

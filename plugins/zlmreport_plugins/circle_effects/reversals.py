@@ -62,6 +62,18 @@ class CircleBacklash(CircleEffect):
         """Return the lost motion of each axis, or of each of its ends."""
         return list(_make_lost_motion(design, 0.0, _LARGEST_LOST_MOTION, searched[0]))
 
+    def findings(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
+        """Say which axis loses how much where it turns, at which end of the circle, and what to do."""
+        seen = [each for each in estimates if each.value > each.expanded_uncertainty]
+        for each in seen:
+            value, u = _write_pair(each)
+            axis, end = each.name[:1], each.name[1:]
+            yield (_LOSES_AT[end] if end else _LOSES).given(axis=axis, value=value, u=u)
+        if any(each.name[1:] for each in seen):
+            yield _ENDS_DIFFER
+        if seen:
+            yield _MEND
+
     def absence(self, estimates: Sequence[Estimate]) -> Iterator[Words]:
         """Say how much lost motion there might be."""
         for each in estimates:
@@ -101,6 +113,19 @@ def _write_pair(estimate: Estimate) -> tuple[Words, Words]:
 
 
 _NO_BACKLASH = Words("no backlash of {axis}: {value} ± {u} µm")
+_LOSES = Words("{axis} loses {value} ± {u} µm where it turns, alike at both ends of the circle")
+_LOSES_AT = {
+    "+": Words("{axis} loses {value} ± {u} µm where it turns at the end of larger {axis}"),
+    "−": Words("{axis} loses {value} ± {u} µm where it turns at the end of smaller {axis}"),
+}
+_ENDS_DIFFER = Words(
+    "The ends differ, so one value of the control does not suit both: a screw that is worn in a part of its "
+    "travel, or a pull of covers and hoses"
+)
+_MEND = Words(
+    "Look for play in coupling, nut and thrust bearing first; what stays is entered as backlash compensation "
+    "of the control. Then run the circle again: a value too large shows as over-compensation"
+)
 _OVER = Words("{axis} is over-compensated: lost motion {value} ± {u} µm")
 
 

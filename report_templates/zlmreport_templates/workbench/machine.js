@@ -5,9 +5,11 @@ import { fill, h } from "./dom.js";
 import { Graphs } from "./graphs.js";
 import { Loop } from "./loop.js";
 import * as panels from "./panels.js";
-import { Refusal, Silence, get } from "./server.js";
+import { Refusal, Silence, get, post } from "./server.js";
+import { crossTables } from "./tables.js";
 
 const PLACES = { certificate: "certificate", build: "stairs" };
+const PARTS = ["verdict", "fall", "stairs", "failures", "candidates", "found", "hidden", "tables", "certificate", "effects", "steps", "preview", "sizes", "test", "machine"];
 const OF_CIRCLE = "Circle";
 
 export class MachinePage extends Loop {
@@ -16,16 +18,17 @@ export class MachinePage extends Loop {
     Object.assign(this.actions, {
       preview: (step, name) => this.#preview(step, name),
       wave: async () => null,
+      tables: (wanted) => this.#tables(wanted),
+      chooseTables: (wanted) => { this.wanted.tables = wanted; this.tables = null; this.#showTables(); },
       build: () => { this.made.set("build", { state: "made", stairs: this.diagnosis.diagnosis.stairs }); this.showMade(); },
     });
-    this.parts = Object.fromEntries(["verdict", "fall", "stairs", "failures", "candidates", "found", "hidden", "certificate", "effects", "steps", "preview", "sizes", "test", "machine"]
-      .map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
+    this.parts = Object.fromEntries(PARTS.map((name) => [name, h("section", { class: "panel", id: `part-${name}` })]));
     this.shown = h("div", {});
-    const { verdict, fall, stairs, failures, candidates, found, hidden, certificate, effects, steps, preview, sizes, test, machine } = this.parts;
+    const { verdict, fall, stairs, failures, candidates, found, hidden, tables, certificate, effects, steps, preview, sizes, test, machine } = this.parts;
     document.body.replaceChildren(this.header, this.notice, h("main", {},
       h("div", { class: "bench machine" }, h("div", { class: "always" }, verdict, fall),
         h("div", { class: "seen" }, preview, sizes, this.shown, test, effects, machine),
-        h("div", { class: "findings" }, stairs, candidates, failures, found, hidden, certificate, steps))));
+        h("div", { class: "findings" }, stairs, candidates, failures, found, hidden, tables, certificate, steps))));
   }
 
   show(job) {
@@ -105,7 +108,24 @@ export class MachinePage extends Loop {
     document.body.dataset.state = found ? found.verdict : "working";
   }
 
+  #showTables() {
+    const { texts, parts, job, tables } = this;
+    fill(parts.tables, crossTables(texts, job, tables && { ...tables, current: tables.stamp === this.stamp }, this.wanted.tables, this.actions));
+  }
+
+  /** Have a forecast of tables across axes, have them written, or circles held against them. */
+  async #tables(wanted) {
+    this.wanted.tables = wanted;
+    try {
+      this.tables = await post("/api/tables", wanted);
+      this.#showTables();
+    } catch (error) {
+      this.tell(error);
+    }
+  }
+
   showMade() {
+    this.#showTables();
     const { texts, parts, job, actions } = this;
     fill(parts.stairs, panels.stairs(texts, job, this.made.get("build"), this.number, actions));
     const made = this.made.get("certificate");

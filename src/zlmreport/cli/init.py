@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from importlib.resources import files
 from pathlib import Path
 
@@ -13,9 +13,10 @@ from zlmreport.cli.terminal import say, show_path, wrap
 from zlmreport.files import Document, write_new
 from zlmreport.language.formatting import DecimalSign, write_general_number
 from zlmreport.looking import Looked, look_at, write_job_of
+from zlmreport.machines.beginning import begin_machine
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.plugin.registry import find_plugins
+from zlmreport.plugin.registry import Registry, find_plugins
 
 _STARTER = ("job.yaml", "laboratory.yaml", "x-axis.csv")
 
@@ -23,6 +24,8 @@ _STARTER = ("job.yaml", "laboratory.yaml", "x-axis.csv")
 def run(options: Namespace) -> int:
     """Write the starter job; no file that is there already is touched."""
     directory: Path = options.directory
+    if options.machine:
+        return _begin_machine(options.machine, directory, find_plugins(files=options.plugin))
     if options.origin:
         looked = look_at(options.origin, find_plugins(files=options.plugin), options.sheet)
         documents = [
@@ -37,6 +40,23 @@ def run(options: Namespace) -> int:
     for target in written:
         print(show_path(target))
     print(f"next: zlmreport {show_path(written[0])}")
+    return 0
+
+
+def _begin_machine(files: Sequence[Path], directory: Path, registry: Registry) -> int:
+    """Write a machine file with its jobs, and say what was taken for what and what is to be filled in."""
+    begun = begin_machine(files, directory, registry)
+    for target in write_new(begun.documents):
+        print(show_path(target))
+    print("", "taken for", sep="\n")
+    for each in begun.jobs:
+        print(*wrap(f"{each.file.name}: {each.said}"), sep="\n")
+    open_ = list(begun.to_fill_in())
+    if open_:
+        print("", "to fill in", sep="\n")
+        for path, number, what in open_:
+            print(*wrap(f"{show_path(path)}:{number}: {what}"), sep="\n")
+    print("", f"next: zlmreport machine check {show_path(begun.documents[0].path)}", sep="\n")
     return 0
 
 

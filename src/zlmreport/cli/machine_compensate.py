@@ -9,10 +9,16 @@ from typing import Any
 from zlmreport.cli.terminal import show_path
 from zlmreport.document.blocks import Section
 from zlmreport.errors import InputError, Place
-from zlmreport.files import Document, write_new
+from zlmreport.files import write_new
 from zlmreport.language import Language
 from zlmreport.machines.cross_confirmation import CrossVerdict, confirm
-from zlmreport.machines.cross_making import PEAK, CrossWanted, make_cross, make_trial
+from zlmreport.machines.cross_making import (
+    PEAK,
+    CrossWanted,
+    make_cross,
+    make_table_documents,
+    make_trial,
+)
 from zlmreport.machines.cross_report import (
     CONFIRMATION_SCHEMA,
     SCHEMA,
@@ -21,11 +27,9 @@ from zlmreport.machines.cross_report import (
 )
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.cross_tables import (
-    forecast_section,
     lay_out_confirmation,
-    lay_out_tables,
+    lay_out_cross,
     lay_out_trial,
-    sign_section,
 )
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.units import MILLIMETRE
@@ -56,11 +60,7 @@ def compensate(
         found = confirm(machine, made, options.confirm, registry, _COMMAND)
         return [lay_out_confirmation(found, _SAY)], (), collect_confirmation(found)
     shown = _write_tables(made.files, machine, options, "")
-    sections = [lay_out_tables(made.plan, made.decoded, made.control.cross_notes, _SAY)]
-    if made.control.cross_sign == "stated":
-        sections.append(sign_section(made.moves, _SAY))
-    sections.append(forecast_section(made.forecast, _SAY))
-    return sections, shown, {**collect_cross(made), "files": shown}
+    return lay_out_cross(made, _SAY), shown, {**collect_cross(made), "files": shown}
 
 
 def find_exit_code(values: Mapping[str, Any]) -> int:
@@ -71,9 +71,6 @@ def find_exit_code(values: Mapping[str, Any]) -> int:
 def _write_tables(files: Any, machine: MachineFile, options: Namespace, mark: str) -> list[str]:
     if options.output is None:
         return []
-    documents = [
-        Document(options.output / f"{machine.number}{mark}{end}", text.encode("ascii"))
-        for end, text in files.items()
-    ]
+    documents = make_table_documents(files, options.output, f"{machine.number}{mark}")
     write_new(documents)
     return [show_path(each.path) for each in documents]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 from zlmreport.errors import Problem
@@ -17,7 +18,7 @@ from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurand import Coordinate
+from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import MeasurementSet
 
 if TYPE_CHECKING:
@@ -44,6 +45,11 @@ _OF_KIND = {
     AxisKind.ROTARY: Words("results of a rotary axis"),
 }
 _OF_LENGTH = Words("results over {length} {unit} (the scope ends at {most} {unit})")
+_OTHER_CAPABILITY = Words(
+    "Outside the accredited scope: {quantity}. The capability that the laboratory states is for {own}; no "
+    "U is raised to it"
+)
+_OF_QUANTITY = {each.identifier: each.title for each in (POSITIONING, STRAIGHTNESS, ANGLE, CIRCLE)}
 _OF_STANDARD = Words("results by {standard}")
 _INSTRUMENT = Words("Measuring instrument")
 
@@ -62,19 +68,49 @@ def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     return (*(each.words for each in found), *_say_out_of_scope(job, measurements))
 
 
-def list_certificates(job: Job) -> tuple[str, ...]:
-    """Return the calibration certificates through which the results of a job are traceable, each once.
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """The calibration certificates through which results are traceable, each once."""
 
-    Of the instrument of every line of every part; none where one of them names no certificate, or where
-    something that the job says breaks the chain, or a day is not stated.
+    of_instruments: tuple[str, ...] = ()
+    of_artefacts: tuple[str, ...] = ()  #: Of squares, straightedges, bars: what was measured against.
+
+
+def find_chain(job: Job) -> Chain:
+    """Return the calibration certificates through which the results of a job are traceable.
+
+    Of the instrument of every line of every part, and of the artefacts that were measured against; none
+    where an instrument, or an artefact of which U is stated, names no certificate, or where something that
+    the job says breaks the chain, or a day is not stated.
     """
     lines = [line for part in job.parts for line in part.lines.values()]
     of_all = [each.keys for each in (job, *lines, *(one.as_found for one in lines if one.as_found))]
     named = [(each.keys.instrument and each.keys.instrument.certificate) or "" for each in lines]
     is_dated = all(keys.measurement.date for keys in of_all)
     if not is_dated or any(each.is_broken for keys in of_all for each in _find_breaks_of_instruments(keys)):
-        return ()
-    return tuple(dict.fromkeys(named)) if all(map(is_reference, named)) else ()
+        return Chain()
+    of_artefacts = [each for part in job.parts for each in _list_artefacts(part)]
+    if not all(map(is_reference, (*named, *of_artefacts))):
+        return Chain()
+    own = dict.fromkeys(named)
+    return Chain(tuple(own), tuple(each for each in dict.fromkeys(of_artefacts) if each not in own))
+
+
+def _list_artefacts(job: Job) -> Iterator[str]:
+    """Yield the certificate of each artefact that was measured against; empty where none is named.
+
+    An artefact is a group of keys that a standard takes from the measurement, such as a square, or causes a
+    contribution that the job states with its certificate.
+    """
+    for choice in job.standards:
+        groups = (getattr(choice.options, key, None) for key in choice.options.of_the_measurement)
+        for group in groups:
+            certificate = getattr(group, "certificate", None)
+            if certificate or getattr(group, "expanded_uncertainty", None) is not None:
+                yield certificate or ""
+    for line in job.lines.values():
+        stated = line.keys.uncertainty.contributions if line.keys.uncertainty else ()
+        yield from (each.certificate for each in stated if each.certificate)
 
 
 def find_broken_chain(job: Job) -> Iterator[Problem]:
@@ -163,7 +199,8 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     if cmc is None:
         return
     axis, targets = job.axis, measurements.target_positions
-    if axis.measurand.coordinate is Coordinate.TIME:  # a scope of axes and their lengths says nothing of it
+    if cmc.quantity != axis.measurand.identifier:
+        yield _OTHER_CAPABILITY.given(quantity=axis.measurand.title, own=_OF_QUANTITY[cmc.quantity])
         return
     if cmc.kind is not None and cmc.kind is not axis.kind:
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])

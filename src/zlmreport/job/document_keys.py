@@ -280,7 +280,9 @@ class CertificateKeys(JobPart):
 class Capability(JobPart):
     """The smallest uncertainty that the laboratory's accreditation lets it state (CMC), with k = 2."""
 
-    constant: NotNegative = Field(0.0, description="Micrometres (arc seconds).", examples=[0.3])
+    constant: NotNegative = Field(
+        0.0, description="Micrometres; of angles and rotary axes arc seconds.", examples=[0.3]
+    )
     per_metre: NotNegative = Field(
         0.0,
         description="What it gains with each metre of measured length, micrometres/m (arc seconds/m).",
@@ -295,11 +297,20 @@ class Capability(JobPart):
     kind: AxisKind | None = Field(
         None, description="Kind of axes of the accredited scope: results of others are marked."
     )
+    quantity: Literal["positioning", "straightness", "angle", "circle"] = Field(
+        "positioning",
+        description="What the capability is for: U of others is not raised to it, and their results "
+        "are marked.",
+    )
     standards: list[Text] | None = Field(
         None,
         description="Standards of the accredited scope, by their identifiers: results by others are marked.",
         examples=[["iso230-2:2014"]],
     )
+
+    def is_for(self, quantity: str, kind: AxisKind) -> bool:
+        """Return whether its numbers are of a quantity on a kind of axis, and so in its unit."""
+        return quantity == self.quantity and self.kind in (None, kind)
 
 
 class Laboratory(JobPart):

@@ -75,6 +75,10 @@ class ContributionKeys(JobPart):
         description="How its values are distributed; one-sided: rectangular from zero. Without it "
         "rectangular for a range, else normal.",
     )
+    certificate: Text | None = Field(
+        None,
+        description="Calibration certificate of the artefact that it comes from: a straightedge, a mirror.",
+    )
 
 
 class UncertaintyKeys(JobPart):

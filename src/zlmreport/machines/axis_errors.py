@@ -21,7 +21,13 @@ from zlmreport.evaluation.uncertainty.budget import Acts, Budget
 from zlmreport.files import demand
 from zlmreport.job.job import Job
 from zlmreport.job.tree import Keys, Scalar
-from zlmreport.machines.curve import AxisErrorCurve, Means, make_curve_of_means, make_measured_curve
+from zlmreport.machines.curve import (
+    AxisErrorCurve,
+    Means,
+    make_curve_of_means,
+    make_measured_curve,
+    with_scale_error,
+)
 from zlmreport.machines.keys import LineKeys, StatedKeys
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
 from zlmreport.machines.machine import find_unit_of
@@ -88,8 +94,9 @@ def make_curve_of_job(job: Job, measurements: MeasurementSet, registry: Registry
     """
     name, source = find_error_of(job), job.keys.certificate.number
     if name not in SQUARENESS:
-        shared = find_shared_error(job, measurements, registry)
-        return make_measured_curve(name, measurements, shared, find_line_of_job(job), source)
+        shared, scale = _find_shared_error(job, measurements, registry)
+        curve = make_measured_curve(name, measurements, shared, find_line_of_job(job), source)
+        return with_scale_error(curve, scale)
     evaluated = (each.evaluation for each in pipeline.evaluate_all(job, measurements, registry))
     found = [one for each in evaluated for one in each.parameters if one.quantity.symbol == name]
     u = found[0].standard_uncertainty if found else None
@@ -107,15 +114,19 @@ def make_single_curve(name: str, value: float, u: float, line: ErrorLine, source
     return AxisErrorCurve(name, np.zeros(1), np.array([value]), np.eye(1) * u, line, source)
 
 
-def find_shared_error(job: Job, measurements: MeasurementSet, registry: Registry) -> InstrumentError:
-    """Return the uncertainty that the readings of a test share, by its budget or else by its instrument."""
+def _find_shared_error(
+    job: Job, measurements: MeasurementSet, registry: Registry
+) -> tuple[InstrumentError, float]:
+    """Return the uncertainty that the readings of a test share, by its budget or else by its instrument.
+
+    The second is that of the scale in which all of them were read.
+    """
     length = float(np.ptp(measurements.target_positions)) or 1.0
     budget = pipeline.make_budget_of_job(job, measurements, registry)
     if not isinstance(budget, Budget):
-        return find_instrument_error(job, length)
-    return _share_contributions(
-        ((each.acts, each.standard_uncertainty) for each in budget.contributions), length
-    )
+        return find_instrument_error(job, length), 0.0
+    found = [(each.acts, each.standard_uncertainty) for each in budget.contributions]
+    return _share_contributions(found, length), _find_scale(found, measurements.deviation)
 
 
 def _share_contributions(contributions: Iterable[tuple[Acts, float]], length: float) -> InstrumentError:
@@ -133,6 +144,13 @@ def _share_contributions(contributions: Iterable[tuple[Acts, float]], length: fl
         at_each_position=math.sqrt(sums["at"]),
         between_directions=math.sqrt(sums["between"]),
     )
+
+
+def _find_scale(contributions: Iterable[tuple[Acts, float]], readings: FloatArray) -> float:
+    """Return the uncertainty of the scale of readings; that of a budget is the error of the largest one."""
+    largest = float(np.nanmax(np.abs(readings), initial=0.0))
+    squares = sum(u**2 for acts, u in contributions if acts is Acts.WITH_THE_READING)
+    return math.sqrt(squares) / largest if largest else 0.0
 
 
 class _Lenient(BaseModel):
@@ -248,14 +266,12 @@ def _make_of_positions(
 
     count = np.maximum(column("n", 1.0).astype(np.int64), 1)
     means = Means(nodes, unit.to_si(column("mean")), count, (count - 1) * unit.to_si(column("s")) ** 2)
-    shared = _share_contributions(
-        (
-            (each.acts, float(unit.to_si(each.standard_uncertainty)))
-            for each in found.uncertainty.contributions
-        ),
-        float(np.ptp(nodes)),
-    )
-    return make_curve_of_means(means, name, shared, line, found.certificate.number)
+    contributions = [
+        (each.acts, float(unit.to_si(each.standard_uncertainty))) for each in found.uncertainty.contributions
+    ]
+    shared = _share_contributions(contributions, float(np.ptp(nodes)))
+    curve = make_curve_of_means(means, name, shared, line, found.certificate.number)
+    return with_scale_error(curve, _find_scale(contributions, means.values))
 
 
 def read_curves_of_statement(stated: StatedKeys, node: Keys, problems: list[Problem]) -> list[AxisErrorCurve]:

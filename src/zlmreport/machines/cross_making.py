@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from zlmreport.errors import InputError, Place
+from zlmreport.files import Document
 from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, plan_tables
 from zlmreport.machines.reading import MachineFile
 from zlmreport.model.compensation.cross import CrossTable
@@ -107,9 +109,19 @@ def make_trial(
     return control, trial, control.cross_files([trial], 1)
 
 
+def make_table_documents(files: Mapping[str, str], folder: Path, stem: str) -> list[Document]:
+    """Return the files of a control, to be written into a folder."""
+    return [Document(folder / f"{stem}{end}", text.encode("ascii")) for end, text in files.items()]
+
+
+def list_cross_controls(registry: Registry) -> list[Any]:
+    """Return the controls that take tables across axes."""
+    return [each for each in registry.controllers if hasattr(each, "cross_files")]
+
+
 def choose_cross_control(registry: Registry, wanted: CrossWanted) -> Any:
     """Return the control; refuse one without tables across axes by its name."""
-    known = [each.identifier for each in registry.controllers if hasattr(each, "cross_files")]
+    known = [each.identifier for each in list_cross_controls(registry)]
     if not wanted.controller:
         raise InputError.at(
             wanted.place,

@@ -154,6 +154,16 @@ def make_curve_of_means(
     return AxisErrorCurve(name, nodes, means.values.ravel(), factor, line, source)
 
 
+def with_scale_error(curve: AxisErrorCurve, uncertainty: float) -> AxisErrorCurve:
+    """Return a curve of which all values share the error of the scale in which they were read.
+
+    `uncertainty`: The standard uncertainty of what the instrument shows for 1.
+    """
+    if not uncertainty:
+        return curve
+    return replace(curve, factor=np.column_stack([curve.factor, uncertainty * curve.values]))
+
+
 def remove_alignment(curve: AxisErrorCurve) -> AxisErrorCurve:
     """Return a curve without what only says how it was set up.
 

@@ -85,7 +85,8 @@ def make_machine_document(
         if laboratory and laboratory.logo
         else None
     )
-    made_from = list_sources_of_several((*machine.sources, *([logo.file] if logo else [])), machine.number)
+    files = (*machine.sources, *([logo.file] if logo else []))
+    made_from = list_sources_of_several(files, machine.file.tree, machine.number)
     material = _gather_material(machine, registry)
     results = _write_results(material, made_from, generator)
     say = Sayer(stated.language)

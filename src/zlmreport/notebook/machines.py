@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, did_you_mean, quoted
-from zlmreport.files import Document, write_new
+from zlmreport.files import write_new
 from zlmreport.machines.choosing import add_effect
 from zlmreport.machines.comparison import compare_circles, compare_line
 from zlmreport.machines.cross_confirmation import confirm as confirmed
-from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross
+from zlmreport.machines.cross_making import CrossMade, CrossWanted, make_cross, make_table_documents
 from zlmreport.machines.cross_report import collect_confirmation, collect_cross
 from zlmreport.machines.diagnosis import MachineDiagnosis, diagnose as diagnosed
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
@@ -91,7 +91,7 @@ class MachineTables:
 
         Raises `AccessError` if they cannot be written, or are there.
         """
-        write_new([Document(Path(folder) / name, text.encode("ascii")) for name, text in self.files.items()])
+        write_new(make_table_documents(self.made.files, Path(folder), self.machine.file.number))
         return Path(folder)
 
     def confirm(self, *jobs: str | Path) -> dict[str, Any]:

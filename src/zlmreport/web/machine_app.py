@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request as HttpRequest
@@ -15,13 +16,14 @@ from starlette.routing import Route
 
 from zlmreport.language import Language
 from zlmreport.plugin.registry import Registry
-from zlmreport.web.answers import PageAnswers
+from zlmreport.web.answers import OTHER_PAGE, PageAnswers
 from zlmreport.web.changes import Request
 from zlmreport.web.commands import Wanted, find_made_file, list_demanded_formats
 from zlmreport.web.diagnoses import Diagnoses, DiagnosesByContent
 from zlmreport.web.guard import Door, DoorKeeper
 from zlmreport.web.machine_bench import MachineBench
 from zlmreport.web.machine_changes import change_machine
+from zlmreport.web.machine_tables import TablesWanted, make_tables
 from zlmreport.web.machine_view import MachineView
 from zlmreport.web.making import Making, make_values
 from zlmreport.web.texts import collect_machine_texts
@@ -31,10 +33,11 @@ _DIAGNOSING = "zlmreport.web.machine_diagnoses"
 
 @dataclass(frozen=True, slots=True)
 class MachineCommands:
-    """The document of a machine, made in a process of its own."""
+    """The document of a machine, made in a process of its own, and its tables, which take no time."""
 
     bench: MachineBench
     making: Mapping[str, Making]  #: By its name: ``certificate``.
+    tables: dict[str, Path] = field(default_factory=dict)  #: Files of tables that were written, by name.
 
     def begin(self, name: str, wanted: Wanted) -> dict[str, Any]:
         """Begin to make it, and return how far it is.
@@ -50,7 +53,7 @@ class MachineCommands:
 
     def file(self, name: str) -> Path | None:
         """Return where a file lies that was made from the page; None for any other name."""
-        return find_made_file(self.making, name)
+        return self.tables.get(name) or find_made_file(self.making, name)
 
     def end(self) -> None:
         """End all that is under way."""
@@ -95,6 +98,7 @@ class MachineWorkbench(PageAnswers):
             Route("/api/stamp", self.stamp),
             Route("/api/results", self.results),
             Route("/api/step", self.step),
+            Route("/api/tables", self.tables, methods=["POST"]),
         ]
         return Starlette(routes=[*self.routes(), *own])
 
@@ -126,6 +130,21 @@ class MachineWorkbench(PageAnswers):
             return self._view(self.language(request)).before_and_after(of, test)
 
         return await self.answered(request, found)
+
+    async def tables(self, request: HttpRequest) -> Response:
+        """Answer with the forecast of tables across axes, write them, or hold circles against them."""
+        try:
+            wanted = TablesWanted.model_validate_json(await request.body())
+        except ValidationError:
+            return JSONResponse({"problems": [OTHER_PAGE]}, 400)
+
+        def made() -> dict[str, Any]:
+            view = self._view(self.language(request))
+            values, documents = make_tables(self.bench, view.loaded, wanted, view.names)
+            self.commands.tables.update({each.path.name: each.path for each in documents})
+            return values
+
+        return await self.answered(request, made)
 
     def _view(self, language: Language) -> MachineView:
         return MachineView(self.bench, self.bench.loaded(), language)

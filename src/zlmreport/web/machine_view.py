@@ -32,6 +32,7 @@ from zlmreport.web.blocks import collect_blocks, list_all_sections
 from zlmreport.web.journal import REDO, UNDO, BenchJournal, find_redoable, find_undoable
 from zlmreport.web.machine_bench import LoadedMachine, MachineBench, find_fall_of
 from zlmreport.web.machine_graphs import collect_graph, collect_model, collect_residuals, find_readings_of
+from zlmreport.web.machine_tables import list_offered_tables
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import split_symbol
 from zlmreport.web.view import SHOWN, say_done_by, step
@@ -103,7 +104,8 @@ class MachineView:
                 "formats": [
                     {"format": each.identifier, "chosen": each.identifier in keys.output.formats}
                     for each in self.bench.registry.renderers
-                ]
+                ],
+                "tables": list_offered_tables(self.bench, loaded, self.language),
             },
             "asked": [],
             "steps": [step(each, self.language, names) for each in reversed(entries[-SHOWN:])],

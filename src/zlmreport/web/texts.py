@@ -11,6 +11,7 @@ from zlmreport.document.subjects.fit import EFFECTS
 from zlmreport.document.subjects.forecast import FALL
 from zlmreport.document.subjects.linked import GRAPH_TEXTS
 from zlmreport.language import Language, Words
+from zlmreport.machines.subjects.cross_tables import TABLES
 from zlmreport.model.compensation.confirmation import ConfirmationVerdict
 from zlmreport.web.capture_texts import CAPTURE_TEXTS
 
@@ -219,6 +220,17 @@ MACHINE_TEXTS: Mapping[str, Words] = MappingProxyType(
         "errorIs": Words(
             "Root mean square of all circles together, without where the bar stands and how long it is."
         ),
+        "compensation": TABLES,
+        "writeTable": Words("Write the tables"),
+        "positiveValue": Words("A positive value moves an axis"),
+        "plus": Words("in its positive direction"),
+        "minus": Words("in its negative direction"),
+        "notKnown": Words("not known: a trial value shows it"),
+        "writeTrial": Words("Write a trial value"),
+        "showForecast": Words("Show the forecast"),
+        "asMeasured": Words("as measured"),
+        "secondTest": Words("Circle run again with the tables"),
+        "hold": Words("Hold it against the forecast"),
         "build": Words("Step by step"),
         "stairs": Words("The error falls, step by step"),
         "jobs": Words("Jobs of this folder"),

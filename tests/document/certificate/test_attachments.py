@@ -195,3 +195,22 @@ def test_more_files_than_a_certificate_carries_are_refused() -> None:
 def test_files_larger_than_a_certificate_carries_are_refused() -> None:
     with pytest.raises(InputError, match="64 MiB"):
         arrange_attachments([attachment("a", LARGEST_TOTAL), attachment("b", 1)], "CAL-1")
+
+
+def test_what_a_job_named_from_the_root_names_is_told_from_there_too(tmp_path: Path) -> None:
+    for folder in ("left", "right"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "test.yaml").write_text(SOUND.replace("number: CAL-1", f"number: {folder}"))
+        (tmp_path / folder / "six.txt").write_text("1 2 3 -1 -2 -3")
+    (tmp_path / "document").mkdir()
+    stated = ", ".join(str(tmp_path / folder / "test.yaml") for folder in ("left", "right"))
+    document = tmp_path / "document" / "job.yaml"
+    document.write_text(
+        f"schema: zlmreport/job/1\ncertificate: {{number: D-1, kind: report}}\nmeasurements: [{stated}]\n"
+    )
+    job = load(document, REGISTRY)
+    readings = [SourceFile.of(tmp_path / folder / "six.txt", folder.encode()) for folder in ("left", "right")]
+    assert {each.path for each in list_sources(job, readings, None)} == {
+        "job.yaml",
+        *(str(tmp_path / folder / name) for folder in ("left", "right") for name in ("test.yaml", "six.txt")),
+    }

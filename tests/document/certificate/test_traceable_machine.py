@@ -16,7 +16,7 @@ READINGS = "target,direction,run,deviation\n" + "".join(
 )
 
 
-def said(folder: Path, first: dict[str, Any], second: dict[str, Any]) -> str:
+def said(folder: Path, first: dict[str, Any], second: dict[str, Any], **others: Any) -> str:
     (folder / "line.csv").write_text(READINGS, encoding="utf-8")
     source = {"plugin": "laser-csv", "file": "line.csv"}
     keys = {name: each for name, each in COMPLETE.items() if name not in {"axis", "instrument"}}
@@ -27,6 +27,7 @@ def said(folder: Path, first: dict[str, Any], second: dict[str, Any]) -> str:
     measurement = {"date": "2022-04-18", "error": "C0Y", "tests": tests}
     report = {**COMPLETE["certificate"], "kind": "report"}
     whole = {**keys, "certificate": report, "measurement": measurement, "evaluate": ["iso230-1:2012"]}
+    whole |= others
     found = say_traceable_through(job(folder, whole))
     return found.in_language(Language.ENGLISH) if found else ""
 
@@ -44,3 +45,30 @@ def test_each_certificate_is_named_once(tmp_path: Path, first: str, second: str,
 
 def test_one_instrument_without_a_certificate_leaves_the_whole_unshown(tmp_path: Path) -> None:
     assert said(tmp_path, {"certificate": "C-1"}, {}) == ""
+
+
+@pytest.mark.parametrize(
+    ("square", "ending"),
+    [
+        ({"certificate": "S-3", "expanded_uncertainty": 0.5}, "(calibration certificates C-1, S-3)."),
+        ({"error": 0.2}, "(calibration certificate C-1)."),
+        ({"expanded_uncertainty": 0.5}, ""),
+    ],
+)
+def test_a_square_that_enters_u_is_in_the_chain(tmp_path: Path, square: dict[str, Any], ending: str) -> None:
+    of_both = {"certificate": "C-1"}
+    found = said(tmp_path, of_both, of_both, square=square)
+    assert found.endswith(ending)
+    assert bool(found) == bool(ending)
+
+
+def test_a_straightedge_is_in_the_chain_by_the_contribution_that_it_causes(tmp_path: Path) -> None:
+    edge = {
+        "name": "Straightedge",
+        "expanded_uncertainty": 0.3,
+        "acts": "at-each-position",
+        "certificate": "E-5",
+    }
+    of_both = {"certificate": "C-1"}
+    budget = {**COMPLETE["uncertainty"], "contributions": [edge]}
+    assert "C-1, E-5" in said(tmp_path, of_both, of_both, uncertainty=budget)

@@ -320,6 +320,16 @@ def test_the_accreditation_bounds_u_from_below(tmp_path: Path) -> None:
     assert budget.least == pytest.approx((3 + 5 * LENGTH) * MICROMETRE)
 
 
+@pytest.mark.parametrize("other", [{"quantity": "angle"}, {"kind": "rotary"}])
+def test_a_capability_of_another_quantity_or_unit_bounds_nothing(
+    other: dict[str, str], tmp_path: Path
+) -> None:
+    budget = made(tmp_path, keys(laboratory={"cmc": {"constant": 3, **other}}))
+
+    assert isinstance(budget, Budget)
+    assert budget.least == 0.0
+
+
 def test_without_an_accreditation_nothing_bounds_u_from_below(tmp_path: Path) -> None:
     budget = made(tmp_path, COMPLETE)
 

@@ -97,8 +97,10 @@ def init(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Write a commented job, a laboratory's shared data and sample readings, to begin with.\n"
-        "No file that is there already is touched.",
-        "example:\n  zlmreport init first && zlmreport first/job.yaml",
+        "With --machine: a machine file and a job for each file of readings, what nobody but you knows\n"
+        "marked in them. No file that is there already is touched.",
+        "examples:\n  zlmreport init first && zlmreport first/job.yaml\n"
+        "  zlmreport init mill --machine x-position.csv x-straightness-y.csv ballbar-XY-R150-F1000.csv",
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="folder; it is made if it is not there")
     parser.add_argument(
@@ -107,6 +109,15 @@ def init(command: str) -> CommandParser:
         metavar="FILE",
         type=Path,
         help="measurements that there are: a job that reads them is written instead (see zlmreport look)",
+    )
+    parser.add_argument(
+        "--machine",
+        metavar="FILE",
+        nargs="+",
+        type=Path,
+        default=[],
+        help="readings of the axes and circles of a machine, or folders of them: a machine file with a job "
+        "for each; which error a file holds is taken from its name (EYX.csv, x-pitch.csv)",
     )
     _add_sheet(parser)
     return parser

@@ -5,14 +5,15 @@ With them anyone can evaluate it again; `zlmreport verify` does.
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum, StrEnum
-from pathlib import PurePosixPath
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
 from zlmreport.errors import InputError, Place
-from zlmreport.job.tree import walk_scalars
+from zlmreport.job.tree import Keys, walk_scalars
 from zlmreport.job.types import find_path_from_job
 from zlmreport.language import Language, Words
 
@@ -121,12 +122,13 @@ class Source:
 
 def list_sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | None) -> tuple[Source, ...]:
     """Return every file that a certificate is made from, the job file first."""
+    read = tuple(readings)
     trees = (job.tree, *(part.tree for part in job.parts))
-    stated = frozenset(each.text for tree in trees for each in walk_scalars(tree))
+    first, from_root = job.files[0].path, _FromRoot.of((*job.files, *read), *trees)
     found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
 
     def add(role: SourceRole, file: SourceFile) -> None:
-        found.setdefault((_find_path(file, job, stated), file.sha256), (role, file))
+        found.setdefault((_find_path(file, first, from_root), file.sha256), (role, file))
 
     known: dict[SourceFile, SourceRole] = {}
     for part in job.parts:
@@ -136,25 +138,25 @@ def list_sources(job: Job, readings: Iterable[SourceFile], logo: SourceFile | No
     known |= {each.files[0]: SourceRole.TEST for each in job.measurements.values()}
     for number, file in enumerate(job.files):
         add(known.get(file, SourceRole.EXTENDED) if number else SourceRole.JOB, file)
-    for file in readings:
+    for file in read:
         add(SourceRole.READINGS, file)
     if logo:
         add(SourceRole.LOGO, logo)
     return _name_sources(found, job.keys.certificate.number)
 
 
-def list_sources_of_several(files: Sequence[SourceFile], number: str) -> tuple[Source, ...]:
+def list_sources_of_several(files: Sequence[SourceFile], tree: Keys, number: str) -> tuple[Source, ...]:
     """Return every file that a document of several jobs is made from; the first names the others.
 
+    `tree`: What stands in the first.
     `number`: Of the document.
     """
+    from_root = _FromRoot.of(files, tree)
     found: dict[tuple[str, str], tuple[SourceRole, SourceFile]] = {}
     first = files[0].path
     for file in files:
-        path = find_path_from_job(file.path, first) if first and file.path else None
-        found.setdefault(
-            (path or file.name, file.sha256), (SourceRole.TEST if found else SourceRole.JOB, file)
-        )
+        path = _find_path(file, first, from_root)
+        found.setdefault((path, file.sha256), (SourceRole.TEST if found else SourceRole.JOB, file))
     return _name_sources(found, number)
 
 
@@ -204,16 +206,39 @@ def find_media_type(name: str) -> str:
     return _MEDIA_TYPES.get(PurePosixPath(name).suffix.lower(), _UNKNOWN)
 
 
-def _find_path(file: SourceFile, job: Job, stated: Container[str]) -> str:
-    """Return the path by which the job comes to a file; only its name where the job does not state one.
+@dataclass(frozen=True, slots=True)
+class _FromRoot:
+    """What is told from the root of the file system."""
 
-    A path from the root is told if it is among the values that the job states.
-    """
-    job_path = job.files[0].path
-    if file.path is None or job_path is None:
+    stated: tuple[Path, ...]  #: The files that jobs name so.
+    ambiguous: frozenset[str]  #: Names that several files have: a name alone would not lead to one of them.
+
+    @classmethod
+    def of(cls, files: Sequence[SourceFile], *trees: Keys) -> _FromRoot:
+        """Return it for the files of jobs with these keys."""
+        texts = frozenset(each.text for tree in trees for each in walk_scalars(tree))
+        places = (each.path for each in files if each.path is not None)
+        digests = {(each.name, each.sha256) for each in files}
+        count = Counter(name for name, _ in digests)
+        return cls(
+            tuple(each for each in places if each.is_absolute() and str(each) in texts),
+            frozenset(name for name, number in count.items() if number > 1),
+        )
+
+    def has(self, path: Path, job: Path) -> bool:
+        """Return whether a file is told so: it is stated, or nothing else leads to it."""
+        if path in self.stated:
+            return True
+        is_elsewhere = path.name in self.ambiguous and not path.is_relative_to(job.parent)
+        return is_elsewhere and any(each.parent in path.parents for each in self.stated)
+
+
+def _find_path(file: SourceFile, job: Path | None, from_root: _FromRoot) -> str:
+    """Return the path by which a job comes to a file; only its name where the job does not state one."""
+    if file.path is None or job is None:
         return file.name
-    from_root = str(file.path) if file.path.is_absolute() and str(file.path) in stated else None
-    return find_path_from_job(file.path, job_path, from_root) or file.name
+    path = file.path
+    return find_path_from_job(path, job, str(path) if from_root.has(path, job) else None) or file.name
 
 
 def _make_unique(name: str, taken: set[str], number: str) -> str:

@@ -49,6 +49,10 @@ _TRACEABLE_BY_SEVERAL = Words(
     "The results are metrologically traceable through the calibrations of the measuring instruments "
     "(calibration certificates {certificates})."
 )
+_TRACEABLE_BY_ARTEFACTS = Words(
+    "The results are metrologically traceable through the calibrations of what was measured with and against "
+    "(calibration certificates {certificates})."
+)
 _ONLY_IN_FULL = Words(
     "This certificate may be reproduced only in full, unless the laboratory agrees in writing."
 )
@@ -121,10 +125,13 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
 
 def say_traceable_through(job: Job) -> Words | None:
     """Return through which calibrations the results are traceable; None where the job does not show it."""
-    named = traceability.list_certificates(job)
-    if len(named) > 1:
-        return _TRACEABLE_BY_SEVERAL.given(certificates=", ".join(named))
-    return _TRACEABLE.given(certificate=named[0]) if named else None
+    chain = traceability.find_chain(job)
+    if chain.of_artefacts:
+        named = ", ".join((*chain.of_instruments, *chain.of_artefacts))
+        return _TRACEABLE_BY_ARTEFACTS.given(certificates=named)
+    if len(chain.of_instruments) > 1:
+        return _TRACEABLE_BY_SEVERAL.given(certificates=", ".join(chain.of_instruments))
+    return _TRACEABLE.given(certificate=chain.of_instruments[0]) if chain.of_instruments else None
 
 
 def lay_out_paragraphs(job: Job, writer: Writer) -> Iterator[Block]:

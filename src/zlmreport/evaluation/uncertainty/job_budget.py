@@ -116,7 +116,7 @@ def make_budget_of(
 def _find_capability(job: Job, set_up: SetUp) -> float:
     """Return the smallest U that the laboratory's accreditation lets it state, m or rad."""
     cmc = job.keys.laboratory.cmc if job.keys.laboratory else None
-    if cmc is None:
+    if cmc is None or not cmc.is_for(job.axis.measurand.identifier, job.axis.kind):
         return 0.0
     return float(job.axis.deviation_unit.to_si(cmc.constant + cmc.per_metre * set_up.length))
 
@@ -336,7 +336,11 @@ def _make_other_contribution(keys: ContributionKeys, measurements: MeasurementSe
     if is_share:
         how = write_of_the_reading(size, measurements, keys.name)
     yield Contribution(
-        name=same(keys.name), distribution=distribution, stated=stated, source=wording.STATED, **how
+        name=same(keys.name),
+        distribution=distribution,
+        stated=stated,
+        source=wording.say_calibration(keys.certificate),
+        **how,
     )
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -10,17 +10,26 @@ from zlmreport.document.blocks import Block, Cell, Column, Notice, Paragraph, Se
 from zlmreport.language import Words
 from zlmreport.language.formatting import round_pair
 from zlmreport.machines.cross_confirmation import CrossConfirmation, CrossVerdict
-from zlmreport.machines.cross_tables import CrossForecast, CrossPlan, forecast, plan_worthwhile
+from zlmreport.machines.cross_making import CrossMade
+from zlmreport.machines.cross_tables import CrossForecast, forecast, plan_worthwhile
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects.saying import Sayer, make_plain_table, make_right_column
 from zlmreport.model.compensation.cross import CrossTable
 from zlmreport.plugin.registry import Registry
 
+#: A part of tables is told to no more than this.
+_FINEST = 0.01
 
-def lay_out_tables(
-    plan: CrossPlan, written: Sequence[CrossTable], notes: Sequence[Words], say: Sayer
-) -> Section:
+
+def lay_out_cross(made: CrossMade, say: Sayer) -> list[Section]:
+    """Return what the tables hold, which way they act where that was stated, and what they will leave."""
+    sign = [_lay_out_sign(made.moves, say)] if made.control.cross_sign == "stated" else []
+    return [_lay_out_tables(made, say), *sign, _lay_out_forecast(made.forecast, say)]
+
+
+def _lay_out_tables(made: CrossMade, say: Sayer) -> Section:
     """Return what the tables hold as the control reads them, and what is left out."""
+    plan = made.plan
     rows: list[tuple[Cell, ...]] = [
         (
             each.input,
@@ -29,20 +38,20 @@ def lay_out_tables(
             str(len(each.positions)),
             say.micrometres(float(np.ptp(each.values))),
         )
-        for each in written
+        for each in made.decoded
     ]
     columns = (
         Column(say(_MOVES)), Column(say(_ASIDE)), Column(say(_RANGE), "mm"), make_right_column(say(_ROWS)),
         make_right_column(say(_SPAN), "µm"),
     )  # fmt: skip
     blocks: list[Block] = [
-        make_plain_table(say(_TABLES), columns, rows),
+        make_plain_table(say(TABLES), columns, rows),
         Paragraph(say(_HELD.given(errors=", ".join(plan.taken)))),
     ]
     if plan.within_uncertainty:
         blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))
-    blocks += [Paragraph(say(_LEFT)), Notice(say(_BEFORE_LOADING), tuple(say(each) for each in notes))]
-    return Section("cross-tables", say(_TABLES), tuple(blocks))
+    blocks += [Paragraph(say(_LEFT)), Notice(say(_BEFORE_LOADING), tuple(map(say, made.control.cross_notes)))]
+    return Section("cross-tables", say(TABLES), tuple(blocks))
 
 
 def lay_out_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Section | None:
@@ -54,10 +63,10 @@ def lay_out_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Se
     blocks: list[Block] = [Paragraph(say(_WOULD_HOLD.given(errors=", ".join(plan.taken))))]
     if plan.within_uncertainty:
         blocks.append(Paragraph(say(_SMALL.given(errors=", ".join(plan.within_uncertainty)))))
-    return Section("cross-tables", say(_PROMISED), (*blocks, *forecast_section(found, say).blocks))
+    return Section("cross-tables", say(_PROMISED), (*blocks, *_lay_out_forecast(found, say).blocks))
 
 
-def sign_section(moves: int, say: Sayer) -> Section:
+def _lay_out_sign(moves: int, say: Sayer) -> Section:
     """Return which way a positive value acts, as it was stated, with what shows that it does."""
     return Section("sign", say(_SIGN), (Paragraph(say(_STATED[moves])), Paragraph(say(_CHECK))))
 
@@ -75,7 +84,7 @@ def lay_out_trial(table: CrossTable, peak: float, say: Sayer) -> Section:
     return Section("trial", say(_TRIAL_TITLE), (Paragraph(say(said)),))
 
 
-def forecast_section(found: CrossForecast, say: Sayer) -> Section:
+def _lay_out_forecast(found: CrossForecast, say: Sayer) -> Section:
     """Return circles, diagonals and the largest error before and after."""
     rows = list(_forecast_rows(found, say))
     columns = (Column(""), make_right_column(say(_NOW), "µm"), make_right_column(say(_WITH), "µm"))
@@ -88,7 +97,8 @@ def lay_out_confirmation(found: CrossConfirmation, say: Sayer) -> Section:
     verdict = found.verdict
     said = _BECAME[verdict]
     if verdict is not CrossVerdict.NOT_SEEN:
-        part, u = round_pair(found.applied, found.expanded_uncertainty, say.language.decimal_sign)
+        u_shown = max(found.expanded_uncertainty, _FINEST)
+        part, u = round_pair(found.applied, u_shown, say.language.decimal_sign)
         said = said.given(part=part, u=u)
     rows = [
         (each.name, *map(say.micrometres, (each.before, each.forecast, each.after))) for each in found.circles
@@ -115,7 +125,7 @@ def _forecast_rows(found: CrossForecast, say: Sayer) -> Iterator[tuple[Cell, ...
         yield say(_LARGEST), *map(say.micrometres, found.largest)
 
 
-_TABLES = Words("Tables across axes")
+TABLES = Words("Tables across axes")
 _MOVES, _ASIDE = Words("moves"), Words("is corrected")
 _RANGE, _ROWS, _SPAN = (
     Words("from–to"),
@@ -146,8 +156,8 @@ _TRIAL_TITLE = Words("A trial value")
 _TRIAL = Words(
     "The file holds nothing of the machine: only +{peak} µm for {output} at {input} {at} mm, and zero at "
     "both ends. Load it with the axes clear, set an indicator against {output}, and move {input} from {low} "
-    "to {at} mm. If {output} goes in its positive direction, state --moves plus, else --moves minus; then "
-    "remove the file."
+    "to {at} mm. If {output} goes in its positive direction, a positive value moves an axis so (moves plus), "
+    "else the other way (moves minus). State that, and remove the file."
 )
 _FORECAST = Words("Forecast")
 _NOW, _WITH = Words("now"), Words("with the tables")

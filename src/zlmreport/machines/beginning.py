@@ -1,0 +1,258 @@
+"""A machine file to begin with, from files of readings: a job for each, and what nobody but the user knows.
+
+What a file or its name tells is written; what it leaves open stands as a commented line, marked with what to
+fill in. Nothing is guessed in silence.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import re
+import textwrap
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from zlmreport.errors import InputError, Place
+from zlmreport.files import Document
+from zlmreport.looking import Looked, look_at
+from zlmreport.machines.file_names import find_circle_by_name, find_error_by_name
+from zlmreport.machines.kinematics import ERRORS
+from zlmreport.measurement.error_symbol import find_error_named
+from zlmreport.measurement.measurand import ANGLE, POSITIONING
+from zlmreport.plugin.registry import Registry
+
+#: Marks a line that a user has to complete.
+FILL_IN = "fill in:"
+_WIDTH = 100
+_SHARED, _MACHINE = "shared.yaml", "machine.yaml"
+_OF_POSITIONS, _OF_LINES, _OF_CIRCLES = "iso230-2:2014", "iso230-1:2012", "iso230-4:2005"
+#: Of a job's name: what stands in the names of files everywhere.
+_PLAIN = re.compile(r"[^\w.-]+")
+
+
+@dataclass(frozen=True, slots=True)
+class BegunJob:
+    """The job of a file of readings."""
+
+    file: Path
+    stem: str
+    text: str
+    error: str  #: Which of the 21 it is; empty of a circle, of what the name does not tell, of other things.
+    doubt: str = ""  #: What is to be settled before the machine file may name it; empty where it may.
+    is_circle: bool = False
+    is_other: bool = False  #: Whether it is neither circle nor error, but another quantity: a drift, a plate.
+
+    @property
+    def said(self) -> str:
+        """What the file was taken for."""
+        if self.is_circle:
+            return "a circle"
+        if self.is_other:
+            return self.doubt
+        return f"not known: {self.doubt}" if self.doubt else self.error
+
+
+@dataclass(frozen=True, slots=True)
+class BegunMachine:
+    """A machine file, its jobs, and what they share."""
+
+    jobs: tuple[BegunJob, ...]
+    documents: tuple[Document, ...]
+
+    def to_fill_in(self) -> Iterator[tuple[Path, int, str]]:
+        """Yield each line that has to be completed: its file, its number, what belongs there."""
+        for each in self.documents:
+            for number, line in enumerate(each.content.decode().splitlines(), 1):
+                if FILL_IN in line:
+                    yield each.path, number, line.partition(FILL_IN)[2].strip()
+
+
+def begin_machine(files: Sequence[Path], directory: Path, registry: Registry) -> BegunMachine:
+    """Return the documents of a machine file in a folder that names jobs for files of readings.
+
+    `files`: Tables, or folders of them.
+
+    Raises `InputError` or `AccessError` if one cannot be read.
+    """
+    jobs: list[BegunJob] = []
+    for file in _list_files(files):
+        looked = look_at(file, registry)
+        jobs.append(_begin_job(file, looked, directory, jobs))
+    square = _begin_squareness(jobs)
+    texts = {_MACHINE: _write_machine(jobs, square), _SHARED: _write_shared()}
+    texts |= {f"{each.stem}.yaml": each.text for each in jobs} | dict(square)
+    documents = (Document(directory / name, text.encode()) for name, text in texts.items())
+    return BegunMachine(tuple(jobs), tuple(documents))
+
+
+def _list_files(files: Iterable[Path]) -> list[Path]:
+    found: list[Path] = []
+    for each in files:
+        inside = sorted(path for path in each.iterdir() if path.is_file()) if each.is_dir() else [each]
+        found += (path for path in inside if not path.name.startswith(".") and path not in found)
+    if not found:
+        raise InputError.at(Place("zlmreport init"), "--machine names no file of readings")
+    return found
+
+
+def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[BegunJob]) -> BegunJob:
+    taken = {"machine", "shared", *(each.stem for each in others)}
+    plain = _PLAIN.sub("-", file.stem).strip("-.") or "readings"
+    stem = next(
+        name for name in (plain, *(f"{plain}-{number}" for number in range(2, 1000))) if name not in taken
+    )
+    name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
+    source = list(looked.block(name, indent="  "))
+    head = [
+        f"# Of {file.name}; what is marked '{FILL_IN[:-1]}' only who measured can say.",
+        "schema: zlmreport/job/1",
+        f"extends: {_SHARED}",
+        f"certificate: {{number: {stem}}}",
+    ]
+    if looked.proposal.circle:
+        lines = [*head, *_write_circle(file, looked), "measurement:", *source, f'evaluate: ["{_OF_CIRCLES}"]']
+        return BegunJob(file, stem, _join(lines), "", is_circle=True)
+    if looked.proposal.quantity:
+        said = f"{looked.proposal.quantity.identifier}, none of the 21 errors"
+        lines = [*head, "measurement:", *source, f'evaluate: ["{looked.standard}"]']
+        return BegunJob(file, stem, _join(lines), "", said, is_other=True)
+    named = find_error_by_name(file.stem)
+    clash = next((each for each in others if named.symbol and each.error == named.symbol), None)
+    doubt = f"{named.symbol} is {clash.file.name} already; which error it is" if clash else named.doubt
+    lines = [*head, *_write_axis(named.symbol, doubt, looked)]
+    lines += [*source, f'evaluate: ["{_choose_standard_of(named.symbol)}"]', _INSTRUMENT]
+    return BegunJob(file, stem, _join(lines), named.symbol, doubt)
+
+
+def _choose_standard_of(symbol: str) -> str:
+    is_position = not symbol or find_error_named(symbol).measurand == POSITIONING
+    return _OF_POSITIONS if is_position else _OF_LINES
+
+
+def _write_axis(symbol: str, doubt: str, looked: Looked) -> Iterator[str]:
+    """Yield the lines of a job that say which axis moved, and what was measured of it."""
+    first, last = looked.read.axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
+    travel = f"travel: [{first:.9g}, {last:.9g}]"
+    name = symbol[2] if symbol else "X"
+    yield f"axis: {{name: {name}, {travel}}} # mm"
+    yield "measurement:"
+    if doubt:
+        yield f"  # error: {symbol or 'EXX'} # {FILL_IN} {doubt} (ISO 230-1: {', '.join(ERRORS[:4])} …)"
+    elif symbol != f"E{name}{name}":
+        yield f"  error: {symbol}"
+        others = ", ".join(f"{each}: 0" for each in "XYZ" if each != name)
+        yield f"  # at: {{{others}}} # mm: where the other axes stood; without it no arm is reckoned with"
+    is_angle = bool(symbol) and find_error_named(symbol).measurand == ANGLE
+    yield from (f"  # {each}" for each in looked.proposal.asks if not (is_angle and "units:" in each))
+    if is_angle:
+        yield "  # Are the angles in arc seconds? If they are in µrad, say units: {deviation: urad}."
+
+
+_INSTRUMENT = (
+    "# instrument: {name: …, expanded_uncertainty: 0.2 + 0.4*L} # µm, L in m, k = 2; else scatter alone"
+)
+
+
+def _write_circle(file: Path, looked: Looked) -> Iterator[str]:
+    """Yield the lines of a job that say which circle was run."""
+    named = find_circle_by_name(file.stem)
+    nominal = looked.proposal.circle
+    is_told = nominal is not None and "radius" not in " ".join(looked.proposal.asks)
+    radius = nominal.radius * 1e3 if nominal is not None and is_told else named.radius
+    yield "circle:"
+    if named.plane:
+        yield f"  plane: {named.plane}"
+    else:
+        yield f"  # plane: XY # {FILL_IN} the plane: XY, YZ or ZX; XY without it"
+    yield _write_number("radius", radius, 150, "nominal radius, mm")
+    yield _write_number("feed", named.feed, 1000, "feed along the path, mm/min")
+    yield f"  # centre: [0, 0, 0] # {FILL_IN} centre of the circle in the machine: X, Y, Z, mm"
+
+
+def _write_number(key: str, value: float | None, example: float, meaning: str) -> str:
+    if value is None:
+        return f"  # {key}: {example:g} # {FILL_IN} {meaning}"
+    return f"  {key}: {value:.9g} # {meaning}"
+
+
+def _begin_squareness(jobs: Sequence[BegunJob]) -> list[tuple[str, str]]:
+    """Return a job for each pair of straightness lines that one square may have been measured by."""
+    by_error = {each.error: each for each in jobs if each.error and not each.doubt}
+    found = []
+    for symbol in ("C0Y", "B0Z", "A0Z"):
+        lines = find_error_named(symbol).lines
+        if symbol in by_error or not all(each in by_error for each in lines):
+            continue
+        tests = [
+            f"    {each[2].lower()}: {{error: {each}, source: {_find_source_of(by_error[each])}}}"
+            for each in lines
+        ]
+        name = f"squareness-{symbol}.yaml"
+        text = [
+            f"# {symbol} from both lines, if they were measured along the two sides of one square.",
+            "schema: zlmreport/job/1",
+            f"extends: {_SHARED}",
+            f"certificate: {{number: squareness-{symbol}}}",
+            "measurement:",
+            f"  error: {symbol}",
+            "  tests:",
+            *tests,
+            "# square: {error: 0, expanded_uncertainty: 0.5} # arc seconds, from the square's certificate",
+            "# instrument: {name: indicator, expanded_uncertainty: 0.3} # µm, k = 2",
+            f'evaluate: ["{_OF_LINES}"]',
+        ]
+        found.append((name, _join(text)))
+    return found
+
+
+def _find_source_of(job: BegunJob) -> str:
+    """Return the source of a job on a line."""
+    lines = iter(job.text.splitlines())
+    after = itertools.dropwhile(lambda line: line != "  source:", lines)
+    keys = itertools.takewhile(lambda line: line.startswith("    "), itertools.islice(after, 1, None))
+    return f"{{{', '.join(map(str.strip, keys))}}}"
+
+
+def _write_shared() -> str:
+    return _join(
+        [
+            "# What all tests of this machine share.",
+            "certificate: {kind: report}",
+            "# machine: {manufacturer: …, model: …, serial: …} # which machine it is",
+            "# measurement: {date: 2026-11-16} # when it was measured",
+            "# laboratory: {name: …} # who measured it",
+        ]
+    )
+
+
+def _write_machine(jobs: Sequence[BegunJob], square: Sequence[tuple[str, str]]) -> str:
+    known = [each for each in jobs if each.error and not each.doubt]
+    unsettled = [each for each in jobs if each.doubt and not each.is_other]
+    circles = [each for each in jobs if each.is_circle]
+    lacking = ", ".join(each for each in ERRORS if each not in {job.error for job in known})
+    lines = [
+        "# A machine: what is known of its axes, and the circles that it is held against.",
+        "#   zlmreport machine check machine.yaml      what is known, and what is not",
+        "#   zlmreport machine diagnose machine.yaml   which effect the circles show",
+        "schema: zlmreport/machine/1",
+        f"extends: {_SHARED}",
+        f"# {FILL_IN} from workpiece to tool, F the bed; XYFZ: table in X on a saddle in Y, column in Z",
+        "chain: XYFZ",
+        "# tool: [0, 0, 120] # mm, from the point that the axis errors refer to",
+        "errors:" if known else "errors: []",
+        *(f"  - {each.stem}.yaml # {each.error}" for each in known),
+        *(f"  # - {each.stem}.yaml # {FILL_IN} its error in it, then name it here" for each in unsettled),
+        *(f"  # - {name} # if one square was used for both lines, stated in it" for name, _ in square),
+        "# Not measured, and bounded by assumptions of this program unless you state bounds:",
+        *(f"#   {line}" for line in textwrap.wrap(lacking, _WIDTH)),
+        "# bounds: {EAX: 5} # µm over the travel; of angles and squareness arc seconds",
+        "tests:" if circles else "tests: []",
+        *(f"  - {each.stem}.yaml" for each in circles),
+    ]
+    return _join(lines)
+
+
+def _join(lines: Iterable[str]) -> str:
+    return "\n".join([*lines, ""])

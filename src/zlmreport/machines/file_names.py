@@ -1,0 +1,106 @@
+"""What the name of a file of readings says of them: which of the 21 errors, or which circle.
+
+People call their files ``X straightness vertical.csv`` or ``ballbar_XY_R150_F1000_ccw.csv``. What is taken
+from a name is a proposal, and what it leaves open is said.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from zlmreport.machines.kinematics import ERRORS
+
+_POSITIONING, _STRAIGHTNESS, _PITCH, _YAW, _ROLL = "positioning", "straightness", "pitch", "yaw", "roll"
+#: Words of file names by how they begin, English and German.
+_WORDS = {
+    "pos": _POSITIONING, "lin": _POSITIONING,
+    "straight": _STRAIGHTNESS, "str": _STRAIGHTNESS, "gerad": _STRAIGHTNESS,
+    "pitch": _PITCH, "nick": _PITCH,
+    "yaw": _YAW, "gier": _YAW,
+    "roll": _ROLL,
+}  # fmt: skip
+#: In which direction a carriage is off that runs straight but for that; the first where a name is silent.
+_ACROSS = {"X": ("Y", "Z"), "Y": ("X", "Z"), "Z": ("X", "Y")}
+#: About which direction a horizontal axis tilts, turns and rolls; Z has no pitch that all mean alike.
+_TURNS = {
+    _PITCH: {"X": "B", "Y": "A", "Z": "A"},
+    _YAW: {"X": "C", "Y": "C", "Z": "B"},
+    _ROLL: {"X": "A", "Y": "B", "Z": "C"},
+}
+_PLANES = {"XY": "XY", "YX": "XY", "YZ": "YZ", "ZY": "YZ", "ZX": "ZX", "XZ": "ZX"}
+_AXIS = re.compile(r"([XYZ])\d?(?:AXIS|ACHSE)?")
+_NUMBER = r"(\d+(?:\.\d+)?)(?:MM)?"
+
+
+@dataclass(frozen=True, slots=True)
+class NamedError:
+    """Which error a file holds, as its name says."""
+
+    symbol: str  #: By ISO 230-1; empty where the name tells no axis.
+    doubt: str  #: What the name leaves open, in words; empty where it says all.
+
+
+@dataclass(frozen=True, slots=True)
+class NamedCircle:
+    """What the name of a file says of a circle; None for what it does not say. Lengths in mm."""
+
+    plane: str | None
+    radius: float | None
+    feed: float | None  #: mm/min.
+
+
+def find_error_by_name(name: str) -> NamedError:
+    """Return which of the 21 errors a file holds, as its name says.
+
+    >>> find_error_by_name("X straightness vertical").symbol, find_error_by_name("C0Y").symbol
+    ('EZX', 'C0Y')
+    """
+    parts = _split(name)
+    stated = next((each for each in parts if each in ERRORS), None)
+    if stated:
+        return NamedError(stated, "")
+    axes = [found[1] for each in parts if (found := _AXIS.fullmatch(each))]
+    if not axes:
+        return NamedError("", "which axis moved, and which error was measured")
+    axis = axes[0]
+    kind = next(
+        (kind for each in parts for word, kind in _WORDS.items() if each.startswith(word.upper())), ""
+    )
+    if kind == _STRAIGHTNESS:
+        return _find_straightness(axis, axes[1:], parts)
+    if kind in _TURNS:
+        doubt = "about which axis it tilts: EAZ or EBZ" if axis == "Z" and kind != _ROLL else ""
+        return NamedError(f"E{_TURNS[kind][axis]}{axis}", doubt)
+    return NamedError(f"E{axis}{axis}", "")  # positioning is what a job measures that says nothing else
+
+
+def _find_straightness(axis: str, others: list[str], parts: list[str]) -> NamedError:
+    first, second = _ACROSS[axis]
+    if others and others[0] != axis:
+        return NamedError(f"E{others[0]}{axis}", "")
+    if any(each.startswith("VERT") for each in parts) and axis != "Z":
+        return NamedError(f"EZ{axis}", "")
+    if any(each.startswith("HOR") for each in parts) and axis != "Z":
+        return NamedError(f"E{first}{axis}", "")
+    return NamedError(f"E{first}{axis}", f"across which axis it is: E{first}{axis} or E{second}{axis}")
+
+
+def find_circle_by_name(name: str) -> NamedCircle:
+    """Return what the name of a file says of a circle.
+
+    >>> find_circle_by_name("ballbar_XY_R150_F1000_ccw")
+    NamedCircle(plane='XY', radius=150.0, feed=1000.0)
+    """
+    parts = _split(name)
+    plane = next((_PLANES[each] for each in parts if each in _PLANES), None)
+
+    def number(letter: str) -> float | None:
+        found = (re.fullmatch(letter + _NUMBER, each) for each in parts)
+        return next((float(each[1]) for each in found if each), None)
+
+    return NamedCircle(plane, number("R"), number("F"))
+
+
+def _split(name: str) -> list[str]:
+    return [each for each in re.split(r"[^A-Z0-9.]+", name.upper()) if each]

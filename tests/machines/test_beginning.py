@@ -1,0 +1,117 @@
+"""A machine file from nothing but files of readings: what they tell is written, and the rest is asked for."""
+
+from pathlib import Path
+
+import pytest
+
+from environments import ROOT
+from zlmreport.cli import main
+from zlmreport.machines.file_names import find_circle_by_name, find_error_by_name
+from zlmreport.machines.reading import read_machine
+from zlmreport.plugin.registry import find_plugins
+
+READINGS = ROOT / "configs" / "machine"
+#: What a service engineer calls the files of the example.
+NAMES = {
+    "x-positioning.csv": "X position.csv",
+    "y-positioning.csv": "y_lin.csv",
+    "z-positioning.csv": "Z.csv",
+    "x-straightness.csv": "x-straightness.csv",
+    "y-straightness.csv": "Y Geradheit horizontal.csv",
+}
+
+
+@pytest.mark.parametrize(
+    ("name", "symbol"),
+    [
+        ("EYX", "EYX"),
+        ("c0y-square", "C0Y"),
+        ("X-Achse_Positionierung", "EXX"),
+        ("y-straightness-z", "EZY"),
+        ("z straightness in x", "EXZ"),
+        ("x_pitch", "EBX"),
+        ("Y yaw", "ECY"),
+        ("z-roll", "ECZ"),
+        ("y1 nicken", "EAY"),
+    ],
+)
+def test_the_name_of_a_file_says_which_error_it_holds(name: str, symbol: str) -> None:
+    found = find_error_by_name(name)
+    assert (found.symbol, found.doubt) == (symbol, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "doubt"),
+    [
+        ("x-straightness", "EYX or EZX"),
+        ("z-pitch", "EAZ or EBZ"),
+        ("measurement-17", "which axis moved"),
+    ],
+)
+def test_what_a_name_leaves_open_is_asked(name: str, doubt: str) -> None:
+    assert doubt in find_error_by_name(name).doubt
+
+
+def test_the_name_of_a_circle_says_plane_radius_and_feed() -> None:
+    found = find_circle_by_name("ballbar xz R100mm F3000")
+    assert (found.plane, found.radius, found.feed) == ("ZX", 100.0, 3000.0)
+    assert find_circle_by_name("fast ballbar run").radius is None
+
+
+@pytest.fixture(autouse=True)
+def readings(tmp_path: Path) -> Path:
+    """Return the files of a machine as they come from the workshop: axes, a ballbar's run in each sense."""
+    folder = tmp_path / "readings"
+    folder.mkdir()
+    for name, called in NAMES.items():
+        (folder / called).write_bytes((READINGS / name).read_bytes())
+    head, *rows = (READINGS / "circle-xy.csv").read_text("utf-8").splitlines()[1:]
+    for name, sense in (("ballbar-XY-R150-F1000-ccw.csv", "ccw"), ("ballbar-cw.csv", "cw")):
+        (folder / name).write_text("\n".join([head, *(each for each in rows if each.startswith(sense))]))
+    return folder
+
+
+def test_a_machine_begins_with_files_and_says_what_only_its_user_knows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["init", "mill", "--machine", "readings"]) == 0
+    said = capsys.readouterr().out
+    assert "y_lin.csv: EYY\n" in said
+    assert "x-straightness.csv: not known: across which axis it is: EYX or EZX\n" in said
+    assert "mill/ballbar-cw.yaml:7: nominal radius, mm\n" in said
+    assert "ballbar-XY-R150-F1000-ccw.yaml:9: centre of the circle" in said
+    assert said.endswith("next: zlmreport machine check mill/machine.yaml\n")
+    # As it is, what is missing is told with its place.
+    assert main(["machine", "check", "mill/machine.yaml"]) == 2
+    assert "mill/ballbar-cw.yaml:5:1: circle: missing" in capsys.readouterr().err
+
+    def fill_in(name: str, *values: tuple[str, str]) -> None:
+        path = Path("mill", name)
+        text = path.read_text("utf-8")
+        for commented, stated in values:
+            assert commented in text
+            text = text.replace(commented, stated)
+        path.write_text(text, "utf-8")
+
+    fill_in("x-straightness.yaml", ("# error: EYX", "error: EYX"))
+    fill_in("machine.yaml", ("# - x-straightness.yaml", "- x-straightness.yaml"))
+    fill_in("ballbar-cw.yaml", ("# radius: 150", "radius: 150"), ("# feed: 1000", "feed: 1000"))
+    machine = read_machine(Path("mill/machine.yaml"), find_plugins())
+    assert {each.name for each in machine.machine.curves} == {"EXX", "EYY", "EZZ", "EYX", "EXY"}
+    assert [each.nominal.feed * 60e3 for each in machine.circles] == pytest.approx([1000, 1000])
+
+
+def test_nothing_is_written_over_and_a_file_of_no_table_is_told(
+    readings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "mill").mkdir()
+    (tmp_path / "mill" / "machine.yaml").write_text("mine")
+    only = readings / "Z.csv"
+    assert main(["init", str(tmp_path / "mill"), "--machine", str(only)]) == 2
+    assert "is there already" in capsys.readouterr().err
+    assert [each.name for each in (tmp_path / "mill").iterdir()] == ["machine.yaml"]
+    only.write_text("Dear reader,\n")
+    assert main(["init", str(tmp_path / "new"), "--machine", str(only)]) == 2
+    assert "Z.csv" in capsys.readouterr().err
+    assert main(["init", str(tmp_path / "new"), "--machine", str(tmp_path / "none.csv")]) == 3

@@ -1,0 +1,32 @@
+"""What is said of an axis that loses motion where it turns."""
+
+import pytest
+
+from zlmreport.language import Language
+from zlmreport.plugin import MICROMETRE
+from zlmreport.plugin.circle_effect import Estimate
+from zlmreport.plugin.registry import find_plugins
+
+
+def said(*estimates: tuple[str, float, float]) -> list[str]:
+    """Return the sentences on lost motion, of values with their U in µm."""
+    effect = next(each for each in find_plugins().circle_effects if each.identifier == "circle-backlash")
+    found = [Estimate(name, MICROMETRE, value * 1e-6, u * 1e-6) for name, value, u in estimates]
+    return [each.in_language(Language.ENGLISH) for each in effect.findings(found)]
+
+
+def test_lost_motion_is_said_with_its_axis_and_what_to_do() -> None:
+    loses, mend = said(("X", 5.2, 0.4), ("Y", 0.1, 0.4))
+    assert loses == "X loses 5.20 ± 0.40 µm where it turns, alike at both ends of the circle"
+    assert "backlash compensation" in mend
+
+
+def test_an_end_that_loses_more_is_said_where_it_lies() -> None:
+    upper, ends, _ = said(("Y+", 8.0, 0.5), ("Y−", 0.2, 0.5))
+    assert upper == "Y loses 8.00 ± 0.50 µm where it turns at the end of larger Y"
+    assert "one value of the control does not suit both" in ends
+
+
+@pytest.mark.parametrize("value", [0.3, -3.0])
+def test_what_lies_within_its_uncertainty_or_is_over_compensated_is_no_lost_motion(value: float) -> None:
+    assert said(("X", value, 0.4)) == []
