@@ -10,7 +10,7 @@ from zlmreport.live.ports.reading import LiveReading
 
 #: How often a wait for a reading looks whether the user wants to end it, s.
 _LOOK = 0.2
-#: For which who gives up waits for an instrument that is asked at that moment, s: it may be silent for longer.
+#: How long who gives up waits for an instrument that is asked at that moment, s: it may keep silent.
 _PATIENCE = 1.0
 
 
