@@ -244,7 +244,7 @@ def _gather_said(of: Material, page: _Page) -> Said:
         *uncertainty.say_neglected(page.evaluated[0].budget, writer),
         *conformity.say_rule(job.keys.decision_rule, evaluations, writer),
         *conditions.say_no_influence(job, of.measurements, writer),
-        *(() if of.is_part else statements.lay_out_paragraphs(job, writer)),
+        *(() if of.is_part else statements.lay_out_paragraphs(job, writer, of.measurements)),
         *say_of_all(evaluations, writer),
     )
     notices = (

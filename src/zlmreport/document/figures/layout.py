@@ -134,8 +134,8 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     if is_alone:
         told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
         corner = (_EDGE, height - _EDGE - legends[0].height)
-        alone = (replace(panels[0], legend_corner=corner),)
-        return FigureLayout(WIDTH, height, alone, (PlacedLabel(told, _EDGE, _EDGE + 0.35 * TEXT_SIZE),))
+        beside = (replace(panels[0], legend_corner=corner),)
+        return FigureLayout(WIDTH, height, beside, (PlacedLabel(told, _EDGE, _EDGE + 0.35 * TEXT_SIZE),))
     if is_round:
         told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
         alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)
