@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import threading
 from collections.abc import Callable
 from pathlib import Path
 
@@ -64,7 +65,9 @@ def test_the_first_record_says_what_to_do(steered: Callable[[str], Run]) -> None
 
 
 def test_the_end_of_the_orders_interrupts_the_capture(steered: Callable[[str], Run]) -> None:
+    before = threading.active_count()
     assert steered("c coolant on\n").code == 130
+    assert threading.active_count() == before  # nobody asks the instrument any more
     history = read_history(Path("x.journal"))
     assert history is not None
     assert [type(each.event) for each in history.entries] == [Commented, Interrupted]

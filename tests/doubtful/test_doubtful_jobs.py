@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import json
 import re
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from document.certificate import documents
 from document.certificate.documents import text_of, without
 from doubtful import doubtful_jobs
 from doubtful.doubtful_jobs import (
@@ -25,6 +27,7 @@ from doubtful.doubtful_jobs import (
     refusals,
     write,
 )
+from zlmreport.measurement.times import read_moment
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
 _RANGES = ("misalignment", "machine_temperature", "expansion_coefficient", "environmental_variation")
@@ -584,6 +587,80 @@ def test_results_outside_the_accredited_scope_are_marked(scope, said: str, tmp_p
     keys = changed(("laboratory.cmc", {"constant": 0.3, **scope}))
 
     assert f"Outside the accredited scope: {said}" in cover(composed(tmp_path, keys))
+
+
+_NARROW = [{"name": "T 1", "certificate": "T-1", "calibrated": "2026-02-01", "calibrated_range": [15, 19.5]}]
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        (
+            "instrument.calibrated_range",
+            [0, 500],
+            "of the measuring instrument: results over 993.3 mm (it is calibrated over 500 mm)",
+        ),
+        (
+            "environment.thermometers",
+            _NARROW,
+            "of the thermometers: Air temperature 20.1 °C (they are calibrated from 15 to 19.5 °C)",
+        ),
+    ],
+)
+def test_results_outside_a_calibrated_range_are_marked(
+    key: str, value: object, said: str, tmp_path: Path
+) -> None:
+    assert f"Outside the calibrated range {said}" in cover(composed(tmp_path, changed((key, value))))
+
+
+def test_beyond_its_calibrated_range_nothing_is_traceable_through_an_instrument(tmp_path: Path) -> None:
+    within, beyond = (
+        text_of(composed(tmp_path, changed(("instrument.calibrated_range", [0, end])))) for end in (1000, 500)
+    )
+    assert "0 … 1000 mm" in within
+    assert "Outside the calibrated range" not in within
+    assert "metrologically traceable" in within
+    assert "metrologically traceable" not in beyond
+
+
+def test_the_readings_of_a_straightness_are_held_against_the_range_of_the_indicator(tmp_path: Path) -> None:
+    straight = ("evaluate", ["iso230-1:2012"]), ("measurement.error", "EYX")
+    without_lengths = without("environment.expansion_coefficient", "uncertainty", keys=SOUND)
+    keys = changed(REPORT, *straight, ("instrument.calibrated_range", [-1, 1]), of=without_lengths)
+
+    assert "µm (it is calibrated over 2 µm)" in cover(composed(tmp_path, keys))
+
+
+def test_a_range_that_ends_before_it_begins_is_refused(tmp_path: Path) -> None:
+    turned = refusals(tmp_path, changed(("instrument.calibrated_range", [500, 0])))
+
+    assert "instrument.calibrated_range: the first value of the range must be less than the last" in turned
+
+
+@pytest.mark.parametrize(
+    ("first", "said"),
+    [
+        ("2026-11-17T08:00:00", "The times of the readings are of 2026-11-17, and"),
+        ("18.11.2026 23:59:30", ""),  # a night that ends on the next day
+        ("2026-11-18T08:00:00", ""),
+        ("2026-11-19T00:30:00Z", ""),  # where it was measured, it was still the 18th
+        ("2026-11-20T00:30:00Z", "The times of the readings are of 2026-11-20, and"),
+    ],
+)
+def test_readings_of_another_day_than_the_measurement_are_marked(
+    first: str, said: str, tmp_path: Path
+) -> None:
+    written = read_moment(first)
+    assert written is not None
+    write(tmp_path, readings())
+    head, *rows = (tmp_path / "x.csv").read_text(encoding="utf-8").splitlines()
+    times = [(written + dt.timedelta(seconds=20 * number)).isoformat() for number in range(len(rows))]
+    lines = [f"{head},time", *(f"{row},{time}" for row, time in zip(rows, times, strict=True))]
+    (tmp_path / "x.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+    document = documents.certificate(tmp_path, SOUND)
+
+    assert (said in cover(document)) if said else document.evidence == ()
 
 
 def test_a_certificate_that_names_no_document_is_open_where_the_standard_wants_it(tmp_path: Path) -> None:

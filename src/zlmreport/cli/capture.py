@@ -292,9 +292,13 @@ def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and w
         display.begin(follower)
         show = partial(display.show, follower)
         event: Event | None = None
-        with display.keys():
-            for event in captured(chain([first], readings), follower, journal, clock, show=show):
-                display.tell(event)
+        try:
+            with display.keys():
+                for event in captured(chain([first], readings), follower, journal, clock, show=show):
+                    display.tell(event)
+        except BaseException:
+            readings.give_up()
+            raise
         readings.end()  # what comes while the operator sees to something is of no matter
         if journal.progress.is_over:
             if isinstance(event, ZeroLost | DatumMoved):

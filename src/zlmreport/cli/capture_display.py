@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Any, Protocol
 
-from zlmreport.cli.terminal import Colour, make_visible
+from zlmreport.cli.terminal import Colour, make_visible, write_duration
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.job.job import Job
 from zlmreport.job.parse import count_in_words
@@ -33,16 +33,15 @@ from zlmreport.live.capture.events import (
 )
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.of_job import Assignment
-from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.records import MOMENTARY, to_record
-from zlmreport.live.capture.told import (
+from zlmreport.live.capture.operator_texts import (
     SIDES,
     AxisWriter,
     list_what_to_do,
     say_halted,
     tell_event,
-    write_duration,
 )
+from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.records import MOMENTARY, to_record
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.live.ports.reading import LiveReading
 
@@ -180,7 +179,7 @@ class PlainLines:
         )
         visits = count_in_words(len(self._assignment.visits), "visit")
         method = self._assignment.plan.method
-        rest = write_duration(self._assignment.remaining_time(0))
+        rest = f"about {write_duration(self._assignment.remaining_time(0))}"
         self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits}, {rest}")
 
     def begin(self, follower: Follower) -> None:
@@ -342,7 +341,7 @@ def show_panel(
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)
     bar = "█" * full + "░" * (_BAR - full)
-    rest = write_duration(assignment.remaining_time(done))
+    rest = f"about {write_duration(assignment.remaining_time(done))}"
     yield f"done   {bar}  {done} of {planned}, {planned - done} to go, {rest}"
 
 

@@ -16,9 +16,9 @@ from zlmreport.job.job import Job
 from zlmreport.live.capture.events import Event, Order, TooSlow, Unclear
 from zlmreport.live.capture.follower import Follower
 from zlmreport.live.capture.of_job import Assignment
+from zlmreport.live.capture.operator_texts import list_what_to_do, say_halted
 from zlmreport.live.capture.progress import Progress
 from zlmreport.live.capture.records import MOMENTARY, to_record
-from zlmreport.live.capture.told import list_what_to_do, say_halted
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.live.ports.reading import LiveReading
 

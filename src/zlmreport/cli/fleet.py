@@ -17,7 +17,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TextIO
 
-from zlmreport.cli.terminal import collect_problem, make_visible, print_json, show_path
+from zlmreport.cli.terminal import collect_problem, make_visible, print_json, show_path, write_duration
 from zlmreport.errors import AccessError, InputError, Place
 from zlmreport.files import confine
 from zlmreport.fleet.issuing import Happened, What
@@ -329,18 +329,6 @@ def tell_counted(counts: Counter[What]) -> Iterator[str]:
         if counts[what]:
             word = words.get(what, what.value) if counts[what] > 1 else what.value
             yield f"{counts[what]} {word}"
-
-
-def write_duration(seconds: float) -> str:
-    """Return a duration as people say it.
-
-    >>> write_duration(4.2), write_duration(200), write_duration(7300)
-    ('4 s', '3:20 min', '2:01 h')
-    """
-    if seconds < 60:
-        return f"{seconds:.0f} s"
-    minutes, rest = divmod(round(seconds), 60)
-    return f"{minutes}:{rest:02} min" if minutes < 60 else f"{minutes // 60}:{minutes % 60:02} h"
 
 
 class NightProgress:

@@ -20,6 +20,8 @@ from zlmreport.language import Language, Words
 from zlmreport.language.formatting import HELD
 
 _USUAL_LINE, _SHORTEST_LINE = 110, 60
+#: Seconds of a minute, minutes of an hour; and from how many seconds on only minutes are said.
+_MINUTE, _LONG = 60, 600
 #: A blank at which no line ends: before a number or a unit, and around a sign between numbers.
 _WITHIN_A_VALUE = re.compile(
     r" (?=[−\d]|[±=<≈] )|(?<=[±=<≈]) |(?<=\d) (?=(?:[mµn]?m|s|min|readings|%|°|″)(?!\w))"
@@ -100,6 +102,21 @@ def show_progress(doing: str, *, is_wanted: bool = True) -> Iterator[Callable[[f
     finally:
         if shown:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
+
+
+def write_duration(seconds: float) -> str:
+    """Write how long something takes; from ten minutes on, seconds say nothing.
+
+    >>> write_duration(4.2), write_duration(200), write_duration(1400), write_duration(7300)
+    ('4 s', '3 min 20 s', '23 min', '2 h 2 min')
+    """
+    if round(seconds) < _MINUTE:
+        return f"{seconds:.0f} s"
+    if seconds < _LONG:
+        minutes, rest = divmod(round(seconds), _MINUTE)
+        return f"{minutes} min {rest} s" if rest else f"{minutes} min"
+    hours, minutes = divmod(round(seconds / _MINUTE), _MINUTE)
+    return f"{hours} h {minutes} min" if hours else f"{minutes} min"
 
 
 def print_json(value: Any) -> None:

@@ -44,6 +44,10 @@ _ONE_TIME = Words("All readings are said to have been taken at the same time")
 _TOO_FAST = Words(
     "By the times of the readings the axis moved at {speed} {unit}, and its feed is stated as {feed} {unit}"
 )
+_OTHER_DAY = Words("The times of the readings are of {first}, and the measurement is dated {measured}")
+_OTHER_DAYS = Words(
+    "The times of the readings are of {first} to {last}, and the measurement is dated {measured}"
+)
 #: Days after which issue is late, and that a measurement may take.
 _YEAR, _LONGEST = 365, 31
 _DAYS_OF_A_YEAR = 365.25
@@ -60,6 +64,7 @@ def find_disagreements(job: Job, measurements: MeasurementSet) -> tuple[Words, .
     """Return a sentence for each statement of a job that another one does not bear out."""
     return (
         *_find_days_apart(job.keys),
+        *_find_other_days(job.keys, measurements),
         *_find_temperatures_apart(job),
         *_find_other_coefficient(job.keys),
         *_find_certificates_of_two_dates(job.keys),
@@ -78,6 +83,20 @@ def _find_days_apart(keys: JobKeys) -> Iterator[Words]:
         yield _LONG.given(first=_write_day(first), last=_write_day(last), days=days)
     if first is None and any(day for _, _, day in _list_calibrations(keys)):
         yield _UNDATED
+
+
+def _find_other_days(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield days of the readings that are not those of the measurement; a night may end on the next one."""
+    first, last = keys.measurement.date, find_last_day(keys.measurement)
+    days = measurements.provenance.days
+    if first is None or last is None or days is None:
+        return
+    spare = dt.timedelta(days=1 if days.is_utc else 0)
+    of_night = dt.timedelta(days=1) if keys.measurement.end is None and days.last > days.first else spare
+    if not first - spare <= days.first <= last + spare or days.last > last + of_night:
+        words = _OTHER_DAY if days.first == days.last else _OTHER_DAYS
+        first_read, last_read = _write_day(days.first), _write_day(days.last)
+        yield words.given(first=first_read, last=last_read, measured=_write_day(first))
 
 
 def _write_day(day: dt.date) -> Words:

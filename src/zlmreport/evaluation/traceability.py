@@ -12,14 +12,17 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from zlmreport.errors import Problem
 from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
 from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS, Coordinate
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.measurement.units import CELSIUS
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -29,6 +32,7 @@ if TYPE_CHECKING:
 #: Years after which a calibration is called old: intervals of measuring instruments are one to three.
 _OLD = 3
 _DAYS_OF_A_YEAR = 365.25
+_ROUNDING = 1e-9
 #: Temperatures that lengths have, and the one at which they hold, °C.
 _OF_LENGTHS, _REFERENCE = ("axis_temperature", "material_temperature"), 20.0
 
@@ -52,6 +56,12 @@ _OTHER_CAPABILITY = Words(
 _OF_QUANTITY = {each.identifier: each.title for each in (POSITIONING, STRAIGHTNESS, ANGLE, CIRCLE)}
 _OF_STANDARD = Words("results by {standard}")
 _INSTRUMENT = Words("Measuring instrument")
+_OUT_OF_RANGE = Words("Outside the calibrated range of the measuring instrument: {what}")
+_OF_SPAN = Words("results over {length} {unit} (it is calibrated over {most} {unit})")
+_OF_TEMPERATURE = Words(
+    "Outside the calibrated range of the thermometers: {name} {value} °C (they are calibrated from {low} to "
+    "{high} °C)"
+)
 
 
 class _Break(NamedTuple):
@@ -65,7 +75,12 @@ class _Break(NamedTuple):
 def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each place at which the chain does not hold, or is not said to."""
     found = (*_find_breaks_of_instruments(job.keys), *_find_breaks_of_temperatures(job, measurements))
-    return (*(each.words for each in found), *_say_out_of_scope(job, measurements))
+    return (
+        *(each.words for each in found),
+        *_say_out_of_scope(job, measurements),
+        *_say_out_of_range(job, measurements),
+        *_say_too_warm(job, measurements),
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,6 +126,12 @@ def _list_artefacts(job: Job) -> Iterator[str]:
     for line in job.lines.values():
         stated = line.keys.uncertainty.contributions if line.keys.uncertainty else ()
         yield from (each.certificate for each in stated if each.certificate)
+
+
+def is_within_calibrated_range(job: Job, measurements: MeasurementSet) -> bool:
+    """Return whether no instrument was used, on any line, over more than it is calibrated for."""
+    lines = ((line, measurements.tests.get(name, measurements)) for name, line in job.lines.items())
+    return not any([*_say_out_of_range(line, of_line)] for line, of_line in lines)
 
 
 def find_broken_chain(job: Job) -> Iterator[Problem]:
@@ -205,7 +226,7 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     if cmc.kind is not None and cmc.kind is not axis.kind:
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
-    if cmc.length is not None and length > cmc.length * (1 + 1e-9):
+    if cmc.length is not None and length > cmc.length * (1 + _ROUNDING):
         unit = axis.position_unit.symbol
         yield _OUT_OF_SCOPE.given(
             what=_OF_LENGTH.given(length=float(f"{length:.6g}"), most=cmc.length, unit=unit)
@@ -213,3 +234,48 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     for choice in job.standards:
         if cmc.standards is not None and choice.identifier not in cmc.standards:
             yield _OUT_OF_SCOPE.given(what=_OF_STANDARD.given(standard=choice.identifier))
+
+
+def _say_out_of_range(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield which results lie over more than what the instrument is calibrated for.
+
+    Where its range begins nobody sees in deviations: a length, or a span of readings, is held against the
+    width of the range.
+    """
+    extent = job.keys.instrument.calibrated_range if job.keys.instrument else None
+    if extent is None or not np.isfinite(measurements.deviation).any():
+        return
+    axis, width = measurements.axis, extent[1] - extent[0]
+    is_position = axis.measurand.is_position
+    unit = axis.position_unit if is_position else axis.deviation_unit
+    spanned = measurements.target_positions if is_position else measurements.deviation
+    span = unit.from_si(float(np.nanmax(spanned) - np.nanmin(spanned)))
+    if span > width * (1 + _ROUNDING):
+        over = _OF_SPAN.given(length=float(f"{span:.4g}"), most=float(f"{width:.6g}"), unit=unit.symbol)
+        yield _OUT_OF_RANGE.given(what=over)
+
+
+def _say_too_warm(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield the temperatures, stated or logged, for which no thermometer is calibrated.
+
+    Which of them measured what, a job does not say: as long as one states no range, it may have been that.
+    """
+    environment = job.keys.environment
+    extents = [each.calibrated_range for each in environment.thermometers] if environment else []
+    if not extents or None in extents:
+        return
+    known = [each for each in extents if each]
+    for name, kind in CONDITIONS.items():
+        if kind.unit is not CELSIUS:
+            continue
+        stated = getattr(environment, name, None)
+        logged = measurements.conditions.get(name)
+        values = [stated] if isinstance(stated, float) else []
+        if logged is not None and np.isfinite(logged).any():
+            values += [kind.unit.from_si(float(each)) for each in (np.nanmin(logged), np.nanmax(logged))]
+        for value in values:
+            if not any(low <= value <= high for low, high in known):
+                low, high = min(each[0] for each in known), max(each[1] for each in known)
+                rounded = float(f"{value:.4g}")
+                yield _OF_TEMPERATURE.given(name=CONDITION_NAMES[name], value=rounded, low=low, high=high)
+                break

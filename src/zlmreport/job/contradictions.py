@@ -148,6 +148,7 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
     travel = keys.axis.travel
     if travel and travel[0] >= travel[1]:
         yield ("axis", "travel"), "the first position of the travel must be less than the last"
+    yield from _find_turned_ranges(keys)
     for key, message in plan_contradictions(keys.plan.targets):
         yield ("plan", "targets", key), message
     for steps, message in find_uncertainty_contradictions(
@@ -155,6 +156,16 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
     ):
         yield ("uncertainty", *steps), message
     yield from _find_per_metre(keys)
+
+
+def _find_turned_ranges(keys: JobKeys) -> Iterator[Contradiction]:
+    """Yield the calibrated ranges that end before they begin."""
+    sensors = enumerate(keys.environment.thermometers if keys.environment else ())
+    devices = [(("environment", "thermometers", number), each) for number, each in sensors]
+    for group, device in [(("instrument",), keys.instrument), *devices]:
+        extent = device.calibrated_range if device else None
+        if extent and extent[0] >= extent[1]:
+            yield (*group, "calibrated_range"), "the first value of the range must be less than the last"
 
 
 def _find_per_metre(keys: JobKeys) -> Iterator[Contradiction]:

@@ -277,6 +277,12 @@ class SensorKeys(JobPart):
     )
     calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-02-10"])
     due: Date | None = Field(None, description="When it is due again.", examples=["2027-02-10"])
+    calibrated_range: tuple[Finite, Finite] | None = Field(
+        None,
+        description="From where to where it is calibrated, in the unit of what it measures, °C for a "
+        "thermometer: temperatures outside are marked.",
+        examples=[[15, 25]],
+    )
 
 
 class Instrument(JobPart):
@@ -289,6 +295,13 @@ class Instrument(JobPart):
     calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-03-01"])
     due: Date | None = Field(
         None, description="When it is due to be calibrated again.", examples=["2027-03-01"]
+    )
+    calibrated_range: tuple[Finite, Finite] | None = Field(
+        None,
+        description="From where to where it is calibrated: positions, mm (degrees); where it measures "
+        "something else than positions along an axis, its readings, micrometres (arc seconds). Results over "
+        "more than that are marked.",
+        examples=[[0, 5000]],
     )
     expanded_uncertainty: Positive | InstrumentUncertainty | None = Field(
         None,

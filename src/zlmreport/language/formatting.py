@@ -34,9 +34,13 @@ _TOGETHER = re.compile(
     r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))|(?<=\(k) (?== )|(?<=\(k =) (?=\d)"
     r"|(?<=\b[A-Za-z]) (?=− \d)|(?<=\b[A-Za-z] −) (?=\d)"
 )
-#: After the slash between two bodies of one standard. Other names and numbers stay as they
-#: are, to the letter: whoever copies one gets it so.
-_BODIES = re.compile(r"(?<=\bVDI/|\bISO/)(?=(?:VDE|DGQ|IEC|TR|TS)\b)")
+#: Where a line could end within a name or a number and must not: after the slash between two bodies of one
+#: standard or two units, before the number of a standard, after a hyphen of a number such as 4711-D-K-2026.
+_WITHIN_A_NAME = re.compile(
+    r"(?<=\bVDI/|\bISO/)(?=(?:VDE|DGQ|IEC|TR|TS)\b)|(?<=[µmn°″]/)(?=(?:m|min|s|K)\b|\()"
+    r"|(?:(?<=\bISO)|(?<=\b(?:VDI|VDE|DGQ|IEC|DIN))|(?<=\b(?:EN|TR|TS))|(?<=\bJCGM))(?= \d)"
+    r"|(?<=[A-Z0-9][-/])(?=[A-Z0-9])|(?<=-)(?=/[A-Z0-9])"
+)
 
 _SUBSCRIPT = re.compile(r"_\{([^}]*)\}")
 # Fractions count as word characters, but they are numbers.
@@ -86,15 +90,18 @@ def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, di
     return text.replace("-", MINUS).replace(".", sign)
 
 
-def hold_units(text: str) -> str:
-    r"""Return a text of a page in which no line parts a number from its unit, or a standard's name.
+def hold_together(text: str) -> str:
+    r"""Return a text of a page in which no line parts a number from its unit, or a name or number in itself.
 
-    >>> hold_units("2 °C below, 11.5 µm/(m·K), U = 2 µm (k = 2)")
-    '2\xa0°C below, 11.5\xa0µm/(m·K), U = 2\xa0µm (k\xa0=\xa02)'
-    >>> hold_units("VDI/VDE 2617: ÷ (n − 1)")
-    'VDI/\u2060VDE 2617: ÷ (n\xa0−\xa01)'
+    Within names and numbers stand word joiners, before a blank too: whoever sets the text takes them out and
+    keeps the word on a line, so that who copies a number gets it to the letter.
+
+    >>> hold_together("2 °C below, 11.5 µm/K, U = 2 µm (k = 2)").replace(WORD_JOINER, "|")
+    '2\xa0°C below, 11.5\xa0µm/|K, U = 2\xa0µm (k\xa0=\xa02)'
+    >>> hold_together("VDI/VDE 2617: ÷ (n − 1), No. 4711-D-K").replace(WORD_JOINER, "|")
+    'VDI/|VDE| 2617: ÷ (n\xa0−\xa01), No. 4711-|D-|K'
     """
-    return _BODIES.sub(WORD_JOINER, _TOGETHER.sub(HELD, text))
+    return _WITHIN_A_NAME.sub(WORD_JOINER, _TOGETHER.sub(HELD, text))
 
 
 def write_percentage(share: float, sign: DecimalSign = DecimalSign.POINT, decimals: int = 0) -> str:

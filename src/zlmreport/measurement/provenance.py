@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import hashlib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -99,6 +100,15 @@ class Averaging:
 
 
 @dataclass(frozen=True, slots=True)
+class ReadingDays:
+    """On which days a file says that its readings were taken."""
+
+    first: dt.date
+    last: dt.date
+    is_utc: bool = False  #: Whether by the time of Greenwich: where it was measured it may have been another.
+
+
+@dataclass(frozen=True, slots=True)
 class Provenance:
     """The origin of a measurement set.
 
@@ -119,6 +129,8 @@ class Provenance:
         were not.
     averaging
         What became of readings that were many to a target; None where each stands for itself.
+    days
+        On which days the readings were taken, as the file dates them; None where it does not.
     """
 
     source: str
@@ -128,3 +140,4 @@ class Provenance:
     exclusions: tuple[Exclusion, ...] = ()
     step: float | None = None
     averaging: Averaging | None = None
+    days: ReadingDays | None = None

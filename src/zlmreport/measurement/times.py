@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from zlmreport.errors import quoted
 from zlmreport.measurement.columns import Cells, TextColumn
+from zlmreport.measurement.provenance import ReadingDays
 from zlmreport.measurement.table import Row
 from zlmreport.measurement.text_file import parse_number
 
@@ -61,6 +62,19 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
         return time
 
     return seconds
+
+
+def find_days(cells: Cells, column: TextColumn | None) -> ReadingDays | None:
+    """Return the days of the first and the last time of a column; None for times without a date."""
+    if column is None:
+        return None
+    texts = [row.cells[column.index] for row in cells.table.rows if row.cells[column.index]]
+    found = [read_moment(text) for text in texts[:1] + texts[-1:] if not _is_number(text, cells)]
+    moments = [each for each in found if each is not None and each.year != _NO_DATE]
+    if not moments:
+        return None
+    is_utc = moments[0].utcoffset() == dt.timedelta(0)
+    return ReadingDays(moments[0].date(), moments[-1].date(), is_utc=is_utc)
 
 
 def read_moment(text: str) -> dt.datetime | None:

@@ -46,7 +46,7 @@ from zlmreport.language import (
 from zlmreport.language.formatting import (
     MINUS as MINUS_SIGN,
     DecimalSign,
-    hold_units as held_together,
+    hold_together as held_together,
     write_fixed_number as fixed_number,
     write_general_number as general_number,
 )

@@ -15,6 +15,7 @@ from zlmreport.measurement.provenance import (
     Averaging,
     Correction,
     Provenance,
+    ReadingDays,
     SourceFile,
 )
 from zlmreport.measurement.text_file import (
@@ -38,6 +39,7 @@ __all__ = [
     "DataSource",
     "Provenance",
     "Reading",
+    "ReadingDays",
     "SourceContext",
     "SourceFile",
     "SourceProposal",

@@ -36,6 +36,7 @@ from zlmreport.measurement.table import (
     states_delimiter,
 )
 from zlmreport.measurement.times import (
+    find_days as days_of_readings,
     make_time_reader as time_reader,
     read_moment as moment,
 )
@@ -54,6 +55,7 @@ __all__ = [
     "TextRow",
     "TextTable",
     "column_with_unit",
+    "days_of_readings",
     "decimal_sign",
     "find_heading",
     "first_cell",

@@ -16,9 +16,7 @@ from zlmreport.language.formatting import write_percentage
 from zlmreport.live.capture.events import Recorded, Resumed, Unclear
 from zlmreport.live.capture.journal import History, read_history
 from zlmreport.live.capture.of_job import Assignment, find_options_of, make_assignment_of
-from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.records import Record, from_record
-from zlmreport.live.capture.told import (
+from zlmreport.live.capture.operator_texts import (
     WORTH_NAMING,
     AxisWriter,
     CaptureLine,
@@ -27,6 +25,8 @@ from zlmreport.live.capture.told import (
     tell_event,
     write_candidate,
 )
+from zlmreport.live.capture.progress import Progress
+from zlmreport.live.capture.records import Record, from_record
 from zlmreport.model.planning.plan import propose
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.bench import PLACE, Bench

@@ -59,9 +59,9 @@ def test_a_circle_is_drawn_round_and_inside_whatever_its_size(size):
     assert np.abs(curve.parts[0]).max() <= panel.frame.x_scale.upper
 
 
-@pytest.mark.parametrize(("height", "least"), [(90.0, 71.0), (None, 115.0)])
+@pytest.mark.parametrize(("height", "least"), [(99.5, 90.0), (None, 115.0)])
 def test_a_circle_uses_the_height_of_its_figure(height, least):
-    # Above it a line of the legend and that of the angle, below it the angle and what its distances are.
+    # Above and below it are angles; in a high figure a line of the legend, too, and what its distances are.
     layout = lay_out(replace(figure(3.0 * np.cos(np.radians(ANGLES))), height=height), Language.ENGLISH)
     outermost = max(np.ptp(each.parts[0][:, 1]) for each in draw_figure_shapes(layout) if each.kind == "grid")
     assert outermost / 72 * 25.4 >= least

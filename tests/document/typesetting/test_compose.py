@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from xml.etree import ElementTree as ET
 
@@ -302,7 +303,16 @@ def test_a_caption_of_a_graph_knows_the_symbols_that_are_drawn() -> None:
     assert "Circles of <span" in document
 
 
-def test_no_line_parts_a_number_from_its_unit() -> None:
-    said = Paragraph("12.5 µm at 20 °C by ISO 230-2, 5 runs")
+def test_no_line_parts_a_number_from_its_unit_or_a_number_or_a_name_in_itself() -> None:
+    said = Paragraph("12.5 µm/m at 20 °C by ISO 230-2, 5 runs (No. 4711-D-/K-2026-03).")
     document = compose(replace(certificate(), sections=(Section("s", "S", (said,)),)))
-    assert "12.5\N{NO-BREAK SPACE}µm at 20\N{NO-BREAK SPACE}°C by ISO 230-2, 5 runs" in document
+    assert (
+        '12.5\N{NO-BREAK SPACE}<span class="held">µm/m</span> at 20\N{NO-BREAK SPACE}°C by '
+        '<span class="held">ISO 230-2,</span> 5 runs (No. <span class="held">4711-D-/K-2026-03).</span>'
+    ) in document
+    assert "\N{WORD JOINER}" not in document  # who copies a number gets it to the letter
+
+
+def test_the_title_of_a_page_is_words_only() -> None:
+    document = compose(replace(certificate(), number="K-2026-03-D"))
+    assert re.search(r"<title>[^<]*K-2026-03-D", document)

@@ -48,6 +48,14 @@ def test_after_the_end_nobody_reads_the_instrument() -> None:
     assert next(read) == so_far + 1
 
 
+def test_who_gives_up_leaves_nobody_at_the_instrument() -> None:
+    before = threading.active_count()
+    ahead = ReadAhead(LiveReading(0.0, float(each)) for each in count())
+    next(ahead)
+    ahead.give_up()
+    assert threading.active_count() == before
+
+
 def test_an_interruption_by_the_instrument_reaches_who_asks() -> None:
     def readings() -> Iterator[LiveReading]:
         yield from _readings(1)

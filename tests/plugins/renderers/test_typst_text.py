@@ -166,5 +166,9 @@ def test_a_symbol_in_a_text_is_set_as_one_and_the_name_of_a_standard_stays_whole
         ([[[True, False, "U"], [False, True, "max"]]], SYMBOL),
         (" by ", AS_WORDS),
         ((("VDI/VDE",),), MARKED),
-        (" 2617", AS_WORDS),
+        ("\N{NO-BREAK SPACE}2617", AS_WORDS),
     ]
+
+
+def test_a_number_is_not_parted_at_its_hyphens() -> None:
+    assert ((("4711-D-K-2026.",),), MARKED) in fit_text_with_symbols("No. 4711-D-K-2026.", [], 50.0)

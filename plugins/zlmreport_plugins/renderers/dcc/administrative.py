@@ -319,7 +319,9 @@ def _make_condition(
 def make_statements(certificate: Certificate) -> Iterator[ET.Element]:
     """Yield the statements, in the order of the pages and each once."""
     language = certificate.language.value
-    traceable = traceable_through(certificate.job) if certificate.job else None
+    of = certificate.parts.values() or [certificate]
+    measured = (each.measurements for each in of)
+    traceable = traceable_through(certificate.job, *measured) if certificate.job else None
     traceability = traceable and traceable.in_language(certificate.language)
 
     def content(text: str) -> ET.Element:

@@ -36,12 +36,12 @@ _WORDS = re.compile(r"\S+|\s+")
 _LONGEST_WORD = 45
 _LEAST_ROOM = 6.0
 _WIDEST_LETTER = 1.0
-_JOINER = "\N{WORD JOINER}"
+_JOINER, _HELD_BLANK = "\N{WORD JOINER}", "\N{NO-BREAK SPACE}"
 
 
 def fit_text(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
-    text = held_together(text)
+    text = held_together(text).replace(f"{_JOINER} ", _HELD_BLANK)
     longest = max(map(len, text.split()), default=0)
     if _WIDEST_LETTER * longest <= room and _JOINER not in text and not has_marks(text):
         return text

@@ -37,7 +37,7 @@ from zlmreport.plugin.source import (
     SourceProposal,
     collect_readings,
 )
-from zlmreport.plugin.table import Cells, folded, read_headings
+from zlmreport.plugin.table import Cells, days_of_readings, folded, read_headings
 from zlmreport_plugins.sources.circle_csv.averaging import average_turns, count_arcs_of, look_at_averages
 from zlmreport_plugins.sources.circle_csv.options import CircleCsvOptions
 from zlmreport_plugins.sources.circle_csv.rows import (
@@ -145,6 +145,7 @@ class CircleCsv:
             (table.source.source,),
             (*_list_remarks(layout, circle, options), *([_FOLLOW] if follows else []), *remarks),
             averaging=averaging,
+            days=days_of_readings(cells, layout.time),
         )
         return collect_readings(readings, context.axis, provenance, place=table.source.place())
 

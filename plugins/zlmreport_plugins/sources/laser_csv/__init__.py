@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
 
@@ -11,11 +11,12 @@ from zlmreport.plugin.source import (
     DataSource,
     Provenance,
     Reading,
+    ReadingDays,
     SourceContext,
     SourceProposal,
     collect_readings,
 )
-from zlmreport.plugin.table import folded
+from zlmreport.plugin.table import days_of_readings, folded
 from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.layouts import (
     count_runs,
@@ -50,6 +51,7 @@ class LaserCsv:
         readings: list[Reading] = []
         problems: list[Problem] = []
         said: list[Words] = []
+        days: list[ReadingDays] = []
         for each in options.tables:
             table = each.read_table(partial(_is_column_name, options=each))
             text = table.source
@@ -57,11 +59,13 @@ class LaserCsv:
             cells = each.cells_of(table, [column.index for column in layout.number_columns()])
             sense = -1.0 if each.sign == "nominal-actual" else 1.0
             readings += put_in_order(layout.readings(cells, sense), each)
+            if of_table := days_of_readings(cells, layout.time):
+                days.append(of_table)
             problems += [*table.problems, *cells.problems]
             said += [remark for remark in list_remarks(table, layout, each) if remark not in said]
         if options.parts and options.layout == "wide":
             readings.sort(key=lambda reading: (reading.run, -reading.approach))  # as one table lists them
-        provenance = Provenance(self.identifier, (text.source,), tuple(said))
+        provenance = Provenance(self.identifier, (text.source,), tuple(said), days=_join_days(days))
         return collect_readings(
             count_runs(readings) if options.runs else readings,
             context.axis,
@@ -69,6 +73,14 @@ class LaserCsv:
             place=text.place(),
             problems=problems,
         )
+
+
+def _join_days(days: Sequence[ReadingDays]) -> ReadingDays | None:
+    """Return the first and the last day of several tables."""
+    if not days:
+        return None
+    first, last = min(each.first for each in days), max(each.last for each in days)
+    return ReadingDays(first, last, is_utc=any(each.is_utc for each in days))
 
 
 def _is_column_name(text: str, options: LaserCsvOptions) -> bool:

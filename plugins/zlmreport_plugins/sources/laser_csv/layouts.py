@@ -233,6 +233,7 @@ class WideLayout:
 
     target: TextColumn  #: The target position.
     runs: tuple[RunColumn, ...]  #: The columns of readings.
+    time: TextColumn | None = None  #: It has none: a row holds readings of many times.
 
     @property
     def columns(self) -> tuple[TextColumn, ...]:

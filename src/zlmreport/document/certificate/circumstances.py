@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -148,10 +148,17 @@ def list_environment_facts(
 _CALIBRATED = Words("calibrated {date}")
 
 
+def write_extent(ends: Sequence[float], unit: str, writer: Writer) -> str:
+    """Write from where to where something goes."""
+    first, last = map(writer.number, ends)
+    return f"{first} … {units.with_unit(last, unit)}"
+
+
 def _write_sensor(sensor: SensorKeys, writer: Writer) -> str:
-    """Write a sensor with its calibration certificate and date."""
+    """Write a sensor with its calibration certificate, date and range."""
     day = writer.say(_CALIBRATED.given(date=writer.date(sensor.calibrated))) if sensor.calibrated else None
-    return ", ".join(filter(None, (sensor.name, sensor.certificate, day)))
+    extent = write_extent(sensor.calibrated_range, "°C", writer) if sensor.calibrated_range else None
+    return ", ".join(filter(None, (sensor.name, sensor.certificate, day, extent)))
 
 
 #: Name, key (in the job and among the logged conditions), unit, and whether a log may state it.

@@ -118,7 +118,8 @@ def _cover(
     yield from cover.list_shortfalls_of_parts(
         {name: part.evaluations for name, part in parts.items()}, writer
     )
-    yield from statements.lay_out_paragraphs(job, writer)
+    measured = (part.measurements for part in parts.values())
+    yield from statements.lay_out_paragraphs(job, writer, *measured)
 
 
 def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:

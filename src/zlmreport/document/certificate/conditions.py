@@ -15,6 +15,7 @@ from zlmreport.document.certificate.circumstances import (
     list_measurement_facts,
     select_stated_facts,
     write_date,
+    write_extent,
     write_with_unit,
 )
 from zlmreport.language import Words
@@ -191,9 +192,10 @@ def _list_axis_facts(job: Job, writer: Writer) -> Iterator[Fact]:
     axis, keys = job.axis, job.keys.axis
     yield Fact(say_measured_of(job), describe_axis(job, writer), ("axis.name", "axis.kind"))
     if axis.travel is not None:
-        first, last = (writer.number(writer.position_unit.from_si(end)) for end in axis.travel)
-        travel = f"{first} … {units.with_unit(last, writer.position_unit.symbol)}"
-        yield Fact(Words("Travel"), travel, ("axis.travel",))
+        unit = writer.position_unit
+        travel = write_extent([unit.from_si(end) for end in axis.travel], unit.symbol, writer)
+        is_rotary = axis.kind is AxisKind.ROTARY
+        yield Fact(Words("Angular travel") if is_rotary else Words("Travel"), travel, ("axis.travel",))
     for name, length, key in (
         (
             Words("Screw or gear pitch"),
@@ -263,6 +265,7 @@ def _list_instrument_facts(
         (Words("Calibration certificate"), instrument.certificate, "certificate"),
         (Words("Calibrated"), write_date(instrument.calibrated, writer), "calibrated"),
         (Words("Calibration due"), write_date(instrument.due, writer), "due"),
+        (Words("Calibrated range"), _write_range(instrument, measurements, writer), "calibrated_range"),
     ):
         yield Fact(name, value, (f"instrument.{key}",))
     yield Fact(
@@ -285,6 +288,14 @@ def _list_instrument_facts(
         _write_compensates(instrument.compensates, writer),
         ("instrument.compensates",),
     )
+
+
+def _write_range(instrument: Instrument, measurements: MeasurementSet, writer: Writer) -> str | None:
+    """Write from where to where an instrument is calibrated; None where the job does not tell."""
+    extent = instrument.calibrated_range
+    axis = measurements.lines[0].axis
+    unit = axis.position_unit if axis.measurand.is_position else axis.deviation_unit
+    return write_extent(extent, unit.symbol, writer) if extent else None
 
 
 _MATERIAL = Words("material to 20 °C by α = {alpha} µm/(m·K)")

@@ -86,7 +86,7 @@ def lay_out_cover(
         *_list_shortfalls(evaluations, writer, in_a_line=pages is not None),
         *_say_as_found(job, writer),
         *statements.list_notices(job.keys, writer),
-        *statements.lay_out_paragraphs(job, writer),
+        *statements.lay_out_paragraphs(job, writer, measurements),
         *((in_brief,) if behind.results else ()),
     )
 

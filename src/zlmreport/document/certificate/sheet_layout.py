@@ -50,6 +50,8 @@ if TYPE_CHECKING:
 
 #: Heights of the graph, mm: that it has wherever a page allows it, the least, and the most.
 _GRAPH, _LEAST_GRAPH, _LARGEST_GRAPH = 90.0, 45.0, 130.0
+#: What stands above and below a circle, mm: its angles.
+_ABOUT_CIRCLE = 9.5
 #: Of one of several measured lines, mm: two of them share a page.
 _GRAPH_OF_A_LINE = 46.0
 #: What a page before the last has besides, points: no end of the document, but some to spare for browsers.
@@ -163,7 +165,7 @@ def _fill_sheet(of: Material, page: _Page) -> _Sheet:
     free += page.gained if filled.left != Said() else 0.0
     free -= columns.estimate_height(filled.notices) + columns.estimate_height(filled.others)
     table = tuple(results.lay_out_by_position(evaluation, writer))
-    with_graph = (_GRAPH + _BESIDE_GRAPH) * columns.MILLIMETRE if main else 0.0
+    with_graph = (_measure_usual_height(main) + _BESIDE_GRAPH) * columns.MILLIMETRE if main else 0.0
     holds_table = columns.estimate_height(table) <= free - with_graph
     if holds_table:
         free -= columns.estimate_height(table)
@@ -191,12 +193,21 @@ def _measure_room_beside(figure: Figure | None, free: float) -> float:
     """Return what a page leaves to all but the graph, which is lower only where nothing else had room."""
     if figure is None:
         return free
-    usual, least = ((height + _BESIDE_GRAPH) * columns.MILLIMETRE for height in (_GRAPH, _LEAST_GRAPH))
+    usual, least = (
+        (height + _BESIDE_GRAPH) * columns.MILLIMETRE
+        for height in (_measure_usual_height(figure), _LEAST_GRAPH)
+    )
     return max(free - usual, min(_LEAST_ROOM, free - least))
 
 
+def _measure_usual_height(figure: Figure) -> float:
+    """Return the height of a graph, mm, that it has wherever a page allows it: of a circle, its diameter."""
+    is_round = all(panel.is_polar for panel in figure.panels)
+    return _GRAPH + (_ABOUT_CIRCLE if is_round else 0.0)
+
+
 def _fit_height(figure: Figure, free: float) -> Figure:
-    usual = min(free / columns.MILLIMETRE - _BESIDE_GRAPH, _GRAPH)
+    usual = min(free / columns.MILLIMETRE - _BESIDE_GRAPH, _measure_usual_height(figure))
     height = max(usual, (free - _SPARE) / columns.MILLIMETRE - _BESIDE_GRAPH)
     return replace(figure, height=round(min(max(height, _LEAST_GRAPH), _LARGEST_GRAPH), 1))
 
@@ -233,7 +244,7 @@ def _gather_said(of: Material, page: _Page) -> Said:
         *uncertainty.say_neglected(page.evaluated[0].budget, writer),
         *conformity.say_rule(job.keys.decision_rule, evaluations, writer),
         *conditions.say_no_influence(job, of.measurements, writer),
-        *(() if of.is_part else statements.lay_out_paragraphs(job, writer)),
+        *(() if of.is_part else statements.lay_out_paragraphs(job, writer, of.measurements)),
         *say_of_all(evaluations, writer),
     )
     notices = (

@@ -123,8 +123,14 @@ def list_notices(keys: JobKeys, writer: Writer, *, names_all: bool = False) -> I
         )
 
 
-def say_traceable_through(job: Job) -> Words | None:
-    """Return through which calibrations the results are traceable; None where the job does not show it."""
+def say_traceable_through(job: Job, *measured: MeasurementSet) -> Words | None:
+    """Return through which calibrations the results are traceable; None where the job does not show it.
+
+    `measured`: Of each part of the job, in their order: nothing is said where an instrument is not calibrated
+        for all that was measured with it.
+    """
+    if not all(map(traceability.is_within_calibrated_range, job.parts, measured)):
+        return None
     chain = traceability.find_chain(job)
     if chain.of_artefacts:
         named = ", ".join((*chain.of_instruments, *chain.of_artefacts))
@@ -134,15 +140,15 @@ def say_traceable_through(job: Job) -> Words | None:
     return _TRACEABLE.given(certificate=chain.of_instruments[0]) if chain.of_instruments else None
 
 
-def lay_out_paragraphs(job: Job, writer: Writer) -> Iterator[Block]:
-    """Yield the statements in running text."""
+def lay_out_paragraphs(job: Job, writer: Writer, *measured: MeasurementSet) -> Iterator[Block]:
+    """Yield the statements in running text; what was `measured`, of each part of a job."""
     keys = job.keys
     if keys.provided_by_customer:
         yield Paragraph(writer.say(_SUPPLIED.given(mark=BY_CUSTOMER)))
     if keys.agreement.simplified:
         reference = keys.agreement.reference
         yield Paragraph(writer.say(_SIMPLIFIED.given(reference=same(f" ({reference})") if reference else "")))
-    traceable = say_traceable_through(job)
+    traceable = say_traceable_through(job, *measured)
     if traceable:
         yield Paragraph(writer.say(traceable))
     yield Paragraph(writer.say(_ONLY_THIS_ITEM[keys.certificate.kind]))

@@ -329,8 +329,8 @@ def _draw_ground(label: PlacedLabel) -> Outline:
 
 
 def draw_legend(layout: PanelLayout) -> Iterator[Shape]:
-    """Return the shapes of the heading and the legend above a panel."""
-    left, base = layout.frame.box.left, layout.frame.box.top + LEGEND_GAP
+    """Return the shapes of the heading and the legend above a panel, or beside its circle."""
+    left, base = layout.legend_corner or (layout.frame.box.left, layout.frame.box.top + LEGEND_GAP)
     heading = layout.legend.heading
     if heading is not None:
         yield Lettering("heading", PlacedLabel(heading.label, left + heading.x, base + heading.y), INK)

@@ -6,7 +6,7 @@ All places are points from the lower left corner of the drawing, y upwards.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -57,6 +57,8 @@ _POSITION_ROOM = 12.0
 _LEAST_TICK_DISTANCE = 18.0
 #: Positions over so many degrees are told by parts of a turn.
 _HALF_A_TURN = 180.0
+#: Up to so high a figure leaves room for words in the corners beside a circle, points.
+_ROOM_IN_CORNERS = 110 * _MILLIMETRE
 #: From line to line of a label below the frame.
 TICK_LINE = 1.2 * TICK_TEXT_SIZE
 #: What a legend of one row takes from a panel's height, with the gaps above and below.
@@ -97,7 +99,8 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     """Return the places of everything in a figure."""
     _, height = measure_figure(figure)
     is_round = bool(figure.panels) and all(panel.is_polar for panel in figure.panels)
-    bottom = _EDGE + 1.35 * TEXT_SIZE
+    is_alone = is_round and len(figure.panels) == 1 and height <= _ROOM_IN_CORNERS
+    bottom = _EDGE + (0.0 if is_alone else 1.35 * TEXT_SIZE)
     if not is_round:  # its angles stand inside of the frame, and it has no ticks
         bottom += _TITLE_GAP + TICK_TEXT_SIZE + TICK_GAP + TICK_LENGTH
     columns = len(figure.panels) if figure.is_wide else 1
@@ -115,8 +118,11 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
     right = room - (left if is_round else _EDGE + max(levels + brackets, _LEAST_MARGIN))
     x_scale = _make_x_scale(figure, language, right - left)
     bottom += TICK_LINE if any("\n" in label for label in x_scale.labels) else 0.0
-    legends = [lay_out_legend(panel, language, room - _EDGE - left) for panel in figure.panels]
-    if figure.is_wide:
+    legend_room = _EDGE if is_alone else room - _EDGE - left  # in a corner, each entry has its line
+    legends = [lay_out_legend(panel, language, legend_room) for panel in figure.panels]
+    if is_alone:
+        boxes = [Box(left, bottom, right, height - _EDGE)]
+    elif figure.is_wide:
         boxes = _place_boxes_in_a_row(Box(left, bottom, right, height), room + _PANEL_GAP, legends)
     else:
         boxes = _place_boxes(left, bottom, right, height, legends)
@@ -125,6 +131,11 @@ def lay_out(figure: Figure, language: Language) -> FigureLayout:
         for panel, box, y_scale, legend in zip(figure.panels, boxes, y_scales, legends, strict=True)
     )
     right = boxes[-1].right if boxes else right
+    if is_alone:
+        told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
+        corner = (_EDGE, height - _EDGE - legends[0].height)
+        beside = (replace(panels[0], legend_corner=corner),)
+        return FigureLayout(WIDTH, height, beside, (PlacedLabel(told, _EDGE, _EDGE + 0.35 * TEXT_SIZE),))
     if is_round:
         told = make_plain_label(_say_magnification(figure, panels, language), TEXT_SIZE)
         alone = PlacedLabel(told, (left + right - told.width) / 2, _EDGE + 0.35 * TEXT_SIZE)

@@ -55,6 +55,8 @@ class PanelLayout:
     grid: PolarGrid | None = None  #: Of a panel about a circle; None for the usual ones.
     notes: tuple[PlacedLabel, ...] = ()  #: Of a wire picture.
     tile_values: tuple[Lettering, ...] = ()  #: What is written on tiles.
+    #: Lower left corner of a legend that stands beside a circle; None for one above the frame.
+    legend_corner: tuple[float, float] | None = None
 
 
 def lay_out_panel(

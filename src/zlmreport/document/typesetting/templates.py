@@ -37,7 +37,7 @@ from zlmreport.document.typesetting.overview import (
 )
 from zlmreport.document.typesetting.resources import PACKAGE
 from zlmreport.errors import InputError, Place
-from zlmreport.language.formatting import Span, hold_units, split_spans
+from zlmreport.language.formatting import WORD_JOINER, Span, hold_together, split_spans
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,7 +247,7 @@ _PICTURES = re.compile(r"<(?:img|svg)\b")
 
 def _hold_together(value: object) -> object:
     """Hold together what belongs together in a text; markup and what was escaped are left as they are."""
-    return hold_units(value) if type(value) is str else value
+    return hold_together(value) if type(value) is str else value
 
 
 @lru_cache(maxsize=8)
@@ -286,7 +286,30 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
             raise InputError.at(
                 place, f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
             )
-    return Markup(_NOT_IN_XML.sub(_REPLACEMENT, text))  # noqa: S704 (the template has escaped every value)
+    text = _set_held_words(_NOT_IN_XML.sub(_REPLACEMENT, text))
+    return Markup(text)  # noqa: S704 (the template has escaped every value)
+
+
+#: What holds no elements, and a tag; and words whose parts are joined, in the text between tags.
+_HELD_WORDS = re.compile(
+    rf"<(title|style|script|svg)\b.*?</\1>|<[^>]*>|[^\s<>]*(?:{WORD_JOINER} ?[^\s<>{WORD_JOINER}]*)+",
+    re.DOTALL,
+)
+
+
+def _set_held_words(markup: str) -> str:
+    """Set words that no line parts as such, and take the signs out that joined their parts.
+
+    Nothing but what is seen stands in the text then; a word that is wider than its place is parted there.
+    """
+    if WORD_JOINER not in markup:
+        return markup
+
+    def set_words(found: re.Match[str]) -> str:
+        words = found[0].replace(WORD_JOINER, "")
+        return words if words.startswith("<") else f'<span class="held">{words}</span>'
+
+    return _HELD_WORDS.sub(set_words, markup)
 
 
 def _count_shown(markup: str) -> Counter[str]:
@@ -298,7 +321,7 @@ def _count_shown(markup: str) -> Counter[str]:
 def set_text_with_symbols(text: str, notations: Iterable[str]) -> Markup:
     """Set a text, and in it as symbols those of these notations."""
     return Markup().join(
-        set_symbol(part.notation) if isinstance(part, Symbol) else hold_units(part)
+        set_symbol(part.notation) if isinstance(part, Symbol) else hold_together(part)
         for part in split_at_symbols(text, notations)
     )
 

@@ -10,6 +10,8 @@ from zlmreport.live.ports.reading import LiveReading
 
 #: How often a wait for a reading looks whether the user wants to end it, s.
 _LOOK = 0.2
+#: How long who gives up waits for an instrument that is asked at that moment, s: it may keep silent.
+_PATIENCE = 1.0
 
 
 class ReadAhead(Iterator[LiveReading]):
@@ -54,3 +56,12 @@ class ReadAhead(Iterator[LiveReading]):
         """Store nothing more, and wait until the instrument is let go."""
         self._is_ended = True
         self._thread.join()
+
+    def give_up(self) -> None:
+        """Store nothing more; an instrument that keeps silent is not waited for.
+
+        Otherwise a thread would go on to ask it while the process ends, and what becomes of the standard
+        streams then would be laid to the instrument.
+        """
+        self._is_ended = True
+        self._thread.join(_PATIENCE)

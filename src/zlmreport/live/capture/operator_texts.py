@@ -49,7 +49,6 @@ from zlmreport.measurement.units import with_unit
 SIDES = {Approach.POSITIVE: Words("from below"), Approach.NEGATIVE: Words("from above")}
 #: The least probability of an explanation that is named.
 WORTH_NAMING = 0.005
-_SECONDS_A_MINUTE, _MINUTES_AN_HOUR = 60, 60
 _INCH, _THOUSAND = 25.4, 1000.0
 
 # In which of few words a line begins; in capitals what an operator looks at.
@@ -436,16 +435,3 @@ def list_what_to_do(progress: Progress, writer: AxisWriter, event: Event | None 
     elif isinstance(event, ZeroLost | DatumMoved):
         steps.insert(0, writer.say(_SET_ZERO))
     return steps
-
-
-def write_duration(seconds: float) -> str:
-    """Write how long something takes.
-
-    >>> write_duration(25), write_duration(150), write_duration(5000)
-    ('less than a minute', 'about 2 min', 'about 1 h 23 min')
-    """
-    minutes = round(seconds / _SECONDS_A_MINUTE)
-    if minutes < 1:
-        return "less than a minute"
-    hours, minutes = divmod(minutes, _MINUTES_AN_HOUR)
-    return f"about {hours} h {minutes} min" if hours else f"about {minutes} min"

@@ -33,7 +33,7 @@ from zlmreport.live.capture.events import (
     WrongDirection,
     ZeroLost,
 )
-from zlmreport.live.capture.told import AxisWriter, say_halted, tell_event
+from zlmreport.live.capture.operator_texts import AxisWriter, say_halted, tell_event
 from zlmreport.live.capture.visits import ListedVisit
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.axis import Axis, AxisKind
