@@ -118,7 +118,7 @@ def test_what_an_extra_installs_is_under_the_licence_that_is_listed(name: str) -
 
 @pytest.mark.parametrize("name", sorted(_NEEDED_BY_DEVELOPERS & set(_DEVELOPMENT)))
 def test_what_developers_install_is_under_the_licence_that_is_listed(name: str) -> None:
-    # axe-playwright-python states none in its metadata, and the first line of libcst is on the main one of three.
+    # axe-playwright-python states none in its metadata; libcst, in the line that is read, one of three.
     assert _families(_stated(name)) <= _families(_DEVELOPMENT[name])
     assert _families(_stated(name)) or not _stated(name)
 

@@ -20,7 +20,7 @@ from zlmreport.evaluation.uncertainty.reasons import is_reference
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS, Coordinate
+from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import CELSIUS
 
