@@ -10,13 +10,13 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, Field
 
 from zlmreport.errors import InputError, Place, Problem, quoted
+from zlmreport.job.axis import convert_axis_to_si
 from zlmreport.job.choices import EffectChoice, choose_effects_of
 from zlmreport.job.contradictions import validate
 from zlmreport.job.document_keys import Number
 from zlmreport.job.evaluation_keys import AxisModelKeys
 from zlmreport.job.extends import SIMULATION, compose, refuse_other_format
 from zlmreport.job.installed import Installed
-from zlmreport.job.loading import convert_axis_to_si
 from zlmreport.job.measurement_keys import AxisKeys
 from zlmreport.job.tree import Keys, find_at, find_key_place, place_of
 from zlmreport.job.types import Finite, JobPart, NotNegative, Positive, Text

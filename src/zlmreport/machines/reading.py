@@ -10,7 +10,8 @@ from zlmreport import pipeline
 from zlmreport.errors import AccessError, InputError, Place, Problem
 from zlmreport.files import demand
 from zlmreport.job.extends import MACHINE
-from zlmreport.job.loading import KeysFile, load, read_keys_file
+from zlmreport.job.keys_file import KeysFile, read_keys_file
+from zlmreport.job.loading import load
 from zlmreport.job.tree import Items, Keys, find_at
 from zlmreport.machines.axis_errors import (
     LARGEST,

@@ -17,7 +17,7 @@ from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
 from zlmreport.evaluation.report import collect_position_columns, report_evaluation
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
-from zlmreport.job.loading import choose_standards, convert_tolerances_to_si
+from zlmreport.job.standards import choose_standards, convert_tolerances_to_si
 from zlmreport.language import Language
 from zlmreport.measurement.arrays import read_only_floats
 from zlmreport.notebook.frames import Library, as_html, frame_of

@@ -34,10 +34,7 @@ from zlmreport.job.job import (
 from zlmreport.job.keys import (
     JobKeys,
 )
-from zlmreport.job.loading import (
-    KeysFile,
-    read_keys_file,
-)
+from zlmreport.job.keys_file import KeysFile, read_keys_file
 from zlmreport.job.measurement_keys import (
     Instrument as JobInstrument,
 )

@@ -1,0 +1,87 @@
+"""Keys that follow from others of a job: its axis, and what standards ask of the measurement."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import replace
+
+from zlmreport.errors import InputError
+from zlmreport.job.choices import group_naming
+from zlmreport.job.circle_keys import CircleKeys
+from zlmreport.job.installed import Installed
+from zlmreport.job.keys import JobKeys
+from zlmreport.job.measured_lines import name_together
+from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, find_at, make_keys_of, merge, place_of
+from zlmreport.measurement.error_symbol import ErrorSymbol, find_error_named
+
+
+def find_stated_in(tree: Keys) -> str:
+    """Return what a job says was measured, by its symbol or its name; empty where it does not."""
+    stated = find_at(tree, ("measurement", "error"))
+    return stated.text.strip() if isinstance(stated, Scalar) else ""
+
+
+def find_error_in(tree: Keys) -> ErrorSymbol | None:
+    """Return the error that a job names; None where it names none, or one that there is not."""
+    with suppress(ValueError):
+        return find_error_named(find_stated_in(tree))
+    return None
+
+
+def add_axis(tree: Keys, registry: Installed) -> Keys:
+    """Return the keys of a job with its axis, where a circle, an extension or an error's symbol has it."""
+    if "axis" in tree.entries:
+        return tree
+    error = find_error_in(tree)
+    name = next((key for key in registry.axis_keys if key in tree.entries), "")
+    place = tree.entries[name].place if name else place_of(tree, ("measurement",))
+    if "circle" in tree.entries:
+        plane = find_at(tree, ("circle", "plane"))
+        place = tree.entries["circle"].place
+        name = plane.text if isinstance(plane, Scalar) else str(CircleKeys.model_fields["plane"].default)
+    if not name and error:
+        name = error.axis
+    if not name and isinstance(listed := find_at(tree, ("measurement", "tests")), Keys):
+        name = name_together(listed.entries)
+    if not name:
+        return tree
+    axis = make_keys_of(place, (KeyEntry("name", place, Scalar(place, name, plain=False)),))
+    return merge(tree, make_keys_of(tree.place, (KeyEntry("axis", place, axis),)))
+
+
+def share_keys(tree: Keys, registry: Installed) -> Keys:
+    """Return the keys of a job with what standards ask of the measurement among their own keys.
+
+    Such a key stands in `measurement`, or at the top of the job; each standard that asks for it gets it. One
+    that is the job's own, as `circle`, stays there too.
+    """
+    evaluate, measurement = find_at(tree, ("evaluate",)), find_at(tree, ("measurement",))
+    if not isinstance(evaluate, Items):
+        return tree
+    taken: set[str] = set()
+    items = []
+    for item in evaluate.items:
+        group = group_naming("standard", item)
+        shared = []
+        named = group.entries.get("standard")
+        if named and isinstance(named.value, Scalar):
+            with suppress(InputError):  # a standard that there is not is refused later
+                options = registry.standard(named.value.text, named.value.place).options
+                shared = [key for key in options.of_the_measurement if key not in registry.extension_keys]
+        entries = dict(group.entries)
+        for key in shared:
+            for place in (measurement, tree):
+                if isinstance(place, Keys) and key in place.entries:
+                    entries.setdefault(key, place.entries[key])
+                    taken.add(key)
+        items.append(
+            make_keys_of(group.place, tuple(entries.values())) if len(entries) > len(group.entries) else item
+        )
+    if not taken:
+        return tree
+    taken -= JobKeys.model_fields.keys()
+    entries = dict(tree.without(*taken).entries)
+    entries["evaluate"] = replace(tree.entries["evaluate"], value=Items(evaluate.place, tuple(items)))
+    if isinstance(measurement, Keys):
+        entries["measurement"] = replace(entries["measurement"], value=measurement.without(*taken))
+    return make_keys_of(tree.place, tuple(entries.values()))
