@@ -47,6 +47,7 @@ def test_its_pdf_keeps_what_it_claims(documents):
     assert complaints(documents[".pdf"]) == []
 
 
+@pytest.mark.long
 def test_its_digital_certificate_keeps_the_rules_of_ptb(documents):
     text = documents[".xml"].decode().partition("?>")[2].lstrip()
     found = SchematronValidator.for_dcc().validate_str(text)

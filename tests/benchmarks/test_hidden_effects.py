@@ -30,6 +30,8 @@ from zlmreport.model.diagnosis.diagnosis import diagnose
 from zlmreport.model.fitting.observations import make_observations_of
 from zlmreport.model.planning.methods import Method
 
+pytestmark = pytest.mark.long
+
 ROOT = Path(__file__).parents[2]
 
 
@@ -165,7 +167,6 @@ class TestRecords:
         file.write_text(f"{json.dumps(fixed_part[NOTHING.key])}\n", "utf-8")
         return file
 
-    @pytest.mark.long
     def test_a_case_is_judged_once(self, judged_once: Path) -> None:
         assert run([(NOTHING,)], judged, judged_once, 1, math.inf) == 0
 
@@ -261,7 +262,6 @@ class TestFixedPart:
 
 
 class TestExperiments:
-    @pytest.mark.long
     def test_a_tie_that_the_advised_test_decides_is_counted_as_right(self) -> None:
         tie = Case(Kind.EFFECT, ("encoder-interpolation",), Method.PENDULUM, Scatter.REALISTIC, 2.0, 0)
         found = experiments.judged(tie)

@@ -15,6 +15,8 @@ from cli.test_capture import JOB, PLUGIN, WHOLE
 from environments import ROOT
 from processes import ZLMREPORT, started
 
+pytestmark = pytest.mark.long
+
 Window = Callable[..., Page]
 
 
@@ -32,7 +34,6 @@ def address(tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
         workbench.ended()
 
 
-@pytest.mark.long
 def test_a_capture_is_begun_by_a_click_and_ends_in_the_workbench(address: str, window: Window) -> None:
     page = window(address, bypass_csp=True)
     expect(page.get_by_text("Start the program at visit 1: 0.000 mm from below, run 1.")).to_be_visible()

@@ -14,6 +14,8 @@ from model.hidden_effect import job, registry, written
 from zlmreport import pipeline
 from zlmreport_plugins.renderers.html import HtmlRenderer
 
+pytestmark = pytest.mark.long
+
 Window = Callable[..., Page]
 
 
@@ -32,7 +34,6 @@ def marked(page: Page) -> list[int]:
     return [page.locator(".plot").nth(index).locator(".ring").count() for index in range(2)]
 
 
-@pytest.mark.long
 def test_a_reading_pointed_at_is_marked_in_both_graphs(window: Window, file: Path) -> None:
     page = window(file.as_uri())
     x, y = page.locator(".plot").first.evaluate(
@@ -158,7 +159,6 @@ def test_a_phone_parts_neither_the_number_nor_a_name(window: Window, file: Path)
     assert longest > 1
 
 
-@pytest.mark.long
 def test_a_phone_parts_no_symbol_of_a_definition(window: Window, file: Path) -> None:
     page = window(file.as_uri(), viewport={"width": 390, "height": 844})
     lines = page.locator(".formulas th").evaluate_all(

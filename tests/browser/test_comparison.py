@@ -11,6 +11,8 @@ from playwright.sync_api import Page, expect
 
 from browser.pictures import picture
 
+pytestmark = pytest.mark.long
+
 Window = Callable[..., Page]
 _SECOND = Path(__file__).parents[2] / "configs" / "as-found" / "certificate.yaml"
 
@@ -21,7 +23,6 @@ def others() -> list[Path]:
     return [_SECOND]
 
 
-@pytest.mark.long
 def test_tests_are_overlaid_and_taken_away_and_everybody_can_use_them(address: str, window: Window) -> None:
     page = window(address, viewport={"width": 1440, "height": 900}, bypass_csp=True)
     tests = page.locator("#part-tests")
@@ -39,7 +40,6 @@ def test_tests_are_overlaid_and_taken_away_and_everybody_can_use_them(address: s
     expect(above.locator(".curve.test-2")).to_have_count(2)
 
 
-@pytest.mark.long
 def test_the_difference_at_a_target_is_told_to_who_goes_there_by_keys(address: str, window: Window) -> None:
     page = window(address, viewport={"width": 390, "height": 844})
     tests = page.locator("#part-tests")

@@ -17,6 +17,8 @@ from zlmreport.fleet.state import state_of
 from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def page_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
@@ -62,7 +64,6 @@ def test_nothing_is_loaded(window: Callable[..., Page], page_file: Path) -> None
     assert [url for url in asked if not url.startswith("data:")] == [page_file.as_uri()]
 
 
-@pytest.mark.long
 def test_it_prints_on_a4(window: Callable[..., Page], page_file: Path) -> None:
     printed = window(page_file.as_uri()).pdf(prefer_css_page_size=True)
     # 210 mm × 297 mm in points, as Chromium rounds them.

@@ -17,6 +17,8 @@ from zlmreport.fleet.state import Rules, state_of
 from zlmreport.language import Language
 from zlmreport.plugin.registry import find_plugins
 
+pytestmark = pytest.mark.long
+
 MACHINES = 40
 BEGAN = datetime(2026, 10, 20, tzinfo=UTC)
 
@@ -102,6 +104,5 @@ def test_without_scripts_everything_is_shown(window: Callable[..., Page], page_f
     assert not page.locator("#tools").is_visible()
 
 
-@pytest.mark.long
 def test_what_is_due_is_a_list_with_the_earliest_first(page: Page) -> None:
     assert page.locator("section#due tbody th .content").all_inner_texts()[:2] == ["CAL-009", "CAL-008"]

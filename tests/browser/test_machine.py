@@ -12,7 +12,7 @@ from playwright.sync_api import Page, expect
 from browser.conftest import ROOT
 
 Window = Callable[..., Page]
-pytestmark = pytest.mark.early
+pytestmark = [pytest.mark.early, pytest.mark.long]
 
 
 @pytest.fixture
@@ -22,7 +22,6 @@ def job(tmp_path: Path) -> Path:
     return shutil.copytree(ROOT / "configs" / "machine", tmp_path / "machine") / "machine.yaml"
 
 
-@pytest.mark.long
 def test_the_drive_that_lags_is_added_by_a_click_and_the_error_falls(
     address: str, job: Path, window: Window
 ) -> None:
@@ -47,7 +46,6 @@ def test_the_drive_that_lags_is_added_by_a_click_and_the_error_falls(
     assert "servo-mismatch]" not in job.read_text("utf-8")
 
 
-@pytest.mark.long
 def test_the_page_of_a_machine_fits_a_narrow_screen_in_german(address: str, window: Window) -> None:
     page = window(address, viewport={"width": 390, "height": 844}, locale="de-DE")
     expect(page.locator("#part-machine")).to_contain_text("Arbeitsraum")

@@ -14,7 +14,7 @@ from playwright.sync_api import Page, expect
 from browser.pictures import picture
 
 Window = Callable[..., Page]
-pytestmark = pytest.mark.early
+pytestmark = [pytest.mark.early, pytest.mark.long]
 
 
 def diagnosed(page: Page, verdict: str) -> None:
@@ -27,7 +27,6 @@ def plots(page: Page) -> list[int]:
     return [page.locator(".plot").nth(index).locator(".ring").count() for index in range(2)]
 
 
-@pytest.mark.long
 def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
@@ -76,7 +75,6 @@ def test_the_hidden_effect_is_found_by_clicks_alone(address: str, job: Path, win
     assert "screw-pitch" not in job.read_text(encoding="utf-8").partition("model:")[2]
 
 
-@pytest.mark.long
 def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     address: str, job: Path, window: Window
 ) -> None:
@@ -104,7 +102,6 @@ def test_from_a_job_without_pitch_to_table_and_certificate_by_clicks_alone(
     expect(page.get_by_text("Page 1 of")).to_be_visible()
 
 
-@pytest.mark.long
 def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path, window: Window) -> None:
     text = job.read_text(encoding="utf-8")
     job.write_text(text.replace(", screw_pitch: 10", ""), encoding="utf-8")
@@ -121,7 +118,6 @@ def test_the_page_asks_for_the_pitch_that_nobody_stated(address: str, job: Path,
     assert job.read_text(encoding="utf-8") == text
 
 
-@pytest.mark.long
 def test_verdict_error_and_fall_are_in_sight_wherever_one_reads(address: str, window: Window) -> None:
     page = window(address, viewport={"width": 1440, "height": 900})
     diagnosed(page, "missing")
@@ -133,7 +129,6 @@ def test_verdict_error_and_fall_are_in_sight_wherever_one_reads(address: str, wi
             assert 0 <= box["y"] < box["y"] + box["height"] <= 900
 
 
-@pytest.mark.long
 def test_a_step_that_is_pointed_at_is_seen_before_and_after(address: str, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
@@ -146,7 +141,6 @@ def test_a_step_that_is_pointed_at_is_seen_before_and_after(address: str, window
     expect(page.locator(".ghost")).to_have_count(0)
 
 
-@pytest.mark.long
 def test_steps_are_taken_back_and_again_by_keys_with_the_diagnosis_at_once(
     address: str, job: Path, window: Window
 ) -> None:
@@ -163,7 +157,6 @@ def test_steps_are_taken_back_and_again_by_keys_with_the_diagnosis_at_once(
         assert (job.read_text(encoding="utf-8") == text) == (verdict == "missing")
 
 
-@pytest.mark.long
 def test_the_deviation_is_rescaled_where_one_looks_closer(address: str, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
@@ -190,7 +183,6 @@ def test_the_deviation_is_rescaled_where_one_looks_closer(address: str, window: 
     assert scale() == whole
 
 
-@pytest.mark.long
 def test_what_is_seen_can_be_saved_and_read_as_a_table(address: str, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
@@ -211,7 +203,6 @@ def test_what_is_seen_can_be_saved_and_read_as_a_table(address: str, window: Win
     expect(page.locator(".table tbody tr")).to_have_count(105)
 
 
-@pytest.mark.long
 def test_readings_in_a_box_are_set_aside_together(address: str, job: Path, window: Window) -> None:
     page = window(address)
     diagnosed(page, "missing")
@@ -229,7 +220,6 @@ def test_readings_in_a_box_are_set_aside_together(address: str, job: Path, windo
     assert job.read_text(encoding="utf-8").count("Chips on the scale.") == 10
 
 
-@pytest.mark.long
 def test_the_page_goes_on_by_itself_when_the_readings_are_back(
     address: str, job: Path, window: Window
 ) -> None:
@@ -242,7 +232,6 @@ def test_the_page_goes_on_by_itself_when_the_readings_are_back(
     expect(page.get_by_role("alert")).to_contain_text("changed outside of this page")
 
 
-@pytest.mark.long
 def test_a_reading_is_found_set_aside_and_brought_back_with_the_keyboard(
     address: str, job: Path, window: Window
 ) -> None:
@@ -269,7 +258,6 @@ def test_a_reading_is_found_set_aside_and_brought_back_with_the_keyboard(
     assert "excluded: []" in job.read_text(encoding="utf-8")
 
 
-@pytest.mark.long
 def test_a_parameter_is_fixed_at_a_value_and_freed(address: str, job: Path, window: Window) -> None:
     page = window(address)
     page.get_by_role("button", name="Fix backlash.lost_motion at this value").click()
@@ -282,7 +270,6 @@ def test_a_parameter_is_fixed_at_a_value_and_freed(address: str, job: Path, wind
     assert "    - backlash\n" in job.read_text(encoding="utf-8")
 
 
-@pytest.mark.long
 def test_a_window_sees_what_an_editor_and_another_window_did(address: str, job: Path, window: Window) -> None:
     first, second = window(address), window(address)
     for page in (first, second):
@@ -303,7 +290,6 @@ def test_a_window_sees_what_an_editor_and_another_window_did(address: str, job: 
     expect(second.get_by_role("alert")).to_contain_text("changed outside of this page")
 
 
-@pytest.mark.long
 def test_the_page_can_be_used_by_everybody(address: str, window: Window) -> None:
     found = []
     for scheme in ("light", "dark"):
@@ -319,7 +305,6 @@ def test_the_page_can_be_used_by_everybody(address: str, window: Window) -> None
     assert [each.generate_report() for each in found if each.violations_count] == []
 
 
-@pytest.mark.long
 def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Window) -> None:
     page = window(
         address,
@@ -341,7 +326,6 @@ def test_a_tablet_in_the_dark_shows_it_all_in_german(address: str, window: Windo
     expect(page.get_by_role("heading", name="Where the model fails")).to_be_visible()
 
 
-@pytest.mark.long
 def test_what_a_certificate_lacks_is_filled_in_on_the_page(address: str, job: Path, window: Window) -> None:
     text = job.read_text(encoding="utf-8").replace("kind: report", "kind: certificate")
     kept = [each for each in text.splitlines() if not each.startswith(("customer:", "machine:"))]
@@ -361,7 +345,6 @@ def test_what_a_certificate_lacks_is_filled_in_on_the_page(address: str, job: Pa
     assert 'uncertainty: {negligible: {device_temperature: "laser, no length of its own"}}' in written
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("locale", ["en-GB", "de-DE", "fr-FR", "it-IT", "es-ES"])
 def test_nothing_is_cut_on_any_screen(address: str, window: Window, locale: str) -> None:
     page = window(address, locale=locale)
@@ -376,7 +359,6 @@ def test_nothing_is_cut_on_any_screen(address: str, window: Window, locale: str)
         assert cut == [], width
 
 
-@pytest.mark.long
 def test_the_pages_of_a_certificate_come_into_view_and_nothing_lies_over_them(
     address: str, window: Window
 ) -> None:
@@ -398,7 +380,6 @@ def test_the_pages_of_a_certificate_come_into_view_and_nothing_lies_over_them(
     assert on_top == ["page"] * 4
 
 
-@pytest.mark.long
 def test_nothing_moves_when_one_points_and_every_control_is_large_enough(
     address: str, window: Window
 ) -> None:
@@ -433,7 +414,6 @@ def test_nothing_moves_when_one_points_and_every_control_is_large_enough(
     assert standards["y"] + standards["height"] < 450
 
 
-@pytest.mark.long
 def test_a_model_is_built_step_by_step_and_a_step_taken_back(address: str, job: Path, window: Window) -> None:
     page = window(address)
     page.get_by_role("button", name="Build the model").click()

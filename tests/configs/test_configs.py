@@ -110,6 +110,7 @@ def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(made: Made) -
     assert [evaluation["standard"] for evaluation in results["evaluations"]] == stated
 
 
+@pytest.mark.long
 def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> None:
     press = registry.renderer("pdf-typst")
     found = {layout: embarrassments(each, press.render(each)) for layout, each in made.laid_out.items()}
@@ -142,6 +143,7 @@ def test_no_page_with_long_german_names_embarrasses(
     assert not embarrassments(certificate, registry.renderer(press).render(certificate))
 
 
+@pytest.mark.long
 def test_nothing_drawn_in_any_layout_collides(made: Made) -> None:
     figures = {each.key: each for every in made.laid_out.values() for each in every.figures}
     assert not {key: what for key, each in figures.items() if (what := collisions(each))}

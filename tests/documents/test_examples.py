@@ -17,6 +17,9 @@ from documents.warm import warm_command, warm_server
 from processes import PATIENCE, started
 from zlmreport.cli.new import make_skeleton_of
 
+#: They simulate, measure and diagnose so much that they take as long as all other pages together.
+_LONG = {"README.md", "docs/how-to/use-in-a-notebook.md"}
+
 
 @pytest.fixture(scope="module")
 def command() -> Iterator[Path]:
@@ -26,7 +29,13 @@ def command() -> Iterator[Path]:
 
 
 @pytest.mark.early
-@pytest.mark.parametrize("page", EXECUTED, ids=name)
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, marks=pytest.mark.long if name(page) in _LONG else (), id=name(page))
+        for page in EXECUTED
+    ],
+)
 def test_the_examples_of_a_page_work(page: Path, command: Path, tmp_path: Path) -> None:
     run_page(page, tmp_path, compare, command)
 

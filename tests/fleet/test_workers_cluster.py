@@ -73,6 +73,7 @@ def test_a_cluster_makes_the_certificates_and_loses_none_with_a_worker(
     assert str(os.getpid()) not in pids
 
 
+@pytest.mark.long
 @pytest.mark.early
 def test_a_ledger_in_postgresql_has_all_that_a_cluster_with_a_killed_worker_made(
     scheduler: str, tmp_path: Path

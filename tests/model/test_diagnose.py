@@ -235,6 +235,7 @@ def test_readings_that_stand_off_one_after_another_are_not_set_aside() -> None:
     assert found.verdict is Verdict.UNEXPLAINED
 
 
+@pytest.mark.long
 def test_drift_that_the_linear_method_hides_in_the_scatter_is_found() -> None:
     found = _hiding("thermal-drift")
     assert "time-order" in {each.test.value for each in found.failures}

@@ -37,6 +37,7 @@ def test_a_belt_has_the_lost_motion_of_a_belt(belt: Diagnosis) -> None:
     assert belt.leaves_noise
 
 
+@pytest.mark.long
 def test_what_is_large_is_asked_for(belt: Diagnosis) -> None:
     first = belt.candidates[0]
     assert first.is_large

@@ -65,6 +65,7 @@ def test_model_that_explains_all_but_rounding_is_adequate() -> None:
     assert _diagnosed(_LINEAR, np.round(exact / 1e-8) * 1e-8).verdict is Verdict.ADEQUATE
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sigma", [0.0, 3e-7])
 def test_pitch_error_of_a_real_control_is_named_at_every_noise(sigma: float) -> None:
     """A control that compensates itself to 0.1 µm: its own readings, and 3 µm of pitch error on top."""

@@ -66,6 +66,7 @@ def test_zero_that_moved_in_a_night_is_a_step_of_the_zero() -> None:
     assert any("22 h" in each.in_language(Language.ENGLISH) for each in found.remarks)
 
 
+@pytest.mark.long
 def test_pitch_that_the_readings_contradict_is_said_beside_that_of_the_job() -> None:
     wave = 3e-6 * np.sin(2 * np.pi * _DESIGN.position / 0.012)
     said = _said(diagnosed(USUAL, _DESIGN, known(_DESIGN) + wave + noise(_DESIGN)))

@@ -47,6 +47,7 @@ def test_its_results_are_those_of_the_worked_example(outcome: Path) -> None:
     assert values == {"D": (11.0, True), "H": (6.0, True), "W": (4.0, True), "T": (12.5, True)}
 
 
+@pytest.mark.long
 def test_its_own_columns_stand_in_the_results_by_position(outcome: Path) -> None:
     results = json.loads((outcome / "HA-EXAMPLE-1.json").read_bytes())
     positions = results["evaluations"][0]["positions"]

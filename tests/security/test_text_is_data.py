@@ -118,6 +118,7 @@ class _Page(HTMLParser):
             self.words.append(data)
 
 
+@pytest.mark.long
 def test_a_browser_finds_nothing_to_run_or_to_load(made: Path) -> None:
     page = _Page()
     page.feed((made / "out" / "CAL-1.html").read_text(encoding="utf-8"))

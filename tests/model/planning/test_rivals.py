@@ -123,6 +123,7 @@ def test_a_method_that_knows_no_pause_is_followed_by_a_warmer_session() -> None:
     assert "3 K warmer or colder" in found.statement.in_language(Language.ENGLISH)
 
 
+@pytest.mark.long
 def test_job_of_a_second_session_names_the_first() -> None:
     job = planned_job()
     assert make_deciding_job(_experiment(), job, "../job.yaml")["model"] == {"sessions": ["../job.yaml"]}
