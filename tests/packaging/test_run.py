@@ -143,6 +143,25 @@ def test_its_commands_are_listed(machine: Machine, arguments: list[str], code: i
     assert "./run COMMAND" in (done.stderr if code else done.stdout)
 
 
+@pytest.mark.parametrize(
+    ("arguments", "asked"), [((), "-m not long"), (("--long", "tests/model"), "-m long tests/model")]
+)
+def test_the_tests_that_take_long_are_run_by_themselves(
+    machine: Machine, arguments: tuple[str, ...], asked: str
+) -> None:
+    machine.install("python3", _PYTHON.replace("echo libpango-1.0-0", ":"))
+    (machine.environment / "bin").mkdir(parents=True)
+    machine.install("python", "exit 0")
+    (machine.bin / "python").rename(machine.environment / "bin" / "python")
+    assert machine.run("tests", *arguments).returncode == 0
+    assert machine.calls("python")[-1].endswith(asked)
+
+
+def test_continuous_integration_runs_both_parts_of_the_tests() -> None:
+    lines = (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
+    assert {"./run tests", "./run tests --long"} <= set(lines)
+
+
 def test_mutants_are_tried_by_a_command_of_its_own(machine: Machine) -> None:
     machine.install("python3", _PYTHON.replace("echo libpango-1.0-0", ":"))
     (machine.environment / "bin").mkdir(parents=True)
