@@ -34,6 +34,14 @@ def test_axis_with_a_bent_scale_and_lost_motion_is_known_from_nothing() -> None:
     assert found.leaves_noise
 
 
+def test_slope_is_seen_beside_lost_motion_that_is_a_hundred_times_as_large() -> None:
+    design = linear_test(13, 3)
+    readings = 1e-5 * design.position - 4e-4 * design.direction + noise(design)
+    found = diagnosed(model_of("offset"), design, readings)
+    assert [each.identifier for each in found.together] == ["backlash", "scale-error"]
+    assert found.leaves_noise
+
+
 @pytest.mark.long
 def test_noise_that_lasts_over_a_few_readings_is_noise() -> None:
     readings = known(_DESIGN) + lasting_noise(_DESIGN, 0.6)

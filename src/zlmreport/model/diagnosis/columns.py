@@ -53,6 +53,7 @@ class _Eliminated:
     kernel: FloatArray  #: K, (r, r).
     near: _Table  #: Products with the columns of the core.
     squares: dict[int, FloatArray] = field(default_factory=dict)  #: Of blocks of one width among themselves.
+    among: dict[bytes, FloatArray] = field(default_factory=dict)  #: Of sets of columns among themselves.
 
 
 class Columns:
@@ -119,12 +120,28 @@ class Columns:
             return known.near.values[rows[:, np.newaxis], other]
         if one.max() < self._core:
             return self.products(ratios, other, one).T
-        found = np.empty((len(one), len(other)))
-        left, right = one < self._core, other < self._core
-        found[:, right] = self.products(ratios, one, other[right])
-        found[np.ix_(left, ~right)] = self.products(ratios, other[~right], one[left]).T
-        found[np.ix_(~left, ~right)] = self._between(known, one[~left], self.values(other[~right]))
+        return self._between(known, one, other)
+
+    def products_among(self, ratios: tuple[float, ...], first: IntArray, members: IntArray) -> FloatArray:
+        """Return products of columns of the core and of members of a set among themselves, the core first."""
+        known, count = self._of(ratios), len(first)
+        found = np.empty((count + len(members), count + len(members)))
+        together = np.concatenate([first, members])
+        rows = known.near.rows(together, lambda missing: self._with_core(known.kernel, missing))
+        found[:, :count] = known.near.values[rows[:, np.newaxis], first]
+        found[:count, count:] = found[count:, :count].T
+        if len(members):
+            # The same set is asked about again and again, each time beside other curves without a name.
+            key = members.tobytes()
+            if key not in known.among:
+                known.among[key] = self._between(known, members, members)
+            found[count:, count:] = known.among[key]
         return found
+
+    def squares_of_core(self, ratios: tuple[float, ...], blocks: IntArray) -> FloatArray:
+        """Return products of the columns of blocks of the core among themselves, shape (g, k, k)."""
+        # The first rows of the table are those of the core.
+        return self._of(ratios).near.values[blocks[:, :, np.newaxis], blocks[:, np.newaxis, :]]
 
     def products_with_kept(self, ratios: tuple[float, ...], one: IntArray, kept: IntArray) -> FloatArray:
         """Return the same products with many of the kept columns."""
@@ -136,7 +153,8 @@ class Columns:
 
     def products_with(self, ratios: tuple[float, ...], one: IntArray, contrasts: FloatArray) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
-        return self._between(self._of(ratios), one, contrasts)
+        sums = self._of(ratios).kernel @ (self._factor.T @ contrasts)
+        return np.asarray(self.values(one).T @ contrasts - self._sums[:, one].T @ sums)
 
     def squares(self, ratios: tuple[float, ...], width: int, blocks: IntArray) -> FloatArray:
         """Return products of the columns of each block among themselves, shape (g, k, k).
@@ -167,9 +185,9 @@ class Columns:
         less = (kernel @ self._sums[:, places]).T @ self._sums[:, core]
         return np.asarray(self.values(places).T @ self._values[:, core] - less)
 
-    def _between(self, known: _Eliminated, places: IntArray, contrasts: FloatArray) -> FloatArray:
-        sums = known.kernel @ (self._factor.T @ contrasts)
-        return np.asarray(self.values(places).T @ contrasts - self._sums[:, places].T @ sums)
+    def _between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
+        sums = known.kernel @ self._sums[:, other]
+        return np.asarray(self.values(one).T @ self.values(other) - self._sums[:, one].T @ sums)
 
     def _of(self, ratios: tuple[float, ...]) -> _Eliminated:
         if ratios not in self._eliminated:

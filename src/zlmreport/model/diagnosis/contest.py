@@ -69,6 +69,16 @@ class Reduced:
 
 
 @dataclass(frozen=True, slots=True)
+class _Active:
+    """The parts of the covariance under given amplitudes."""
+
+    ratios: tuple[float, ...]  #: The irregular shares.
+    places: IntArray  #: (r,) integer: The columns of the other parts.
+    roots: FloatArray  #: (r,): The root of the variance of each.
+    costs: float  #: −2·ln of the prior odds of the amplitudes.
+
+
+@dataclass(frozen=True, slots=True)
 class _Group:
     """Families whose blocks are of one width, their blocks below one another."""
 
@@ -114,6 +124,7 @@ class Contest:
     known: float  #: Sum of squares of a noise of known size that stands beside σ.
     least_visible: float
     expected: PriorExpectation = field(default_factory=PriorExpectation)
+    _known: dict[Amplitudes, _Active] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(  # noqa: PLR0913 - a test, a model, what contends, and what is known
@@ -265,35 +276,39 @@ class Contest:
             min(level, part.noise_levels - 1) for level, part in zip(amplitudes, self.parts, strict=True)
         )
 
-    def _active(self, amplitudes: Amplitudes) -> tuple[tuple[float, ...], IntArray, FloatArray]:
-        """Return the irregular shares, and of the other parts the columns and the root of each variance."""
+    def _active(self, amplitudes: Amplitudes) -> _Active:
+        """Return the parts under amplitudes; the same ones are asked about with many a set."""
+        if amplitudes in self._known:
+            return self._known[amplitudes]
         ratios = [0.0] * sum(part.irregular is not None for part in self.parts)
-        places, roots = [self.response[:0]], [np.empty(0)]
+        places, roots, costs = [self.response[:0]], [np.empty(0)], 0.0
         for part, level in zip(self.parts, amplitudes, strict=True):
+            costs += part.costs[level]
             if part.irregular is not None:
                 ratios[part.irregular] = part.levels[level]
             elif level:
                 places.append(part.columns)
                 roots.append(np.full(part.width, np.sqrt(part.levels[level])))
-        return tuple(ratios), np.concatenate(places), np.concatenate(roots)
+        found = _Active(tuple(ratios), np.concatenate(places), np.concatenate(roots), costs)
+        self._known[amplitudes] = found
+        return found
 
     def reduced(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
         """Return a set of columns under amplitudes."""
-        key, places, root = self._active(amplitudes)
-        count = len(places)
-        together = np.concatenate([places, *members])
-        products = self.columns.products(key, together, together)
+        active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
+        count, root = len(active.places), active.roots
+        products = self.columns.products_among(active.ratios, active.places, own)
         inner = root[:, np.newaxis] * products[:count, :count] * root
         factor = np.linalg.cholesky(np.eye(count) + inner)
         own_root = np.linalg.inv(factor) * root
         crossed = own_root @ products[:count, count:]
         return Reduced(
-            key,
-            together,
+            active.ratios,
+            np.concatenate([active.places, own]),
             own_root,
             crossed,
             _root_of(products[count:, count:] - crossed.T @ crossed),
-            self.columns.log_determinant(key) + 2.0 * float(np.log(np.diagonal(factor)).sum()),
+            self.columns.log_determinant(active.ratios) + 2.0 * float(np.log(np.diagonal(factor)).sum()),
         )
 
     def left(self, reduced: Reduced) -> tuple[float, FloatArray]:
@@ -305,30 +320,31 @@ class Contest:
 
     def criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
         """Return −2·ln of the restricted likelihood times the prior odds of the amplitudes."""
-        key, places, root = self._active(amplitudes)
-        together = np.concatenate([places, *members, self.response])
-        bordered = self.columns.products(key, together, together)
+        active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
+        count, key = len(active.places), active.ratios
+        products = self.columns.products_among(key, np.concatenate([active.places, self.response]), own)
         # The pivots of one factor tell all: those of the parts ln|V|, the last what is left of the readings.
-        scale = np.ones(len(together))
-        scale[: len(root)] = root
-        bordered *= scale[:, np.newaxis]
-        bordered *= scale
-        diagonal = np.arange(len(together))
-        bordered[diagonal[: len(root)], diagonal[: len(root)]] += 1.0
+        order = np.r_[:count, count + 1 : len(products), count]
+        bordered = products[order[:, np.newaxis], order]
+        bordered[:count] *= active.roots[:, np.newaxis]
+        bordered[:, :count] *= active.roots
+        diagonal = np.arange(len(bordered))
+        bordered[diagonal[:count], diagonal[:count]] += 1.0
         bordered[-1, -1] += _ROUNDING
         try:
             pivots = np.linalg.cholesky(bordered)[diagonal, diagonal]
-            is_clear = bool((pivots[len(root) : -1] ** 2 > _IMITATED).all())
+            is_clear = bool((pivots[count:-1] ** 2 > _IMITATED).all())
         except np.linalg.LinAlgError:
             is_clear = False
         if is_clear:
             squares = float(pivots[-1]) ** 2 * self.squares + self.known
-            determinant = self.columns.log_determinant(key) + 2.0 * float(np.log(pivots[: len(root)]).sum())
+            determinant = self.columns.log_determinant(key) + 2.0 * float(np.log(pivots[:count]).sum())
         else:  # columns of the set depend on each other
             reduced = self.reduced(amplitudes, members)
             squares, determinant = self.left(reduced)[0], reduced.log_determinant
-        costs = sum(part.costs[level] for part, level in zip(self.parts, amplitudes, strict=True))
-        return float(self._logarithm(squares) + determinant + self.space.single.log_determinant + costs)
+        return float(
+            self._logarithm(squares) + determinant + self.space.single.log_determinant + active.costs
+        )
 
     def by_level(
         self, amplitudes: Amplitudes, members: Sequence[IntArray], numbers: Sequence[int]
@@ -340,24 +356,33 @@ class Contest:
         base = tuple(0 if number in numbers else level for number, level in enumerate(amplitudes))
         reduced = self.reduced(base, members)
         squares, taken = self.left(reduced)
-        costs = sum(part.costs[level] for part, level in zip(self.parts, base, strict=True))
-        beside, found = reduced.log_determinant + self.space.single.log_determinant + costs, []
+        alike: dict[tuple[int, int], list[int]] = {}
         for number in numbers:
-            part = self.parts[number]
-            products = self.columns.products(reduced.ratios, reduced.places, part.columns)
-            response = self.columns.products(reduced.ratios, self.response, part.columns)[0]
-            coordinates = reduced.coordinates(products)
-            outer = coordinates[len(reduced.root) :]
-            inner = coordinates[: len(reduced.root)]
-            gram = self.columns.products(reduced.ratios, part.columns, part.columns) - inner.T @ inner
-            strengths, vectors = np.linalg.eigh(gram - outer.T @ outer)
-            turned = (vectors.T @ (response - taken @ coordinates)) ** 2 * self.squares
-            levels = np.array(part.levels)[:, np.newaxis]
-            explained = np.sum(levels / (1.0 + levels * np.maximum(strengths, 0.0)) * turned, axis=1)
-            spread = np.log1p(levels * np.maximum(np.linalg.eigvalsh(gram), 0.0)).sum(axis=1)
-            left = np.maximum(squares - explained, _ROUNDING * self.squares + self.known)
-            found.append(self._logarithm(left) + spread + beside + np.array(part.costs) - part.costs[0])
-        return found
+            alike.setdefault((self.parts[number].width, len(self.parts[number].levels)), []).append(number)
+        beside = reduced.log_determinant + self.space.single.log_determinant + self._active(base).costs
+        found: dict[int, FloatArray] = {}
+        for (width, _), group in alike.items():
+            blocks = np.stack([self.parts[number].columns for number in group])
+            flat = blocks.ravel()
+            coordinates = reduced.coordinates(self.columns.products(reduced.ratios, reduced.places, flat))
+            response = self.columns.products(reduced.ratios, self.response, flat)[0]
+            shape = (-1, len(group), width)
+            inner = coordinates[: len(reduced.root)].reshape(shape).transpose(1, 2, 0)
+            outer = coordinates[len(reduced.root) :].reshape(shape).transpose(1, 2, 0)
+            gram = self.columns.squares_of_core(reduced.ratios, blocks) - inner @ inner.transpose(0, 2, 1)
+            strengths, vectors = np.linalg.eigh(gram - outer @ outer.transpose(0, 2, 1))
+            left = (response - taken @ coordinates).reshape(len(group), width, 1)
+            turned = (vectors.transpose(0, 2, 1) @ left)[:, np.newaxis, :, 0] ** 2 * self.squares
+            levels = np.array([self.parts[number].levels for number in group])[:, :, np.newaxis]
+            shares = levels / (1.0 + levels * np.maximum(strengths, 0.0)[:, np.newaxis])
+            spread = np.log1p(levels * np.maximum(np.linalg.eigvalsh(gram), 0.0)[:, np.newaxis]).sum(axis=2)
+            left = np.maximum(
+                squares - np.sum(shares * turned, axis=2), _ROUNDING * self.squares + self.known
+            )
+            costs = np.array([self.parts[number].costs for number in group])
+            criteria = self._logarithm(left) + spread + beside + costs - costs[:, :1]
+            found.update(zip(group, criteria, strict=True))
+        return [found[number] for number in numbers]
 
     def _logarithm(self, squares: FloatArray | float) -> FloatArray:
         return np.asarray(self.space.degrees * np.log(np.maximum(squares, _NOTHING)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -235,11 +235,17 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     run = find_single_run(fitted.design, fitted.residual, error.noise_rms or 0.0)
     is_left = run is not None or not _is_perhaps_noise(error, fitted)
     finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
+    complete = _complete(fitted, finding.named, finding.makeshift)
+    after = error if complete is fitted else compute_error_numbers(complete)
+    if finding.named and finding.remainder is None and not _is_perhaps_noise(after, complete):
+        # A hundredth of a large cause counts as noise beside it: what that hid is seen once it is in the model.
+        hidden = find(complete, asked.effects, asked.expected, is_left=True)
+        finding = replace(finding, named=(*finding.named, *hidden.named), remainder=hidden.remainder)
+        complete = _complete(complete, hidden.named, ())
+        after = compute_error_numbers(complete)
     left = finding.remainder
     if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
         left = None
-    complete = _complete(fitted, finding.named, finding.makeshift)
-    after = error if complete is fitted else compute_error_numbers(complete)
     if left is None and not finding.named and run:
         left = make_remainder_of_run(fitted, run)
     elif left is None and not _is_perhaps_noise(

@@ -121,6 +121,7 @@ class SetSearch:
         self._ends: dict[tuple[bool, _State], EffectSet] = {}
         # Of all sets that were looked at the best ones, by the effects and the forms that are in it.
         self._best: dict[tuple[frozenset[str], frozenset[str]], EffectSet] = {}
+        self._turns: dict[int, FloatArray] = {}  # of members, by the place of their first column
         self._with_forms = True  # whether forms without a name are thought of
 
     def found(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
@@ -348,15 +349,21 @@ class SetSearch:
             for each, value in zip(effect.searched, member.theta.tolist(), strict=True)
             if not (each.dimension is Dimension.TIME and design.time_is_counted)
         )
-        # The columns of a block are orthonormal: turn what was solved into the parameters.
-        contrasts = self.contest.space.of(effect.columns(design, member.theta))
-        values = self.contest.columns.values(member.columns)
-        turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
+        turn = self._turn(member)
         gamma, spread = turn @ solved, np.sqrt(np.maximum(np.diagonal(turn @ covariance @ turn.T), 0.0))
         return cost + sum(
             weigh_size(effect, design, each, float(value), float(own))
             for each, value, own in zip(effect.linear, gamma, spread, strict=True)
         )
+
+    def _turn(self, member: SetMember) -> FloatArray:
+        """Return what turns coefficients of a member's columns, which are orthonormal, into parameters."""
+        place = int(member.columns[0])
+        if place not in self._turns:
+            contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
+            values = self.contest.columns.values(member.columns)
+            self._turns[place] = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
+        return self._turns[place]
 
     def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
         """Return the best amplitudes of all parts near others, one after another."""
