@@ -25,3 +25,5 @@ LOGGED: Mapping[str, str] = MappingProxyType(
         for name in names.split()
     }
 )
+#: A temperature of which its name does not tell whose it is, folded.
+SOME_TEMPERATURE = frozenset({"temperatur", "temperature", "temp", "temp."})

@@ -6,6 +6,8 @@ A name loads its module when it is used.
 
 from __future__ import annotations
 
+import os
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
 
@@ -83,6 +85,9 @@ if not TYPE_CHECKING:  # a type checker knows the names from above, and reports 
         if name not in _HOMES:
             message = f"module {__name__!r} has no attribute {name!r}"
             raise AttributeError(message)
+        if "numpy" not in sys.modules:
+            # On the small matrices of a test, threads only wait for each other.
+            os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
         room, own = _HOMES[name]
         value = globals()[name] = getattr(import_module(f"{__name__}.{room}"), own)
         return value

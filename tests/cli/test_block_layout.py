@@ -56,6 +56,13 @@ def test_a_name_is_not_parted_from_its_value() -> None:
     assert _lines(facts) == ["  Root mean square error 5.59 µm", "    Runs predicted from the others 5.5 µm"]
 
 
+def test_a_name_that_is_longer_than_a_line_keeps_both_ends() -> None:
+    table = _table(Column("Test"), Column("RMS"), rows=((f"ballbar-{'x' * 100}-cw", "4.7"),))
+    *_, line = _lines(table)
+    assert line.split()[0] == f"ballbar-{'x' * 22}…{'x' * 27}-cw"
+    assert line.endswith("4.7")
+
+
 def test_columns_that_hold_nothing_are_left_out() -> None:
     columns = (Column("Name"), Column("Nothing"), Column("Dash"), Column("Value", "mm", Align.RIGHT))
     table = _table(*columns, rows=(("a", "", "–", "10"), ("bc", "", "–", "9")))

@@ -196,3 +196,12 @@ def test_a_plate_without_a_station_is_told_by_its_reader(table: Any) -> None:
     left = b"\n".join(row for row in PLATE.splitlines() if not row.startswith(b"NW-SE,2,"))
     with pytest.raises(InputError, match="station 2 of the line is left out"):
         look_at(table(left), REGISTRY)
+
+
+def test_whose_a_temperature_is_that_does_not_say_so_is_asked(table: Any) -> None:
+    rows = b"Soll;Richtung;Lauf;Abweichung;Temperatur\n0;+;1;0,1;20,1\n9;+;1;0,3;20,2\n"
+    found = look_at(table(rows), REGISTRY)
+    (asked,) = (each for each in found.proposal.asks if "temperature" in each)
+    assert asked.startswith("Whose temperature is Temperatur?")
+    assert "material_temperature: Temperatur" in asked
+    assert set(found.read.conditions) == {"Temperatur"}

@@ -6,6 +6,7 @@ import pytest
 
 from environments import ROOT
 from zlmreport.cli import main
+from zlmreport.job.loading import load
 from zlmreport.machines.file_names import find_circle_by_name, find_error_by_name
 from zlmreport.machines.reading import read_machine
 from zlmreport.plugin.registry import find_plugins
@@ -100,6 +101,21 @@ def test_a_machine_begins_with_files_and_says_what_only_its_user_knows(
     machine = read_machine(Path("mill/machine.yaml"), find_plugins())
     assert {each.name for each in machine.machine.curves} == {"EXX", "EYY", "EZZ", "EYX", "EXY"}
     assert [each.nominal.feed * 60e3 for each in machine.circles] == pytest.approx([1000, 1000])
+
+
+def test_one_job_makes_one_document_of_all_that_was_measured(
+    readings: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("ppp", "npp", "pnp", "nnp"):
+        content = (ROOT / "configs" / "whole-machine" / f"{name}.csv").read_bytes()
+        (readings / f"diagonal {name}.csv").write_bytes(content)
+    for name in ("x-straightness.csv", "ballbar-cw.csv"):  # of these something would have to be said
+        (readings / name).unlink()
+    assert main(["init", str(tmp_path / "mill"), "--machine", str(readings)]) == 0
+    assert "diagonals of the work space: NNP, NPP, PNP, PPP\n" in capsys.readouterr().out
+    job = load(tmp_path / "mill" / "document.yaml", find_plugins())
+    assert {*job.measurements} == {"EXX", "EYY", "EZZ", "EXY", "ballbar-XY-R150-F1000-ccw", "diagonals"}
+    assert job.measurements["diagonals"].axis.measurand.identifier == "diagonals"
 
 
 def test_nothing_is_written_over_and_a_file_of_no_table_is_told(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import product
+from itertools import combinations, product
 
 import numpy as np
 
@@ -69,7 +69,7 @@ class CircleBacklash(CircleEffect):
             value, u = _write_pair(each)
             axis, end = each.name[:1], each.name[1:]
             yield (_LOSES_AT[end] if end else _LOSES).given(axis=axis, value=value, u=u)
-        if any(each.name[1:] for each in seen):
+        if _has_unlike_ends(estimates):
             yield _ENDS_DIFFER
         if seen:
             yield _MEND
@@ -79,6 +79,19 @@ class CircleBacklash(CircleEffect):
         for each in estimates:
             value, u = _write_pair(each)
             yield _NO_BACKLASH.given(axis=each.name, value=value, u=u)
+
+
+def _has_unlike_ends(estimates: Sequence[Estimate]) -> bool:
+    """Return whether the ends of an axis differ by more than both values are uncertain."""
+    pairs = (
+        (one, other)
+        for one, other in combinations(estimates, 2)
+        if one.name[:1] == other.name[:1] and one.name != other.name
+    )
+    return any(
+        abs(one.value - other.value) > np.hypot(one.expanded_uncertainty, other.expanded_uncertainty)
+        for one, other in pairs
+    )
 
 
 class OverCompensation(CircleEffect):

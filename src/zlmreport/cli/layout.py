@@ -26,6 +26,8 @@ from zlmreport.language.formatting import HELD, write_plain
 
 _COLOURS = {Mark.MET: Colour.GREEN, Mark.OPEN: Colour.YELLOW, Mark.NOT_MET: Colour.RED}
 _INDENT, _FURTHER_IN = "  ", "    "
+#: Letters of the name of a row.
+_LONGEST_NAME = 61
 _BAR_WIDTH = 20
 _EIGHTHS = " ▏▎▍▌▋▊▉█"
 
@@ -79,6 +81,7 @@ def _lay_out_table(block: Table) -> Iterator[str]:
             (sentences if column.kind is ColumnKind.SENTENCES else shown).append(number)
     columns = [block.columns[number] for number in shown]
     rows = [[_write_cell(row[number], block.columns[number]) for number in shown] for row in whole]
+    rows = [[*map(_shorten_name, row[:1]), *row[1:]] for row in rows]
     right = [number for number, column in enumerate(columns) if column.align is Align.RIGHT]
     is_grouped = any(group.heading for group in block.groups)
     head, *lines = lay_out_table([_write_head(columns), *rows], right, _FURTHER_IN if is_grouped else _INDENT)
@@ -111,6 +114,14 @@ def _write_head(columns: Iterable[Column]) -> list[str]:
 
 def _write_cell(text: str, column: Column) -> str:
     return _draw_bar(float(text) / 100) if column.kind is ColumnKind.BARS else text
+
+
+def _shorten_name(text: str) -> str:
+    """Return the name of a row; of one for which a terminal has no room both ends."""
+    if len(text) <= _LONGEST_NAME:
+        return text
+    kept = (_LONGEST_NAME - 1) // 2
+    return f"{text[:kept]}…{text[-kept:]}"
 
 
 def _draw_bar(share: float) -> str:

@@ -32,7 +32,7 @@ from zlmreport.machines.keys import LineKeys, StatedKeys
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
 from zlmreport.machines.machine import find_unit_of
 from zlmreport.measurement.arrays import FloatArray
-from zlmreport.measurement.error_symbol import find_symbol_of_positioning
+from zlmreport.measurement.error_symbol import ROTARY_AXES, find_symbol_of_positioning
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MILLIMETRE
 from zlmreport.model.diagnosis.study import find_instrument_error
@@ -46,6 +46,8 @@ Opened = Callable[[Path], bytes | None]
 
 #: What of the places of other axes the model of three linear ones knows.
 _PLACES = frozenset({"X", "Y", "Z", "tool"})
+#: Axes that run beside X, Y and Z.
+_BESIDE = {"U": "X", "V": "Y", "W": "Z"}
 _AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
 
 
@@ -83,6 +85,15 @@ def find_line_of_job(job: Job) -> ErrorLine:
 
 def _say_meant(name: str) -> str:
     """Return which error a wrong name may mean: a letter O in the place of the zero of a squareness, too."""
+    axis = name[-1:].upper()
+    if axis in _BESIDE:
+        other = _BESIDE[axis]
+        return (
+            f"{axis} runs beside {other}, and the model has one axis of a direction: leave this job out, or "
+            f"call the axis {other} if it moves in the place of it"
+        )
+    if axis in ROTARY_AXES and len(name) == len("ECC"):
+        return f"{axis} turns, and a rotary axis has no place in it; leave this job out"
     with_zero = name.upper().replace("O", "0")
     return f"with a zero it is {with_zero}" if with_zero in ERRORS else did_you_mean(name, ERRORS)
 

@@ -6,18 +6,21 @@ fill in. Nothing is guessed in silence.
 
 from __future__ import annotations
 
-import itertools
 import os
 import re
 import textwrap
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place
 from zlmreport.files import Document
 from zlmreport.looking import Looked, look_at
-from zlmreport.machines.file_names import find_circle_by_name, find_error_by_name
+from zlmreport.machines.file_names import (
+    find_circle_by_name,
+    find_diagonal_by_name,
+    find_error_by_name,
+)
 from zlmreport.machines.kinematics import ERRORS
 from zlmreport.measurement.error_symbol import find_error_named
 from zlmreport.measurement.measurand import ANGLE, POSITIONING
@@ -26,8 +29,10 @@ from zlmreport.plugin.registry import Registry
 #: Marks a line that a user has to complete.
 FILL_IN = "fill in:"
 _WIDTH = 100
-_SHARED, _MACHINE = "shared.yaml", "machine.yaml"
+_SHARED, _MACHINE, _DOCUMENT = "shared.yaml", "machine.yaml", "document.yaml"
 _OF_POSITIONS, _OF_LINES, _OF_CIRCLES = "iso230-2:2014", "iso230-1:2012", "iso230-4:2005"
+_OF_DIAGONALS = "iso230-6:2002"
+_OF_POSITION = ("EXX", "EYY", "EZZ")
 #: Of a job's name: what stands in the names of files everywhere.
 _PLAIN = re.compile(r"[^\w.-]+")
 
@@ -43,6 +48,8 @@ class BegunJob:
     doubt: str = ""  #: What is to be settled before the machine file may name it; empty where it may.
     is_circle: bool = False
     is_other: bool = False  #: Whether it is neither circle nor error, but another quantity: a drift, a plate.
+    source: str = ""  #: Its data source, on a line.
+    travel: str = ""  #: Of the axis that moved, mm.
 
     @property
     def said(self) -> str:
@@ -77,11 +84,22 @@ def begin_machine(files: Sequence[Path], directory: Path, registry: Registry) ->
     Raises `InputError` or `AccessError` if one cannot be read.
     """
     jobs: list[BegunJob] = []
+    diagonals: dict[str, tuple[Path, str]] = {}
     for file in _list_files(files):
         looked = look_at(file, registry)
-        jobs.append(_begin_job(file, looked, directory, jobs))
+        diagonal = find_diagonal_by_name(file.stem)
+        if diagonal and diagonal not in diagonals:
+            diagonals[diagonal] = file, _write_source(looked, file, directory)
+        else:
+            jobs.append(_begin_job(file, looked, directory, jobs))
+    if diagonals:
+        jobs.append(_begin_diagonals(diagonals, jobs))
     square = _begin_squareness(jobs)
-    texts = {_MACHINE: _write_machine(jobs, square), _SHARED: _write_shared()}
+    texts = {
+        _MACHINE: _write_machine(jobs, square),
+        _SHARED: _write_shared(),
+        _DOCUMENT: _write_document(jobs),
+    }
     texts |= {f"{each.stem}.yaml": each.text for each in jobs} | dict(square)
     documents = (Document(directory / name, text.encode()) for name, text in texts.items())
     return BegunMachine(tuple(jobs), tuple(documents))
@@ -98,7 +116,7 @@ def _list_files(files: Iterable[Path]) -> list[Path]:
 
 
 def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[BegunJob]) -> BegunJob:
-    taken = {"machine", "shared", *(each.stem for each in others)}
+    taken = {"machine", "shared", "document", "diagonals", *(each.stem for each in others)}
     plain = _PLAIN.sub("-", file.stem).strip("-.") or "readings"
     stem = next(
         name for name in (plain, *(f"{plain}-{number}" for number in range(2, 1000))) if name not in taken
@@ -123,7 +141,8 @@ def _begin_job(file: Path, looked: Looked, directory: Path, others: Sequence[Beg
     doubt = f"{named.symbol} is {clash.file.name} already; which error it is" if clash else named.doubt
     lines = [*head, *_write_axis(named.symbol, doubt, looked)]
     lines += [*source, f'evaluate: ["{_choose_standard_of(named.symbol)}"]', _INSTRUMENT]
-    return BegunJob(file, stem, _join(lines), named.symbol, doubt)
+    own = _write_source(looked, file, directory)
+    return BegunJob(file, stem, _join(lines), named.symbol, doubt, source=own, travel=_write_travel(looked))
 
 
 def _choose_standard_of(symbol: str) -> str:
@@ -133,10 +152,8 @@ def _choose_standard_of(symbol: str) -> str:
 
 def _write_axis(symbol: str, doubt: str, looked: Looked) -> Iterator[str]:
     """Yield the lines of a job that say which axis moved, and what was measured of it."""
-    first, last = looked.read.axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
-    travel = f"travel: [{first:.9g}, {last:.9g}]"
     name = symbol[2] if symbol else "X"
-    yield f"axis: {{name: {name}, {travel}}} # mm"
+    yield f"axis: {{name: {name}, travel: {_write_travel(looked)}}} # mm"
     yield "measurement:"
     if doubt:
         yield f"  # error: {symbol or 'EXX'} # {FILL_IN} {doubt} (ISO 230-1: {', '.join(ERRORS[:4])} …)"
@@ -186,8 +203,7 @@ def _begin_squareness(jobs: Sequence[BegunJob]) -> list[tuple[str, str]]:
         if symbol in by_error or not all(each in by_error for each in lines):
             continue
         tests = [
-            f"    {each[2].lower()}: {{error: {each}, source: {_find_source_of(by_error[each])}}}"
-            for each in lines
+            f"    {each[2].lower()}: {{error: {each}, source: {by_error[each].source}}}" for each in lines
         ]
         name = f"squareness-{symbol}.yaml"
         text = [
@@ -207,12 +223,55 @@ def _begin_squareness(jobs: Sequence[BegunJob]) -> list[tuple[str, str]]:
     return found
 
 
-def _find_source_of(job: BegunJob) -> str:
-    """Return the source of a job on a line."""
-    lines = iter(job.text.splitlines())
-    after = itertools.dropwhile(lambda line: line != "  source:", lines)
-    keys = itertools.takewhile(lambda line: line.startswith("    "), itertools.islice(after, 1, None))
-    return f"{{{', '.join(map(str.strip, keys))}}}"
+def _begin_diagonals(found: Mapping[str, tuple[Path, str]], jobs: Sequence[BegunJob]) -> BegunJob:
+    """Return the job of the diagonals of a work space, each of which has a file."""
+    travels = {each.error[2]: each.travel for each in jobs if each.error in _OF_POSITION and not each.doubt}
+    sides = ", ".join(f"{axis}: {travels.get(axis, '[0, 500]')}" for axis in "XYZ")
+    is_known = len(travels) == len(_OF_POSITION)
+    why = "as the axes were measured" if is_known else f"{FILL_IN} the sides of the work space"
+    lines = [
+        "# The diagonals of the work space, by the signs of their directions in X, Y and Z.",
+        "schema: zlmreport/job/1",
+        f"extends: {_SHARED}",
+        "certificate: {number: diagonals}",
+        f"{'' if is_known else '# '}axes: {{{sides}}} # mm, {why}",
+        "measurement:",
+        "  tests:",
+        *(f"    {name}: {{source: {source}}}" for name, (_, source) in found.items()),
+        f'evaluate: ["{_OF_DIAGONALS}"]',
+        _INSTRUMENT,
+    ]
+    (first, _), *_ = found.values()
+    said = f"diagonals of the work space: {', '.join(found)}"
+    return BegunJob(first, "diagonals", _join(lines), "", said, is_other=True)
+
+
+def _write_source(looked: Looked, file: Path, directory: Path) -> str:
+    """Return the source of a job in a folder on a line."""
+    name = Path(os.path.relpath(file.resolve(), directory.resolve())).as_posix()
+    _, *keys = looked.block(name)
+    return f"{{{', '.join(each.strip() for each in keys)}}}"
+
+
+def _write_travel(looked: Looked) -> str:
+    first, last = looked.read.axis.position_unit.from_si(looked.read.target_positions[[0, -1]])
+    return f"[{first:.9g}, {last:.9g}]"
+
+
+def _write_document(jobs: Sequence[BegunJob]) -> str:
+    """Return the job of one document on all that was measured."""
+    settled = [each for each in jobs if each.is_circle or each.is_other or not each.doubt]
+    return _join(
+        [
+            "# One document on all of it; zlmreport document.yaml makes it.",
+            "schema: zlmreport/job/1",
+            f"extends: {_SHARED}",
+            "certificate: {number: REPORT-0001}",
+            "measurements:",
+            *(f"  - {each.stem}.yaml" for each in settled),
+            "output: {formats: [pdf, json]}",
+        ]
+    )
 
 
 def _write_shared() -> str:

@@ -35,7 +35,7 @@ from zlmreport.machines.prediction import collect_prediction
 from zlmreport.machines.reading import MachineFile
 from zlmreport.machines.subjects import findings, tests
 from zlmreport.machines.subjects.axes import lay_out_errors, lay_out_space, say_known
-from zlmreport.machines.subjects.cross_tables import lay_out_promised
+from zlmreport.machines.subjects.cross_tables import lay_out_promised, say_promised
 from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -91,7 +91,7 @@ def make_machine_document(
     results = _write_results(material, made_from, generator)
     say = Sayer(stated.language)
     is_sheet = stated.layout == "sheet"
-    cover = tuple(_lay_out_sheet(material, say) if is_sheet else _cover(material, say))
+    cover = tuple(_lay_out_sheet(material, registry, say) if is_sheet else _cover(material, say))
     title = say(_TITLE)
     name = machine.file.keys.machine.type or machine.number
     attached = [
@@ -185,13 +185,16 @@ def _cover(material: _Material, say: Sayer) -> Iterator[Block]:
         yield from absence.blocks
 
 
-def _lay_out_sheet(material: _Material, say: Sayer) -> Iterator[Block]:
+def _lay_out_sheet(material: _Material, registry: Registry, say: Sayer) -> Iterator[Block]:
     """Yield all that fits on a page."""
     yield _list_facts(material.machine, say)
     yield from _lay_out_first(material, say)
     circles = [each for each in material.complete or material.by_axes if isinstance(each.test, CircularTest)]
     yield from (Graph(tests.draw_circle(each)) for each in circles[:_ON_A_SHEET])
-    yield from lay_out_errors(material.machine.machine, say, is_full=True).blocks[1:]
+    promised = say_promised(material.machine, registry, say)
+    if promised:
+        yield promised
+    yield from lay_out_errors(material.machine.machine, say, is_full=False).blocks[1:]
 
 
 def _lay_out_first(material: _Material, say: Sayer) -> Iterator[Block]:

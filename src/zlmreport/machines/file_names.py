@@ -29,6 +29,8 @@ _TURNS = {
     _ROLL: {"X": "A", "Y": "B", "Z": "C"},
 }
 _PLANES = {"XY": "XY", "YX": "XY", "YZ": "YZ", "ZY": "YZ", "ZX": "ZX", "XZ": "ZX"}
+#: Body diagonals by the signs of their directions in X, Y and Z.
+_DIAGONALS = ("PPP", "NPP", "PNP", "NNP")
 _AXIS = re.compile(r"([XYZ])\d?(?:AXIS|ACHSE)?")
 _NUMBER = r"(\d+(?:\.\d+)?)(?:MM)?"
 
@@ -100,6 +102,15 @@ def find_circle_by_name(name: str) -> NamedCircle:
         return next((float(each[1]) for each in found if each), None)
 
     return NamedCircle(plane, number("R"), number("F"))
+
+
+def find_diagonal_by_name(name: str) -> str:
+    """Return which body diagonal a file holds, by the signs of its directions; empty for other files.
+
+    >>> find_diagonal_by_name("diagonal ppp"), find_diagonal_by_name("x-pitch")
+    ('PPP', '')
+    """
+    return next((each for each in _split(name) if each in _DIAGONALS), "")
 
 
 def _split(name: str) -> list[str]:

@@ -27,6 +27,10 @@ def test_an_end_that_loses_more_is_said_where_it_lies() -> None:
     assert "one value of the control does not suit both" in ends
 
 
+def test_ends_that_agree_within_their_uncertainties_are_not_said_to_differ() -> None:
+    assert len(said(("Z+", 6.1, 0.3), ("Z−", 5.9, 0.3))) == 3
+
+
 @pytest.mark.parametrize("value", [0.3, -3.0])
 def test_what_lies_within_its_uncertainty_or_is_over_compensated_is_no_lost_motion(value: float) -> None:
     assert said(("X", value, 0.4)) == []

@@ -9,7 +9,7 @@ from typing import Any
 
 from zlmreport.plugin import CONDITIONS, InputError
 from zlmreport.plugin.table import folded, heading_of, read_headings
-from zlmreport_plugins.logged_columns import LOGGED
+from zlmreport_plugins.logged_columns import LOGGED, SOME_TEMPERATURE
 from zlmreport_plugins.sources.channels_csv.options import CHANNEL, DATE, TIME, VALUE, ChannelsCsvOptions
 from zlmreport_plugins.sources.channels_csv.tracks import Channels
 
@@ -22,9 +22,10 @@ _CALLED = {
     **dict.fromkeys(("kanal", "messstelle", "sensor", "fühler", "signal", "kanalname"), CHANNEL),
     **dict.fromkeys(("wert", "messwert", "reading", "anzeige"), VALUE),
 }
-#: A temperature of which its name does not tell whose it is.
-_SOME_TEMPERATURE = frozenset({"temperatur", "temperature", "temp", "temp."})
-_WHOSE = "Is {name!r} the temperature of the air? 'air_temperature' is a guess."
+_WHOSE = (
+    "Is {name!r} the temperature of the air? 'air_temperature' is a guess; that of the machine's scale is "
+    "'axis_temperature', of what is measured 'material_temperature'."
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,7 +78,7 @@ def find_channels_called(called: Called, channels: Channels) -> Called:
 def _find_condition_called(key: str, asks: list[str], name: str) -> str | None:
     if key in CONDITIONS:
         return key
-    if key in _SOME_TEMPERATURE:
+    if key in SOME_TEMPERATURE:
         asks.append(_WHOSE.format(name=name))
         return "air_temperature"
     meant = LOGGED.get(key)
@@ -92,5 +93,5 @@ def _find_sensor_in(key: str) -> str | None:
 
 def _is_known(text: str) -> bool:
     name = folded(heading_of(text).name)
-    names = {*_CALLED, *LOGGED, *_SOME_TEMPERATURE, *ChannelsCsvOptions.column_names, *CONDITIONS}
+    names = {*_CALLED, *LOGGED, *SOME_TEMPERATURE, *ChannelsCsvOptions.column_names, *CONDITIONS}
     return name in names or bool(SENSOR.fullmatch(name))

@@ -10,6 +10,7 @@ from typing import Any
 from zlmreport.plugin import Approach
 from zlmreport.plugin.source import SourceProposal
 from zlmreport.plugin.table import folded, moment
+from zlmreport_plugins.logged_columns import SOME_TEMPERATURE
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.drafts import (
@@ -208,6 +209,8 @@ def _draft_other_columns(draft: Draft) -> None:
             or not cells
         ):
             draft.ignored.append(name)
+        elif what is None and folded(read_heading(name).name) in SOME_TEMPERATURE:
+            draft.asks.append(questions.TEMPERATURE_ASKED.format(name=read_heading(name).name))
         elif what is not None and what not in {"target", READING}:
             plain = read_heading(name).name
             if folded(plain) != what:

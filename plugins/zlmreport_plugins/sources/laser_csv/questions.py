@@ -23,3 +23,7 @@ TIME_ASKED = (
 GRADE_ASKED = "Does “Grad” mean degrees? If it means gon, divide by 400 and multiply by 360 first."
 SHEETS_ASKED = "Is {sheet} the right sheet? {others} {hold} a table, too."
 TURN_ASKED = "Does the axis turn? Its targets go over a whole turn; say kind: rotary under axis then."
+TEMPERATURE_ASKED = (
+    "Whose temperature is {name}? As it is, it is kept and enters nothing; say columns: "
+    "{{material_temperature: {name}}}, axis_temperature (the machine's scale) or air_temperature."
+)

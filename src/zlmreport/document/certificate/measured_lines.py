@@ -59,7 +59,7 @@ def lay_out_results(
                 *_list_circumstances(test, said, own),
                 *conditions.lay_out_corrections(test.measurements, own),
                 *(
-                    _rename_block(block, test)
+                    _rename_block(block, test.name)
                     for each in test.evaluated
                     for block in section_of(each, own).blocks
                     if not isinstance(block, Formulas)
@@ -77,14 +77,27 @@ def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Sectio
 
 
 def lay_out_uncertainty(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
-    """Return the uncertainty of what follows from the lines, and the budget of each."""
+    """Return the uncertainty of what follows from the lines, and the budget of each; equal ones once."""
     section = uncertainty.lay_out_budgets(evaluated.budget, (evaluated.evaluation,), writer)
-    blocks = list(section.blocks)
+    budgets: list[tuple[list[Block], list[Tested]]] = []
     for test in tests:
         own = make_writer_of(test, writer)
-        of_line = uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own)
-        blocks += (_caption_block(_rename_block(block, test), test, own) for block in of_line)
+        of_line = list(uncertainty.lay_out_own_blocks(test.budget, test.measurements.axis, own))
+        alike = next((each for each in budgets if _list_tables(each[0]) == _list_tables(of_line)), None)
+        if alike:
+            alike[1].append(test)
+        elif of_line:
+            budgets.append((of_line, [test]))
+    blocks = list(section.blocks)
+    for of_lines, sharing in budgets:
+        names = ", ".join(each.name for each in sharing)
+        own = make_writer_of(sharing[0], writer)
+        blocks += (_caption_block(_rename_block(each, names), names, own) for each in of_lines)
     return replace(section, blocks=tuple(blocks))
+
+
+def _list_tables(blocks: Iterable[Block]) -> list[Block]:
+    return [each for each in blocks if isinstance(each, Table)]
 
 
 def _list_circumstances(test: Tested, said: set[tuple[str, str]], writer: Writer) -> Iterator[Facts]:
@@ -99,16 +112,16 @@ def _write_title(test: Tested, title: str, writer: Writer) -> str:
     return writer.say(_NAMED.given(name=test.name, said=title))
 
 
-def _rename_block(block: Block, test: Tested) -> Block:
-    """Return a block whose graph, if it is one, is told from those of the other lines."""
+def _rename_block(block: Block, name: str) -> Block:
+    """Return a block whose graph, if it is one, is told from those of other lines by the name of its own."""
     if not isinstance(block, Graph):
         return block
     figure = block.figure
-    title = _NAMED.given(name=test.name, said=figure.title)
-    return Graph(replace(figure, key=f"{test.name}-{figure.key}", title=title))
+    title = _NAMED.given(name=name, said=figure.title)
+    return Graph(replace(figure, key=f"{name.replace(', ', '-')}-{figure.key}", title=title))
 
 
-def _caption_block(block: Block, test: Tested, writer: Writer) -> Block:
+def _caption_block(block: Block, name: str, writer: Writer) -> Block:
     if not isinstance(block, Table):
         return block
-    return replace(block, caption=writer.say(_TABLE.given(name=test.name, caption=block.caption)))
+    return replace(block, caption=writer.say(_TABLE.given(name=name, caption=block.caption)))

@@ -66,6 +66,21 @@ def lay_out_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Se
     return Section("cross-tables", say(_PROMISED), (*blocks, *_lay_out_forecast(found, say).blocks))
 
 
+def say_promised(machine: MachineFile, registry: Registry, say: Sayer) -> Paragraph | None:
+    """Return the same in a sentence, for a page without room; None where nothing is worth a table."""
+    plan = plan_worthwhile(machine.machine)
+    if plan is None:
+        return None
+    found = forecast(machine.machine, plan.tables, machine.measured, registry)
+    sizes = [(f"{each.name}, RMS", each.before, each.after) for each in found.circles]
+    if found.largest:
+        sizes.append((say(_LARGEST), *found.largest))
+    left = "; ".join(
+        f"{name} {say.micrometres(before)} → {say.micrometres(after)} µm" for name, before, after in sizes
+    )
+    return Paragraph(say(_BRIEFLY.given(errors=", ".join(plan.taken), left=left)))
+
+
 def _lay_out_sign(moves: int, say: Sayer) -> Section:
     """Return which way a positive value acts, as it was stated, with what shows that it does."""
     return Section("sign", say(_SIGN), (Paragraph(say(_STATED[moves])), Paragraph(say(_CHECK))))
@@ -136,6 +151,9 @@ _PROMISED = Words("What tables across axes would leave")
 _WOULD_HOLD = Words(
     "A control that moves one axis aside while another moves could take away {errors}; zlmreport machine "
     "compensate writes such tables."
+)
+_BRIEFLY = Words(
+    "Tables across axes that take away {errors} would leave: {left}. A forecast is no measurement."
 )
 _HELD = Words("They hold {errors}.")
 _SMALL = Words("Left out, for they are no larger than their uncertainty: {errors}.")
