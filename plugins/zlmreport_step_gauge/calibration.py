@@ -75,6 +75,9 @@ class StepGaugeFileKeys(JobPart):
     serial: TextLine | None = Field(None, description="Serial number.")
     certificate: TextLine | None = Field(None, description="Its calibration certificate.")
     calibrated: Date | None = Field(None, description="Date of that calibration.", examples=["2026-02-10"])
+    due: Date | None = Field(
+        None, description="When it is due to be calibrated again.", examples=["2028-02-10"]
+    )
     support: TextLine | None = Field(
         None, description="How it was supported.", examples=["at its Bessel points"]
     )
@@ -308,6 +311,7 @@ def name_gauge_as_instrument(keys: JobKeys, calibration: Path) -> JobKeys:
         serial=gauge.serial,
         certificate=gauge.certificate,
         calibrated=gauge.calibrated,
+        due=gauge.due,
         expanded_uncertainty=max(face.expanded_uncertainty for face in gauge.faces) or None,
         expansion_coefficient=gauge.expansion_coefficient,
     )

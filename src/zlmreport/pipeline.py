@@ -39,7 +39,7 @@ from zlmreport.evaluation.uncertainty.job_budget import find_unstated, make_budg
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import Document
-from zlmreport.language import Words
+from zlmreport.language import Language, Words
 from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurement_set import join_lines
 from zlmreport.plugin.kinds import RENDERER
@@ -168,6 +168,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
     generator, plugins = made_by or find_programs(job, registry)
     tests = evaluate_tests(job, measurements, evaluations[0].budget, registry, trials)
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
+    _demand_results(job, [*evaluations, *(each for test in tests for each in test.evaluated)])
     doubtful = tuple(
         say_of_each(
             (
@@ -200,6 +201,23 @@ def _compose_parts(
         raise InputError(dict.fromkeys(problems))
     generator, plugins = made_by or find_programs(job, registry)
     return collect_certificates(job, parts, plugins, generator)
+
+
+def _demand_results(job: Job, evaluations: Sequence[Evaluated]) -> None:
+    """Refuse a calibration certificate in which no standard gives a result; a report may say so."""
+    if job.keys.certificate.kind != "certificate" or any(each.evaluation.parameters for each in evaluations):
+        return
+    why = "; ".join(
+        f"{finding.requirement.in_language(Language.ENGLISH)}: {finding.found.in_language(Language.ENGLISH)}"
+        for each in evaluations
+        for finding in each.evaluation.findings
+        if finding.met is False
+    )
+    raise InputError.at(
+        job.place_of("evaluate"),
+        f"a calibration certificate states results, and these readings give none ({why}); measure what is "
+        "missing, or write a report: certificate.kind: report",
+    )
 
 
 def _find_refusals(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:

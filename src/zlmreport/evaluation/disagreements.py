@@ -19,8 +19,9 @@ from zlmreport.language import Words, same
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.axis import AxisKind
+from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, MeasurementSet
-from zlmreport.measurement.units import with_unit
+from zlmreport.measurement.units import MILLIMETRE, with_unit
 
 _LATE = Words("Issued on {issued}, {years} after the measurement of {measured}")
 _YEARS = Words("{number} year", plural="{number} years")
@@ -47,6 +48,9 @@ _TOO_FAST = Words(
 _OTHER_DAY = Words("The times of the readings are of {first}, and the measurement is dated {measured}")
 _OTHER_DAYS = Words(
     "The times of the readings are of {first} to {last}, and the measurement is dated {measured}"
+)
+_OTHER_FEED = Words(
+    "By the times of the readings the path was run at {speed} {unit}, and its feed is stated as {feed} {unit}"
 )
 #: Days after which issue is late, and that a measurement may take.
 _YEAR, _LONGEST = 365, 31
@@ -168,6 +172,8 @@ def _find_exclusions_without_reason(job: Job) -> Iterator[Words]:
 def _find_odd_times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     """Yield what the times of the readings say against each other, or against the stated feed."""
     times = measurements.time
+    if measurements.axis.circle is not None:
+        yield from _find_another_feed_of_circle(measurements, measurements.axis.circle)
     if times is None or measurements.axis.measurand.is_continuous or np.isfinite(times).sum() < 2:
         return
     there = np.isfinite(times)
@@ -182,6 +188,21 @@ def _find_odd_times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     feed = job.keys.measurement.feed
     if feed is not None:
         yield from _find_exceeded_feed(feed, measurements, there, seconds)
+
+
+def _find_another_feed_of_circle(measurements: MeasurementSet, circle: NominalCircle) -> Iterator[Words]:
+    """Yield whether the readings of a circle went round at another feed than the stated one."""
+    if measurements.time is None:
+        return
+    way = np.abs(np.diff(measurements.target_positions[measurements.target])) * circle.radius
+    seconds = np.diff(measurements.time)
+    known = (seconds > 0) & (way > 0) & (way < np.pi * circle.radius)
+    if not known.any():
+        return
+    feed, stated = float(np.median(way[known] / seconds[known])), circle.feed
+    if not stated / _OF_FEED <= feed <= stated * _OF_FEED:
+        found, said = (float(f"{60 * MILLIMETRE.from_si(each):.2g}") for each in (feed, stated))
+        yield _OTHER_FEED.given(speed=found, feed=said, unit="mm/min")
 
 
 def _find_exceeded_feed(

@@ -6,7 +6,8 @@ readings too. Sentences are yielded for what chance hardly makes; each test has 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, count_decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import ANGLES, Unit, with_unit
+from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, with_unit
 
 _DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")
 _LIE, _AND = Words("lie between"), Words("and")
@@ -35,6 +36,10 @@ _OUTLIER = Words(
     "results (measurement.excluded sets it aside)"
 )
 _MORE_OUTLIERS = Words("As far from the others of their targets lie more readings (number: {count})")
+_SPIKE = Words(
+    "A single reading at {target} lies {distance} from those before and after it, and is in the results"
+)
+_STANDS = Words("All readings are equal: the sensor, or its display, may have stood still")
 _IDENTICAL = Words("Runs {runs} are identical in every digit: copies, or a resolution that hides the scatter")
 _SAME_DIRECTIONS = Words(
     "Both directions are identical in every digit, in {runs}: copies, or a resolution that hides the reversal"
@@ -46,6 +51,9 @@ _NEARLY_IDENTICAL = Words(
 _NEARLY_SAME_DIRECTIONS = Words(
     "Both directions differ by a constant only, but for single digits, in {runs}, and scatter otherwise: "
     "copies"
+)
+_COPIED_LINES = Words(
+    "The readings of {one} and {other} are identical in every digit: one line may have been read twice"
 )
 _STRAY = Words(
     "The target at {target} lies {distance} off the line through its neighbours in every run, far more "
@@ -77,6 +85,9 @@ _BY_CHANCE = 5.0
 #: Correlation of run means with their order from which they are said to rise or fall.
 _STEADY = 0.9
 _FEWEST_RUNS = 3
+#: Readings of a record in which one may be told from all others; how many times as far from its neighbours as
+#: is usual, and as any other, it then lies.
+_FEWEST_OF_RECORD, _SPIKE_OF_USUAL, _SPIKE_OF_OTHERS = 30, 20.0, 4.0
 #: Robust standard deviations from the median of its cell at which a reading stands out.
 _OUTLYING = 8.0
 _MOST_NAMED = 3
@@ -101,6 +112,7 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     return (
         *_find_drift(job, measurements, readings),
         *_find_outliers(measurements, readings),
+        *_find_spike(measurements),
         *_find_stray_targets(measurements, readings),
         *_find_copied_runs(measurements, readings),
         *_find_copied_directions(measurements, readings),
@@ -109,6 +121,13 @@ def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
         *_find_other_temperatures(job, measurements),
         *_find_coarser_steps(job, measurements),
     )
+
+
+def find_lines_read_twice(tests: Mapping[str, MeasurementSet]) -> Iterator[Words]:
+    """Yield which of several measured lines have the same readings."""
+    for (one, first), (other, second) in combinations(tests.items(), 2):
+        if _are_identical(first.deviation, second.deviation):
+            yield _COPIED_LINES.given(one=one, other=other)
 
 
 def find_as_left_once_more(as_found: MeasurementSet, as_left: MeasurementSet) -> Iterator[Words]:
@@ -195,6 +214,31 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
         )
     if len(far) > _MOST_NAMED:
         yield _MORE_OUTLIERS.given(count=len(far) - _MOST_NAMED)
+
+
+def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a reading of a record that lies far from both its neighbours, as no other does; or that it stood.
+
+    A machine that jerks does so at several places, and for longer than a reading.
+    """
+    there = np.isfinite(measurements.deviation)
+    known = measurements.deviation[there]
+    if not measurements.axis.measurand.is_continuous or known.size < _FEWEST_OF_RECORD:
+        return
+    if not np.ptp(known):
+        yield _STANDS
+        return
+    off = np.abs(known[1:-1] - (known[:-2] + known[2:]) / 2)
+    at = int(off.argmax())
+    others = np.delete(off, slice(max(at - 1, 0), at + 2))
+    least = max(_SPIKE_OF_USUAL * float(np.median(others)), _SPIKE_OF_OTHERS * float(others.max()))
+    if off[at] > least and off[at] > _SPIKE_OF_USUAL * _step(measurements):
+        unit = measurements.axis.position_unit
+        target = measurements.target_positions[measurements.target[there][at + 1]]
+        yield _SPIKE.given(
+            target=_write_with_unit(unit.from_si(float(target)), unit.symbol),
+            distance=_write_size(measurements, float(off[at])),
+        )
 
 
 def _spread_of_others(cell: FloatArray, run: int, scale: float) -> float:
@@ -307,10 +351,14 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
     axis = measurements.axis
     known = measurements.deviation[np.isfinite(measurements.deviation)]
     length = float(measurements.target_positions[-1] - measurements.target_positions[0])
+    unit = axis.position_unit
+    if axis.circle is not None:  # what is small or large on a path is not told by its angle
+        length, unit = length * axis.circle.radius, MILLIMETRE
     full_range = float(np.ptp(known))
     is_position = axis.measurand.is_position
+    least = _LEAST_SPAN if is_position or axis.circle is not None else _LEAST_ACROSS
     largest = max(_LARGEST_SPAN[axis.kind], _LARGEST_PART * length)
-    if length > _LONG and 0 < full_range < (_LEAST_SPAN if is_position else _LEAST_ACROSS):
+    if length > _LONG and 0 < full_range < least:
         words = _TOO_SMALL.given(other="deg" if axis.deviation_unit in ANGLES else "mm")
     elif is_position and full_range > largest:
         words = _TOO_LARGE
@@ -318,7 +366,7 @@ def _find_other_unit(measurements: MeasurementSet) -> Iterator[Words]:
         return
     yield words.given(
         range=_write_size(measurements, full_range),
-        length=_write_with_unit(axis.position_unit.from_si(length), axis.position_unit.symbol),
+        length=_write_with_unit(unit.from_si(length), unit.symbol),
         unit=axis.deviation_unit.symbol,
     )
 

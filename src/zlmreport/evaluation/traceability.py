@@ -22,7 +22,7 @@ from zlmreport.language import Language, Words, same
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurand import ANGLE, CIRCLE, POSITIONING, STRAIGHTNESS
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.units import CELSIUS
+from zlmreport.measurement.units import CELSIUS, with_unit
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -48,7 +48,7 @@ _OF_KIND = {
     AxisKind.LINEAR: Words("results of a linear axis"),
     AxisKind.ROTARY: Words("results of a rotary axis"),
 }
-_OF_LENGTH = Words("results over {length} {unit} (the scope ends at {most} {unit})")
+_OF_LENGTH = Words("results over {length} (the scope ends at {most})")
 _OTHER_CAPABILITY = Words(
     "Outside the accredited scope: {quantity}. The capability that the laboratory states is for {own}; no "
     "U is raised to it"
@@ -57,7 +57,7 @@ _OF_QUANTITY = {each.identifier: each.title for each in (POSITIONING, STRAIGHTNE
 _OF_STANDARD = Words("results by {standard}")
 _INSTRUMENT = Words("Measuring instrument")
 _OUT_OF_RANGE = Words("Outside the calibrated range of the measuring instrument: {what}")
-_OF_SPAN = Words("results over {length} {unit} (it is calibrated over {most} {unit})")
+_OF_SPAN = Words("results over {length} (it is calibrated over {most})")
 _OF_TEMPERATURE = Words(
     "Outside the calibrated range of the thermometers: {name} {value} °C (they are calibrated from {low} to "
     "{high} °C)"
@@ -188,6 +188,10 @@ def _find_breaks_of_calibration(
         yield _Break(f"{key}.due", words, is_broken=True)
 
 
+def _write_with_unit(value: float, unit: str) -> Words:
+    return Words(with_unit("{value}", unit)).given(value=value)
+
+
 def _write_day(day: dt.date) -> Words:
     return same(day.isoformat())
 
@@ -227,10 +231,9 @@ def _say_out_of_scope(job: Job, measurements: MeasurementSet) -> Iterator[Words]
         yield _OUT_OF_SCOPE.given(what=_OF_KIND[axis.kind])
     length = axis.position_unit.from_si(float(targets[-1] - targets[0]))
     if cmc.length is not None and length > cmc.length * (1 + _ROUNDING):
-        unit = axis.position_unit.symbol
-        yield _OUT_OF_SCOPE.given(
-            what=_OF_LENGTH.given(length=float(f"{length:.6g}"), most=cmc.length, unit=unit)
-        )
+        over = _write_with_unit(float(f"{length:.6g}"), axis.position_unit.symbol)
+        most = _write_with_unit(cmc.length, axis.position_unit.symbol)
+        yield _OUT_OF_SCOPE.given(what=_OF_LENGTH.given(length=over, most=most))
     for choice in job.standards:
         if cmc.standards is not None and choice.identifier not in cmc.standards:
             yield _OUT_OF_SCOPE.given(what=_OF_STANDARD.given(standard=choice.identifier))
@@ -251,8 +254,9 @@ def _say_out_of_range(job: Job, measurements: MeasurementSet) -> Iterator[Words]
     spanned = measurements.target_positions if is_position else measurements.deviation
     span = unit.from_si(float(np.nanmax(spanned) - np.nanmin(spanned)))
     if span > width * (1 + _ROUNDING):
-        over = _OF_SPAN.given(length=float(f"{span:.4g}"), most=float(f"{width:.6g}"), unit=unit.symbol)
-        yield _OUT_OF_RANGE.given(what=over)
+        over = _write_with_unit(float(f"{span:.4g}"), unit.symbol)
+        most = _write_with_unit(float(f"{width:.6g}"), unit.symbol)
+        yield _OUT_OF_RANGE.given(what=_OF_SPAN.given(length=over, most=most))
 
 
 def _say_too_warm(job: Job, measurements: MeasurementSet) -> Iterator[Words]:

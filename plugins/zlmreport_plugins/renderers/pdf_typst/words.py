@@ -31,17 +31,18 @@ Text: TypeAlias = str | list[tuple[Any, str]]
 #: placed one by one; as a symbol.
 AS_WORDS, ANYWHERE, BY_SYLLABLES, MARKED, SYMBOL = "words", "anywhere", "syllables", "marked", "symbol"
 
-_WORDS = re.compile(r"\S+|\s+")
+#: A blank behind a joiner belongs to its word: ISO 230-2.
+_WORDS = re.compile(r"\S+(?:(?<=\u2060) \S+)*|\s+")
 #: Longer words, or those in narrower places, are no words of a language or do not fit by syllables either.
 _LONGEST_WORD = 45
 _LEAST_ROOM = 6.0
 _WIDEST_LETTER = 1.0
-_JOINER, _HELD_BLANK = "\N{WORD JOINER}", "\N{NO-BREAK SPACE}"
+_JOINER = "\N{WORD JOINER}"
 
 
 def fit_text(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
     """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
-    text = held_together(text).replace(f"{_JOINER} ", _HELD_BLANK)
+    text = held_together(text)
     longest = max(map(len, text.split()), default=0)
     if _WIDEST_LETTER * longest <= room and _JOINER not in text and not has_marks(text):
         return text

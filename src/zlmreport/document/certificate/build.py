@@ -23,7 +23,7 @@ from zlmreport.document.certificate.statements import (
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.disagreements import find_disagreements
-from zlmreport.evaluation.evidence import find_as_left_once_more, find_evidence
+from zlmreport.evaluation.evidence import find_as_left_once_more, find_evidence, find_lines_read_twice
 from zlmreport.language import Words
 from zlmreport.version import __version__
 
@@ -77,6 +77,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
     shown = (
         *say_of_each((name, _collect_shown(line, of_line)) for name, line, of_line in lines),
+        *find_lines_read_twice(measurements.tests),
         *_collect_shown_as_found(
             job,
             measurements,

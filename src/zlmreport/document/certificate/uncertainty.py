@@ -71,6 +71,10 @@ _METHOD_BY_POSITION = Words(
     "{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
     "with k = 2."
 )
+_FACTOR = Words(
+    "u is the root mean square of the distance of the simulated values from y: so k = U/u is smaller than 2 "
+    "where errors widen a range and never narrow it, or a single one decides, and larger where U was raised."
+)
 _SCATTER = Words(
     "The scatter of the axis itself is a property of the axis, which the parameters state, and no "
     "uncertainty of the measurement."
@@ -149,6 +153,7 @@ def _lay_out_blocks(
         return
     method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
     yield Paragraph(writer.say(_METHOD_BY_POSITION.given(method=method) if stops else method))
+    yield Paragraph(writer.say(_FACTOR))
     scatters = any(len(each.runs) > 1 for each in measurements.lines)
     of_axis = _SCATTER if scatters else _UNSEEN_SCATTER
     yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))

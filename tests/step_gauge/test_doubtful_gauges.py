@@ -1,0 +1,80 @@
+"""Doubtful calibrations of a step gauge: refused with the reason, or marked on the first page."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from document.certificate.documents import lines_of, registry
+from environments import ROOT
+from zlmreport import pipeline
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.errors import InputError
+from zlmreport.job.loading import load
+
+_CALIBRATED = "calibrated: 2026-04-20"
+_COEFFICIENT = "expansion_coefficient: 11.5              # µm/(m·K)"
+
+
+def composed(folder: Path, *changes: tuple[str, str], file: str = "gauge.yaml") -> Certificate:
+    """Return the certificate of the example, some lines of a file of which are others; in few simulations."""
+    shutil.copytree(ROOT / "configs" / "step-gauge", folder / "step-gauge")
+    shutil.copy(ROOT / "configs" / "laboratory.yaml", folder)
+    path = folder / "step-gauge" / file
+    text = path.read_text(encoding="utf-8")
+    for line, other in changes:
+        assert line in text
+        text = text.replace(line, other)
+    path.write_text(text, encoding="utf-8")
+    return pipeline.compose(load(folder / "step-gauge" / "job.yaml", registry()), registry(), trials=50)
+
+
+@pytest.mark.parametrize(
+    ("line", "other", "said"),
+    [
+        (_CALIBRATED, "calibrated: 2026-06-20", "calibrated on 2026-06-20, after the measurement"),
+        (_CALIBRATED, "calibrated: 2024-04-20\ndue: 2026-04-20", "calibration was due on 2026-04-20"),
+        ("certificate: D-K-00000-2026-04\n", "", "add instrument.certificate"),
+        ("certificate: D-K-00000-2026-04", "certificate: STEP-GAUGE-1", "is this document"),
+        (f"{_COEFFICIENT}\n", "", "the expansion of the gauge needs its coefficient"),
+        ("expansion_coefficient_uncertainty: 0.3", "# 0.3", "needs uncertainty.device_expansion_coefficient"),
+    ],
+)
+def test_a_gauge_whose_calibration_does_not_hold_is_refused(
+    line: str, other: str, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(InputError, match=said):
+        composed(tmp_path, (line, other))
+
+
+@pytest.mark.parametrize(
+    ("line", "other", "said"),
+    [
+        (_CALIBRATED, "calibrated: 2010-04-20", "calibrated on 2010-04-20, 16 years before the measurement"),
+        (_CALIBRATED, "", "Measuring instrument: date of calibration not stated"),
+        (_COEFFICIENT, "expansion_coefficient: 115", "Expansion coefficient of the instrument: 115"),
+    ],
+)
+def test_a_doubtful_calibration_of_a_gauge_is_marked(
+    line: str, other: str, said: str, tmp_path: Path
+) -> None:
+    cover = "\n".join(line for block in composed(tmp_path, (line, other)).cover for line in lines_of(block))
+    assert said in cover
+
+
+def test_too_short_a_section_does_not_fit_the_points_on_it(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="count the blocks between them"):
+        composed(tmp_path, ("last_block: 13", "last_block: 4"), file="job.yaml")
+
+
+def test_lengths_that_were_calibrated_at_another_temperature_are_taken_to_that_of_the_gauge(
+    tmp_path: Path,
+) -> None:
+    usual = composed(tmp_path / "usual")
+    other = composed(tmp_path / "other", ("reference_temperature: 20", "reference_temperature: 25"))
+    (correction,) = other.measurements.provenance.corrections
+    (before,) = usual.measurements.provenance.corrections
+    # Of 230 mm at 11.5 µm/(m·K): from 25 °C to the 20.4 °C of the gauge they shrink, from 20 °C they grow.
+    assert (correction.largest - before.largest) * 1e6 == pytest.approx(11.5 * 5.0 * 0.230, rel=0.02)
