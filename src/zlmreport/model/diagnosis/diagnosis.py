@@ -238,7 +238,7 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     complete = _complete(fitted, finding.named, finding.makeshift)
     after = error if complete is fitted else compute_error_numbers(complete)
     if finding.named and finding.remainder is None and not _is_perhaps_noise(after, complete):
-        # A hundredth of a large cause counts as noise beside it: what that hid is seen once it is in the model.
+        # A hundredth of a large cause counts as noise beside it: what it hid is seen once the model has it.
         hidden = find(complete, asked.effects, asked.expected, is_left=True)
         finding = replace(finding, named=(*finding.named, *hidden.named), remainder=hidden.remainder)
         complete = _complete(complete, hidden.named, ())
