@@ -55,11 +55,21 @@ def test_effects_that_belong_together_are_named_together() -> None:
     )
 
 
+def test_nothing_falls_where_the_error_does_not() -> None:
+    before = example_diagnosis().error.rms
+    after = replace(
+        example_diagnosis().error_after, rms=1.2 * before, noise_rms=0.1 * before, chi2_per_dof=99.0
+    )
+    statement = said(error_after=after)
+    assert "falls" not in statement
+    assert "The error is" in statement
+
+
 def test_the_rest_is_explained_only_where_what_is_left_is_noise() -> None:
-    after = replace(example_diagnosis().error_after, rms=3e-6, noise_rms=0.7e-6, chi2_per_dof=18.0)
+    after = replace(example_diagnosis().error_after, rms=1.4e-6, noise_rms=0.7e-6, chi2_per_dof=4.0)
     statement = said(error_after=after)
     assert "explains the rest" not in statement
-    assert re.search(r"With it the error falls from .* µm to 3\.0 µm, over a noise of 0\.70 µm\.", statement)
+    assert re.search(r"With it the error falls from .* µm to 1\.4 µm, over a noise of 0\.70 µm\.", statement)
 
 
 def test_what_is_left_beside_a_name_is_told_after_it() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,15 @@ def test_axis_with_a_bent_scale_and_lost_motion_is_known_from_nothing() -> None:
     found = diagnosed(model_of("offset"), _DESIGN, known(_DESIGN) + noise(_DESIGN))
     assert {each.identifier for each in found.together} == {"polynomial", "backlash"}
     assert found.leaves_noise
+
+
+def test_each_step_to_a_model_lowers_the_error() -> None:
+    design = replace(linear_test(21, 3), conditions={})
+    warming = 7e-6 * (1.0 - np.exp(-design.time / (0.3 * design.duration)))
+    readings = 8e-6 * design.position - 1.5e-6 * design.direction + warming + noise(design, 1, 0.7e-6)
+    found = built(model_of("offset"), design, readings)
+    assert {each.identifier for each in found.steps} == {"scale-error", "backlash", "thermal-drift"}
+    assert all(each.after.rms < each.before.rms for each in found.steps)
 
 
 def test_slope_is_seen_beside_lost_motion_that_is_a_hundred_times_as_large() -> None:

@@ -235,13 +235,14 @@ def _hold_data(asked: _Asked, aside: Outliers, told: Told) -> _Held:
     run = find_single_run(fitted.design, fitted.residual, error.noise_rms or 0.0)
     is_left = run is not None or not _is_perhaps_noise(error, fitted)
     finding = find(fitted, asked.effects, asked.expected, may_go=asked.may_go, is_left=is_left, told=told)
-    complete = _complete(fitted, finding.named, finding.makeshift)
+    complete, named = _complete(fitted, finding.named, finding.makeshift)
+    finding = replace(finding, named=named)
     after = error if complete is fitted else compute_error_numbers(complete)
     if finding.named and finding.remainder is None and not _is_perhaps_noise(after, complete):
-        # A hundredth of a large cause counts as noise beside it: what it hid is seen once the model has it.
+        # A hundredth of a large cause counts as noise: what that hid is seen once it is in the model.
         hidden = find(complete, asked.effects, asked.expected, is_left=True)
-        finding = replace(finding, named=(*finding.named, *hidden.named), remainder=hidden.remainder)
-        complete = _complete(complete, hidden.named, ())
+        complete, further = _complete(complete, hidden.named, ())
+        finding = replace(finding, named=(*named, *further), remainder=hidden.remainder)
         after = compute_error_numbers(complete)
     left = finding.remainder
     if left is not None and left.rms < _LEAST_LEFT * (error.noise_rms or 0.0):
@@ -325,18 +326,37 @@ def _is_noise(error: ErrorNumbers, lasting: float | None) -> bool:
     return lasting is not None and error.rms**2 <= LARGEST_RATIO * lasting**2
 
 
-def _complete(fitted: Fit, named: Iterable[NamedEffect], makeshift: Iterable[str]) -> Fit:
-    """Return the model with a whole set in it; as much of it as the readings determine."""
-    found = fitted
-    for each in named:
-        try:
-            found = fit_with_member(found, each.leading.member)
-        except ModelError:
-            break
+def _complete(
+    fitted: Fit, named: Iterable[NamedEffect], makeshift: Iterable[str]
+) -> tuple[Fit, tuple[NamedEffect, ...]]:
+    """Return the model with a whole set in it, as much of it as the readings determine, and in which order.
+
+    Before lost motion is in the model, runs seem displaced, and a drift fitted beside that leaves more than
+    there was: what lowers the error comes first.
+    """
+    found, waiting, order = fitted, list(named), list[NamedEffect]()
+    while (step := _choose_next(found, waiting)) is not None:
+        found = step[1]
+        order.append(step[0])
+        waiting.remove(step[0])
     for name in makeshift:
         model = found.model.without(name)
         if model.terms != found.model.terms:
             found = fit(model, found.design, found.deviation, found.assumptions)
+    return found, (*order, *waiting)
+
+
+def _choose_next(fitted: Fit, waiting: Iterable[NamedEffect]) -> tuple[NamedEffect, Fit] | None:
+    """Return the first effect that lowers the error, or that can be fitted, and the fit with it."""
+    found: tuple[NamedEffect, Fit] | None = None
+    for each in waiting:
+        try:
+            after = fit_with_member(fitted, each.leading.member)
+        except ModelError:
+            continue
+        if after.rms < fitted.rms:
+            return each, after
+        found = found or (each, after)
     return found
 
 

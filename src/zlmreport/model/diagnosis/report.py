@@ -40,6 +40,7 @@ _RESTS = {
 }
 _IN_PART = Words("{missing}. With {many} the error falls from {before} to {after}, over a noise of {noise}.")
 _WITHOUT_FLOOR = Words("{missing}. With {many} the error falls from {before} to {after}.")
+_NOT_BY_ITSELF = Words("{missing}. The error is {after} with {many} and {before} without.")
 _MANY = {False: Words("it"), True: Words("them")}
 _BESIDE = Words(
     "{statement} Beside that something is left without a name: {shape}, {where}; root mean square {size}."
@@ -325,11 +326,16 @@ def _say_so_far(diagnosis: Diagnosis, missing: Words, *, is_many: bool) -> Words
         return _RESTS[is_many].given(missing=missing)
     axis, after = diagnosis.fit.design.axis, diagnosis.error_after
     before = wording.deviation(axis, diagnosis.error.rms)
-    words = _WITHOUT_FLOOR if after.noise_rms is None else _IN_PART
+    if after.rms >= diagnosis.error.rms:  # one takes the place of another, and what is left hides its gain
+        words = _NOT_BY_ITSELF
+    else:
+        words = _WITHOUT_FLOOR if after.noise_rms is None else _IN_PART
     given = words.given(
         missing=missing, many=_MANY[is_many], before=before, after=wording.deviation(axis, after.rms)
     )
-    return given if after.noise_rms is None else given.given(noise=wording.deviation(axis, after.noise_rms))
+    if words is not _IN_PART or after.noise_rms is None:
+        return given
+    return given.given(noise=wording.deviation(axis, after.noise_rms))
 
 
 def _say_unexplained(diagnosis: Diagnosis) -> Words:

@@ -362,8 +362,8 @@ class SetSearch:
         if place not in self._turns:
             contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
             values = self.contest.columns.values(member.columns)
-            found = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
-            self._turns[place] = np.asarray(found, dtype=np.float64)
+            turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
+            self._turns[place] = np.asarray(turn, dtype=np.float64)
         return self._turns[place]
 
     def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
