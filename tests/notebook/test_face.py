@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import html
 import json
+import os
 import pickle
 import subprocess
 import sys
@@ -510,3 +511,14 @@ def test_compensation_that_would_be_wrong_is_refused(
     with pytest.raises(z.InputError) as caught:
         z.compensate(data(), controller, **keys)  # type: ignore[arg-type]  # of every kind of mistake
     assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize(("first", "threads"), [("", "1"), ("import numpy; ", "None"), ("", "3")])
+def test_small_matrices_have_one_thread_unless_somebody_else_decides(first: str, threads: str) -> None:
+    code = f"{first}import os, zlmreport; zlmreport.InputError; print(os.environ.get('OPENBLAS_NUM_THREADS'))"
+    own = {name: each for name, each in os.environ.items() if name != "OPENBLAS_NUM_THREADS"}
+    stated = {"OPENBLAS_NUM_THREADS": threads} if threads == "3" else {}
+    said = subprocess.run(
+        [sys.executable, "-c", code], env=own | stated, capture_output=True, text=True, check=True
+    )
+    assert said.stdout.strip() == threads

@@ -32,7 +32,10 @@ class DccRenderer:
         """
         job = certificate.job
         if job is None:
-            raise InputError.at(Place(certificate.number), "a DCC can only be made of a job")
+            raise InputError.at(
+                Place(certificate.number),
+                "a DCC states what a job measured, and this document is of none; take dcc out of its formats",
+            )
         root = dcc(
             "digitalCalibrationCertificate",
             make_administrative_data(certificate, job),
