@@ -54,6 +54,8 @@ def test_the_page_and_its_tables_fit_into_the_window(
     page = window(page_file.as_uri(), viewport={"width": width, "height": 900})
     too_wide = "all => all.filter(each => each.scrollWidth > each.clientWidth).length"
     assert page.locator("html, .wide").evaluate_all(too_wide) == 0
+    heights = [box["height"] for each in page.locator(".links a").all() if (box := each.bounding_box())]
+    assert min(heights, default=24) >= 24
 
 
 def test_nothing_is_loaded(window: Callable[..., Page], page_file: Path) -> None:

@@ -132,8 +132,8 @@ class CapturePage {
           h("td", { class: "number" }, each.number),
           h("td", {}, `${each.run} ${each.arrow}`),
           h("td", { class: "number" }, each.target),
-          h("td", { class: "number" }, each.deviation),
-          h("td", { class: "number" }, each.range),
+          h("td", { class: "number", "data-head": texts.captureDeviation }, each.deviation),
+          h("td", { class: "number", "data-head": texts.captureSpread }, each.range),
           h("td", {}, texts[STATES[each.state]]),
           h("td", {}, h("div", { class: "capture-again" }, (each.state === "taken" || each.state === "skipped" || each.state === "missed") && [
             this.#button(texts.captureRetake, found.runs ? "order" : "retake", found.runs ? `r ${each.number}` : `${each.number}`, "quiet", said(texts.captureRetakeOf, each)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
+from dataclasses import replace
 
 import pytest
 
@@ -14,6 +15,7 @@ from plugins.renderers.pdf_pages import (
     sample,
     texts,
 )
+from zlmreport.document.blocks import Notice, Section
 from zlmreport.language import Language
 
 
@@ -88,3 +90,11 @@ def test_graphs_carry_their_words_as_text() -> None:
 
 def _unspaced(text: str) -> str:
     return "".join(unicodedata.normalize("NFC", text).split())
+
+
+def test_names_that_stay_whole_stand_beside_each_other_in_a_notice_too() -> None:
+    """The line of a notice begins left of the others: a name in it does not."""
+    named = "ISO 230-2:2014, ISO 230-2:2006, VDI/VDE 2617; see 4711-D-K-2026"
+    notice = Notice("Not met", (named,))
+    document = replace(samples.certificate(standards=0), sections=(Section("s", "S", (notice,)),))
+    assert named in "\n".join(texts(read(document)))

@@ -292,7 +292,7 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
 
 #: What holds no elements, and a tag; and words whose parts are joined, in the text between tags.
 _HELD_WORDS = re.compile(
-    rf"<(title|style|script|svg)\b.*?</\1>|<[^>]*>|[^\s<>]*(?:{WORD_JOINER} ?[^\s<>{WORD_JOINER}]*)+",
+    rf"<(title|style|script|svg|a)\b.*?</\1>|<[^>]*>|[^\s<>]*(?:{WORD_JOINER} ?[^\s<>{WORD_JOINER}]*)+",
     re.DOTALL,
 )
 
