@@ -43,7 +43,7 @@ def test_help_loads_the_command_line_alone(tmp_path: Path) -> None:
 def test_results_load_neither_what_draws_nor_what_the_job_does_not_name(tmp_path: Path) -> None:
     job = ROOT / "configs" / "linear-axis" / "certificate.yaml"
     packages, own = _loaded(tmp_path, str(job), "--format", "json", "--output", str(tmp_path), "--quiet")
-    assert len(own) <= 190
+    assert len(own) <= 200
     assert not packages & {
         "matplotlib",
         "weasyprint",

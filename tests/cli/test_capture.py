@@ -84,7 +84,7 @@ def test_a_test_is_captured_and_evaluated(bench: Bench) -> None:
     done = bench.run("capture", "job.yaml")
     assert (done.code, done.messages) == (0, "")
     assert done.output == (
-        "CAP-1  axis X, linear, 4 visits, about 8 s\n"
+        "CAP-1  axis X, linear, 4 visits, about 13 s\n"
         "1. let the axis stand still at −5.000 mm, for the datum\n"
         "2. start the program at visit 1: 0.000 mm from below, run 1\n"
         "datum    the reading is taken for −5.000 mm\n"

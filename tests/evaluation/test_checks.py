@@ -407,7 +407,7 @@ FEW = evenly(0, 200, 5, axis=Axis("X", travel=(0.0, 0.3)))
         (positions_in_all(FEW, 11, Basis.APPLIED), "Mindestens 11 Positionen", "5 Positionen"),
         (
             positions_over_travel(FEW),
-            "Sollpositionen über den ganzen Verfahrweg verteilt",
+            "Sollpositionen über den ganzen Verfahrbereich verteilt",
             "0 mm bis 200 mm von 0 mm bis 300 mm",
         ),
         (

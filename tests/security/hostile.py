@@ -26,6 +26,8 @@ NAMES = {
 IDENTIFIERS = {"controller", "error", "plugin", "program", "standard"}
 #: A short way to write a key that has a longer one, which is used here.
 SHORT = {("location",)}
+#: Keys of what the job does not measure: an axis runs no circle.
+OF_OTHER_JOBS = {"circle"}
 
 
 def text_keys() -> dict[Path, int]:
@@ -34,7 +36,7 @@ def text_keys() -> dict[Path, int]:
     return {
         path: part["maxLength"]
         for path, part in _strings(schema, schema, ())
-        if path not in NAMES | SHORT and path[-1] not in IDENTIFIERS
+        if path not in NAMES | SHORT and path[-1] not in IDENTIFIERS and path[0] not in OF_OTHER_JOBS
     }
 
 

@@ -37,7 +37,6 @@ class CircleKeys(JobPart):
         description="Whether the length of the instrument was calibrated: only then a mean radius, and what "
         "is reckoned from the nominal one, says something of the machine.",
     )
-
     certificate: Text | None = Field(
         None,
         description="Calibration certificate of that length: of the bar, or of the calibrator it was set by.",

@@ -97,8 +97,8 @@ def init(command: str) -> CommandParser:
     parser = CommandParser(
         f"zlmreport {command}",
         "Write a commented job, a laboratory's shared data and sample readings, to begin with.\n"
-        "With --machine: a machine file and a job for each file of readings, what nobody but you knows\n"
-        "marked in them. No file that is there already is touched.",
+        "With --machine: a machine file and a job for each file of readings; what nobody but you\n"
+        "knows is marked in them. No file that is there already is touched.",
         "examples:\n  zlmreport init first && zlmreport first/job.yaml\n"
         "  zlmreport init mill --machine x-position.csv x-straightness-y.csv ballbar-XY-R150-F1000.csv",
     )

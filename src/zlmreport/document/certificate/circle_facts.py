@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 #: What a document says of the circle in a line.
 _IN_WORDS = Words("plane {plane}, radius {radius} mm, feed {feed} mm/min")
 _CALIBRATED = Words("calibrated")
+_CALIBRATED_BY = Words("calibrated, certificate {certificate}")
 _NOT_CALIBRATED = Words("not calibrated: nothing is said of radii")
 _SENSES = Words("{first} and {second}, {runs} each")
 _UNLIKE = Words("{first}, {runs}; {second}, {others}")
@@ -38,7 +39,8 @@ def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
     """Yield which circle was run, and where in the machine."""
     stated = "centre" in keys.model_fields_set
     place = " / ".join(map(writer.number, keys.centre)) if stated else None
-    length = writer.say(_CALIBRATED if keys.calibrated_length else _NOT_CALIBRATED)
+    by = _CALIBRATED_BY.given(certificate=keys.certificate) if keys.certificate else _CALIBRATED
+    length = writer.say(by if keys.calibrated_length else _NOT_CALIBRATED)
     yield Fact(Words("Plane"), keys.plane, ("circle.plane",))
     yield Fact(Words("Nominal radius"), write_with_unit(keys.radius, "mm", writer), ("circle.radius",))
     yield Fact(
@@ -51,7 +53,7 @@ def list_circle_facts(keys: CircleKeys, writer: Writer) -> Iterator[Fact]:
         write_with_unit(place, "mm", writer) and f"{place} mm",
         ("circle.centre",),
     )
-    yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length",))
+    yield Fact(Words("Length of the instrument"), length, ("circle.calibrated_length", "circle.certificate"))
 
 
 def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -> Iterator[Fact]:
