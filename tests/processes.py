@@ -17,7 +17,7 @@ from typing import Any, TypeVar
 Found = TypeVar("Found")
 
 #: The longest that is waited for a program, s: far longer than any takes on a busy machine.
-PATIENCE = 150.0
+PATIENCE = 500.0
 PYTHON = sys.executable
 ZLMREPORT = (PYTHON, "-m", "zlmreport")
 

@@ -26,7 +26,6 @@ EXAMPLE = ROOT / "configs" / "closed-loop"
 
 
 @pytest.mark.long
-@pytest.mark.timeout(600)  # a minute of CPU, which busy neighbours make five of
 def test_the_error_falls_on_the_machine(tmp_path: Path) -> None:
     loop = closed_loop.closed(tmp_path)
     low, high = loop.forecast
