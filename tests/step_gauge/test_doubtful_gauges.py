@@ -54,7 +54,11 @@ def test_a_gauge_whose_calibration_does_not_hold_is_refused(
     [
         (_CALIBRATED, "calibrated: 2010-04-20", "calibrated on 2010-04-20, 16 years before the measurement"),
         (_CALIBRATED, "", "Measuring instrument: date of calibration not stated"),
-        (_COEFFICIENT, "expansion_coefficient: 115", "Expansion coefficient of the instrument: 115"),
+        (
+            _COEFFICIENT,
+            "expansion_coefficient: 115",
+            "Expansion coefficient of the instrument: 115 µm/(m·K) is unusual",
+        ),
     ],
 )
 def test_a_doubtful_calibration_of_a_gauge_is_marked(

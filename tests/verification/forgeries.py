@@ -585,12 +585,14 @@ def _(pdf: Pdf) -> None:
 
 @_change("colour profile", "other colours")
 def _(pdf: Pdf) -> None:
-    for page in pdf.pages:
-        spaces = page.obj.Resources.ColorSpace
-        for key in list(spaces.keys()):
-            if isinstance(spaces[key], Array) and str(spaces[key][0]) == "/ICCBased":
-                stream = spaces[key][1]
-                stream.write(bytes(reversed(stream.read_bytes())))
+    profiles = {  # that all pages share, reversed once and not back again
+        space[1].objgen: space[1]
+        for page in pdf.pages
+        for space in page.obj.Resources.ColorSpace.values()
+        if isinstance(space, Array) and str(space[0]) == "/ICCBased"
+    }
+    for profile in profiles.values():
+        profile.write(bytes(reversed(profile.read_bytes())))
 
 
 @_change("default colour space", "black as white")

@@ -42,7 +42,7 @@ def test_it_says_which_circle_was_run(both: Certificate) -> None:
 
 def test_it_says_how_it_was_run(both: Certificate) -> None:
     found = facts(both)
-    assert found["Senses and turns"] == "counter-clockwise and clockwise, 2 runs each"
+    assert found["Senses and turns"] == "counter-clockwise and clockwise, 2 turns each"
     assert found["Evaluated from"] == "counter-clockwise at 0°; clockwise at 352°"
     assert found["Angles"] == "45, from 0 to 352° from +Z towards +X"
 
@@ -50,9 +50,9 @@ def test_it_says_how_it_was_run(both: Certificate) -> None:
 @pytest.mark.parametrize(
     ("turns", "said"),
     [
-        ({"ccw": 3}, "counter-clockwise only, 3 runs"),
-        ({"cw": 1}, "clockwise only, 1 run"),
-        ({"ccw": 2, "cw": 1}, "counter-clockwise, 2 runs; clockwise, 1 run"),
+        ({"ccw": 3}, "counter-clockwise only, 3 turns"),
+        ({"cw": 1}, "clockwise only, 1 turn"),
+        ({"ccw": 2, "cw": 1}, "counter-clockwise, 2 turns; clockwise, 1 turn"),
     ],
 )
 def test_it_says_which_senses_were_run(tmp_path: Path, turns: Mapping[str, int], said: str) -> None:

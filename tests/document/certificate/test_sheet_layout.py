@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 import pypdf
 import pytest
-from hypothesis import given, settings, strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry, without
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
@@ -211,10 +211,14 @@ def longest(letters: int) -> dict[str, str]:
 LONGEST = 110
 _LANGUAGES = [each.value for each in Language]
 #: Words that end a line anywhere, and words that leave much of it empty.
-_WORDS = st.sampled_from(
-    ("Werk", "a", "Instandhaltung", "Präzisionswerkzeugmaschinen-Instandhaltung", "MWMW")
-)
-_TEXTS = st.lists(_WORDS, min_size=1, max_size=60).map(lambda words: " ".join(words)[:LONGEST].strip())
+_WORDS = ("Werk", "a", "Instandhaltung", "Präzisionswerkzeugmaschinen-Instandhaltung", "MWMW")
+
+
+def joined(words: Iterable[str]) -> str:
+    return " ".join(words)[:LONGEST].strip()
+
+
+_TEXTS = st.lists(st.sampled_from(_WORDS), min_size=1, max_size=60).map(joined)
 
 
 @pytest.mark.parametrize("paper", ["A4", "Letter"])
@@ -231,8 +235,42 @@ def test_the_graph_of_a_sheet_is_90_mm_high_whatever_the_length_of_what_is_state
     assert figure.height >= 90
 
 
+_BY_LETTER = {each[0].lower(): each for each in _WORDS}
+#: Facts whose long words end a line after a hyphen and leave much of it empty; each word by its first letter.
+_HYPHENATED = {
+    "laboratory.name": "w",
+    "laboratory.address": "wwwip",
+    "laboratory.accreditation": "mma",
+    "certificate.authorised_by.name": "a",
+    "certificate.authorised_by.function": "iw",
+    "customer.name": "miiaaiwawmp",
+    "customer.address": "wmppp",
+    "machine.manufacturer": "pwp",
+    "machine.model": "wmp",
+    "machine.serial": "piwwwama",
+    "machine.condition": "m",
+    "instrument.name": "iw",
+    "instrument.manufacturer": "waa",
+    "measurement.warm_up": "pwmaapwp",
+    "measurement.compensation": "aw",
+    "measurement.line": "w",
+    "measurement.operator": "piwii",
+    "measurement.deviations_from_method": "i",
+    "measurement.remarks": "aaapwaap",
+    "environment.sensors": "i",
+    "environment.remarks": "pmapwi",
+    "procedure": "amaawmmapimp",
+}
+
+
 @pytest.mark.long
 @settings(max_examples=8, deadline=None)
+@example(
+    stated={key: joined(map(_BY_LETTER.__getitem__, words)) for key, words in _HYPHENATED.items()},
+    language="de",
+    paper="Letter",
+    renderer="pdf",
+)
 @given(
     stated=st.fixed_dictionaries(dict.fromkeys(STATED, _TEXTS)),
     language=st.sampled_from(_LANGUAGES),
@@ -363,6 +401,12 @@ def test_the_estimate_of_the_room_is_no_less_than_what_is_taken(tmp_path: Path, 
     taken = _lowest(found, renderer)
     assert taken < estimate + 12
     assert estimate < 1.15 * taken
+
+
+def test_a_line_ends_after_a_hyphen_and_leaves_the_rest_of_it_empty() -> None:
+    words = "Präzisionswerkzeugmaschinen-Instandhaltung"
+    assert columns.count_fact_lines("Name", f"{words} Instandhaltung Werk Instandhaltung Instandhaltung") == 4
+    assert columns.count_fact_lines("Name", "4711-D-K-15133-01-00-2026 and ISO 230-2:2014") == 2
 
 
 def test_words_that_do_not_share_a_line_take_one_each() -> None:

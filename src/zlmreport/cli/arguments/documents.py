@@ -100,7 +100,7 @@ def init(command: str) -> CommandParser:
         "With --machine: a machine file and a job for each file of readings; what nobody but you\n"
         "knows is marked in them. No file that is there already is touched.",
         "examples:\n  zlmreport init first && zlmreport first/job.yaml\n"
-        "  zlmreport init mill --machine x-position.csv x-straightness-y.csv ballbar-XY-R150-F1000.csv",
+        "  zlmreport init mill --machine x-position.csv x-straightness-y.csv ballbar-XY-R150.csv",
     )
     parser.add_argument("directory", metavar="DIR", type=Path, help="folder; it is made if it is not there")
     parser.add_argument(

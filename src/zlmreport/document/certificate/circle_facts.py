@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from zlmreport.document.certificate.circumstances import Fact, write_with_unit
-from zlmreport.evaluation.checks import runs_in_words
 from zlmreport.language import Words
 from zlmreport.measurement import units
 
@@ -22,9 +21,9 @@ _IN_WORDS = Words("plane {plane}, radius {radius} mm, feed {feed} mm/min")
 _CALIBRATED = Words("calibrated")
 _CALIBRATED_BY = Words("calibrated, certificate {certificate}")
 _NOT_CALIBRATED = Words("not calibrated: nothing is said of radii")
-_SENSES = Words("{first} and {second}, {runs} each")
-_UNLIKE = Words("{first}, {runs}; {second}, {others}")
-_ONE_SENSE = Words("{first} only, {runs}")
+_SENSES = Words("{first} and {second}, {turns} each")
+_UNLIKE = Words("{first}, {turns}; {second}, {others}")
+_ONE_SENSE = Words("{first} only, {turns}")
 _BEGINS = Words("{sense} at {angle}")
 _ANGLES = Words("{count}, from {first} to {last} from +{from_axis} towards +{to_axis}")
 _AVERAGED = Words("{count}, averages of {readings} readings")
@@ -64,8 +63,12 @@ def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -
         len(np.unique(measurements.run[measurements.approach == each])) for each in measurements.approaches
     ]
     words = _ONE_SENSE if len(senses) == 1 else _SENSES if len(set(turns)) == 1 else _UNLIKE
-    runs, *others = map(runs_in_words, turns)
-    said = words.given(first=senses[0], second=senses[-1], runs=runs, others=others[0] if others else "")
+    said = words.given(
+        first=senses[0],
+        second=senses[-1],
+        turns=_turns_in_words(turns[0]),
+        others=_turns_in_words(turns[-1]),
+    )
     yield Fact(Words("Senses and turns"), writer.say(said), source)
     begins = []
     for approach, sense in zip(measurements.approaches, senses, strict=True):
@@ -74,6 +77,10 @@ def list_path_facts(measurements: MeasurementSet, writer: Writer, within: str) -
         begins.append(writer.say(_BEGINS.given(sense=sense, angle=angle)))
     yield Fact(Words("Evaluated from"), "; ".join(begins), source)
     yield Fact(Words("Angles"), writer.say(_write_angles(measurements, writer)), source)
+
+
+def _turns_in_words(number: int) -> Words:
+    return Words("{number} turn", plural="{number} turns").given(number=number)
 
 
 def _write_angles(measurements: MeasurementSet, writer: Writer) -> Words:

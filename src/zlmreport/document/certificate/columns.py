@@ -34,6 +34,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate.document import Certificate, Letterhead
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
+from zlmreport.language.formatting import WORD_JOINER, hold_together
 
 #: Number, with its decimals apart; a dash stands for a value that does not exist.
 _NUMBER = re.compile(r"(?:[−+-]?\d+(?:[.,](?P<decimals>\d+))?|–)")
@@ -460,6 +461,8 @@ def count_fact_lines(name: str, value: str, *, is_wide: bool = False) -> int:
     return max(_count_lines_of_words(name, of_name, 1.0), lines)
 
 
+#: Where a line can end: after a blank, and after a hyphen or a slash before a letter; not where it is held.
+_LINE_ENDS = re.compile(rf"(?<=[^{WORD_JOINER}] )(?! )|(?<=[-–/])(?=[^\W\d])")
 #: Running text is narrower than its letters are estimated.
 _RUNNING = 1.04
 
@@ -467,17 +470,18 @@ _RUNNING = 1.04
 def _count_lines_of_words(text: str, room: float, running: float = _RUNNING) -> int:
     """Return how many lines a paragraph takes, whose words go over to the next line where they do not fit.
 
-    A word that is wider than a line is parted.
+    A line ends after a hyphen or a slash within a word, too, and what is left of it stays empty; a part that
+    is wider than a line is parted anywhere.
     """
     room *= running
     lines, taken = 1, 0.0
-    for word in text.split(" "):
-        width = measure_width(word)
+    for part in _LINE_ENDS.split(hold_together(text)):
+        width = measure_width(part.replace(WORD_JOINER, "").rstrip(" "))
         if taken and taken + width > room:
             lines, taken = lines + 1, 0.0
         if width > room:
             lines, width = lines + int(width / room), width % room
-        taken += width + measure_width(" ")
+        taken += width + (measure_width(" ") if part.endswith(" ") else 0.0)
     return lines
 
 
