@@ -54,9 +54,12 @@ def page(window: Callable[..., Page], page_file: Path) -> Page:
 
 
 def shown(page: Page) -> list[str]:
-    """Return the machines that are shown, by their last word, in order."""
+    """Return the machines that are shown, by the last word before what is noted of them, in order."""
     heads = page.locator("table.machine tbody:visible tr.name th")
-    return [name.split()[-1] for name in heads.evaluate_all("all => all.map(each => each.firstChild.data)")]
+    names = heads.evaluate_all(
+        "all => all.map(each => each.textContent.replace(each.lastElementChild.textContent, ''))"
+    )
+    return [name.split()[-1] for name in names]
 
 
 def test_all_are_shown_at_first(page: Page) -> None:

@@ -71,10 +71,9 @@ _METHOD_BY_POSITION = Words(
     "{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
     "with k = 2."
 )
-_FACTOR = Words(
-    "u is the root mean square of the distance of the simulated values from y: so k = U/u is smaller than 2 "
-    "where errors widen a range and never narrow it, or a single one decides, and larger where U was raised."
-)
+_FACTOR = Words("k is below 2 where errors only widen a range or one decides, above where U was raised.")
+#: A coverage factor between these is taken for 2.
+_USUAL_FACTORS = (1.9, 2.1)
 _SCATTER = Words(
     "The scatter of the axis itself is a property of the axis, which the parameters state, and no "
     "uncertainty of the measurement."
@@ -152,14 +151,21 @@ def _lay_out_blocks(
     if isinstance(budget, NoBudget):
         return
     method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
-    yield Paragraph(writer.say(_METHOD_BY_POSITION.given(method=method) if stops else method))
-    yield Paragraph(writer.say(_FACTOR))
+    said = [_METHOD_BY_POSITION.given(method=method) if stops else method]
+    if any(_is_unusual(parameter.coverage_factor) for each in evaluations for parameter in each.parameters):
+        said.append(_FACTOR)
+    yield Paragraph(" ".join(map(writer.say, said)))
     scatters = any(len(each.runs) > 1 for each in measurements.lines)
     of_axis = _SCATTER if scatters else _UNSEEN_SCATTER
     yield Paragraph(writer.say(of_axis if stops else _SCATTER_OF_THE_MACHINE))
     if not budget.tests:  # each line of several has a budget of its own
         yield from lay_out_own_blocks(budget, axis, writer)
     yield from _list_declared(budget, writer)
+
+
+def _is_unusual(coverage_factor: float | None) -> bool:
+    """Return whether a reader asks why k is not the usual 2."""
+    return coverage_factor is not None and not _USUAL_FACTORS[0] <= coverage_factor <= _USUAL_FACTORS[1]
 
 
 def lay_out_own_blocks(budget: Budget | NoBudget, axis: Axis, writer: Writer) -> Iterator[Block]:
