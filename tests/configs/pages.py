@@ -15,7 +15,8 @@ from zlmreport.document.certificate.document import Certificate
 
 #: Points from the edge of a page in which its head and its foot stand, and its margin at the sides.
 _HEAD, _FOOT, _SIDE = 58.0, 52.0, 55.0
-#: The least part of a page that is filled; of the last page, unless what stands on it had to begin there.
+#: The least part of a page that is filled; of the last page, unless what stands on it had to begin there, and
+#: of several measurements in one document, of each of which the last page may be that short.
 _LEAST_FILL, _LEAST_END = 0.35, 0.2
 #: Points between a rule and what it belongs to, at most.
 _APART = 8
@@ -83,7 +84,8 @@ def _emptiness(
         body = _ink(page, scale=0.5).any(axis=1)
         fill = (np.flatnonzero(body).max(initial=-1) + 1) / len(body)
         is_last = number == len(pages)
-        if fill < (_LEAST_FILL if not is_last else 0.0 if may_be_short else _LEAST_END):
+        least = _LEAST_END if is_last or certificate.parts else _LEAST_FILL
+        if fill < (0.0 if is_last and may_be_short else least):
             yield number, fill
 
 
