@@ -325,5 +325,6 @@ def test_a_german_page_is_german() -> None:
 
 def test_the_headline_tells_the_last_run() -> None:
     html = page(*CALM, FAILURE)
-    assert "2026-11-21 02:00 UTC, 1 min 34 s" in text(html.partition("<body>")[2])
+    headline = text(html.replace("<main>", ""))
+    assert "2026-11-21 02:00 UTC, 1 min 34 s" in headline
     assert "6: 0 made, 5 unchanged, 0 as drafts, 1 failed" in html
