@@ -53,7 +53,7 @@ def test_a_certificate_that_holds_is_told_with_what_that_rests_on(report: bytes,
     assert identity == f"  Measuring Report VERIFY-1, issued 2026-11-20, made by {GENERATOR}"
     assert others[0] == "  signature  not signed: nothing tells who made the file"
     assert others[1] == "  files      6 of 6 attached files as the certificate states"
-    assert others[3] == "  pages      4 of 4 pages as printed again"
+    assert others[3] == "  pages      3 of 3 pages as printed again"
     assert "  P        7.2563      7.2563  holds" in others
 
 
