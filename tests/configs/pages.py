@@ -33,7 +33,7 @@ def embarrassments(certificate: Certificate, pdf: bytes) -> list[str]:
     return [
         *(
             f"page {number} is filled to {fill:.2f}"
-            for number, fill in _emptiness(certificate, pages, bodies[-1])
+            for number, fill in _emptiness(certificate, pages, bodies)
         ),
         *(f"page 1 is without {text!r}" for text in _missing_on_the_first(certificate, bodies[0])),
         *(f"page {number} ends with a line below nothing" for number in _ruled(pages)),
@@ -71,7 +71,7 @@ def _ink(page: pypdfium2.PdfPage, *, scale: float) -> np.ndarray:
 
 
 def _emptiness(
-    certificate: Certificate, pages: list[pypdfium2.PdfPage], end: list[str]
+    certificate: Certificate, pages: list[pypdfium2.PdfPage], bodies: list[list[str]]
 ) -> Iterator[tuple[int, float]]:
     """Yield pages with little on them; the last has what is left of a section or a table that must part."""
     parted = [
@@ -79,12 +79,16 @@ def _emptiness(
         for each in _blocks(certificate)
         if isinstance(each, Table) and not lay_out_table(each).is_whole
     ]
-    may_be_short = len(pages) == 1 or certificate.sections[-1].new_page or any(map(end[0].startswith, parted))
+    may_be_short = (
+        len(pages) == 1 or certificate.sections[-1].new_page or any(map(bodies[-1][0].startswith, parted))
+    )
+    begun = {f"{number} {each.title}" for number, each in enumerate(certificate.sections, 1) if each.new_page}
     for number, page in enumerate(pages, 1):
         body = _ink(page, scale=0.5).any(axis=1)
         fill = (np.flatnonzero(body).max(initial=-1) + 1) / len(body)
         is_last = number == len(pages)
-        least = _LEAST_END if is_last or certificate.parts else _LEAST_FILL
+        ends_part = bool(certificate.parts) and not is_last and bodies[number][0] in begun
+        least = _LEAST_END if is_last or ends_part else _LEAST_FILL
         if fill < (0.0 if is_last and may_be_short else least):
             yield number, fill
 

@@ -71,7 +71,7 @@ _METHOD_BY_POSITION = Words(
     "{method} U of the mean deviations by position follows from the law of propagation (JCGM 100:2008), "
     "with k = 2."
 )
-_FACTOR = Words("k is below 2 where errors only widen a range or one decides, above where U was raised.")
+_FACTOR = Words("k is 2 where simulated values scatter normally about y and U was not raised.")
 #: A coverage factor between these is taken for 2.
 _USUAL_FACTORS = (1.9, 2.1)
 _SCATTER = Words(
