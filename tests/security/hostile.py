@@ -26,17 +26,27 @@ NAMES = {
 IDENTIFIERS = {"controller", "error", "plugin", "program", "standard"}
 #: A short way to write a key that has a longer one, which is used here.
 SHORT = {("location",)}
-#: Keys of what the job does not measure: an axis runs no circle.
-OF_OTHER_JOBS = {"circle"}
 
 
 def text_keys() -> dict[Path, int]:
-    """Return the keys of a job whose values are free text, with the length that each may have."""
+    """Return the keys of a job whose values are free text, with the length that each may have.
+
+    Those of `circle` are left out: a job measures an axis or a circle.
+    """
+    return {path: room for path, room in _free_texts().items() if path[0] != "circle"}
+
+
+def circle_text_keys() -> dict[Path, int]:
+    """Return the keys of `circle` whose values are free text, with the length that each may have."""
+    return {path: room for path, room in _free_texts().items() if path[0] == "circle"}
+
+
+def _free_texts() -> dict[Path, int]:
     schema = JobKeys.model_json_schema()
     return {
         path: part["maxLength"]
         for path, part in _strings(schema, schema, ())
-        if path not in NAMES | SHORT and path[-1] not in IDENTIFIERS and path[0] not in OF_OTHER_JOBS
+        if path not in NAMES | SHORT and path[-1] not in IDENTIFIERS
     }
 
 
@@ -83,6 +93,23 @@ def job_with(text_of: Callable[[Path], str]) -> str:
     return yaml.safe_dump(job, allow_unicode=True, sort_keys=False, width=1_000_000)
 
 
+def circular_job_with(text_of: Callable[[Path], str]) -> str:
+    """Return a job of a circular test that states every text of its circle."""
+    job: dict[str, Any] = {
+        "schema": "zlmreport/job/1",
+        "certificate": {"number": "CAL-2", "issued": "2026-11-20", "kind": "report"},
+        "circle": {"radius": 150, "feed": 1000, "calibrated_length": True},
+        "measurement": {
+            "date": "2026-11-18",
+            "source": {"plugin": "circle-csv", "file": "circle.csv"},
+        },
+        "evaluate": [{"standard": "iso230-4:2005"}],
+    }
+    for path in circle_text_keys():
+        _state(job, path, text_of(path))
+    return yaml.safe_dump(job, allow_unicode=True, sort_keys=False, width=1_000_000)
+
+
 def _measurement() -> dict[str, Any]:
     return {
         "source": {"plugin": "laser-csv", "file": "x-axis.csv"},
@@ -107,4 +134,11 @@ READINGS = "target,direction,run,deviation\n" + "".join(
     for run in (1, 2, 3)
     for direction, targets in (("+", (0, 25, 50, 75, 100)), ("-", (100, 75, 50, 25, 0)))
     for target in targets
+)
+
+#: One turn in each sense, a reading every ten degrees.
+CIRCLE = "sense,run,angle,deviation\n" + "".join(
+    f"{sense},1,{angle},{angle % 40 / 10}\n"
+    for sense, angles in (("ccw", range(0, 361, 10)), ("cw", range(360, -1, -10)))
+    for angle in angles
 )

@@ -6,20 +6,22 @@ from pathlib import Path
 
 import pytest
 
-from security.hostile import READINGS, job_with, text_keys
+from security.hostile import CIRCLE, READINGS, circle_text_keys, circular_job_with, job_with, text_keys
 from zlmreport.errors import InputError
 from zlmreport.job.loading import load
 from zlmreport.plugin.registry import find_plugins
 
 REGISTRY = find_plugins()
-KEYS = text_keys()
+KEYS = {**text_keys(), **circle_text_keys()}
 
 
 def _mistakes(folder: Path, key: tuple[str, ...], text: str) -> list[str]:
     """Load a job that is sound but for the text of one key."""
-    job = job_with(lambda path: text if path == key else "x")
+    write_job = circular_job_with if key in circle_text_keys() else job_with
+    job = write_job(lambda path: text if path == key else "x")
     (folder / "job.yaml").write_text(job, encoding="utf-8")
     (folder / "x-axis.csv").write_text(READINGS, encoding="utf-8")
+    (folder / "circle.csv").write_text(CIRCLE, encoding="utf-8")
     with pytest.raises(InputError) as caught:
         load(folder / "job.yaml", REGISTRY)
     return [str(problem) for problem in caught.value.problems]

@@ -15,8 +15,11 @@ from pypdf import PdfReader
 
 from pdf_conformance import complaints
 from processes import PYTHON, run
-from security.hostile import READINGS, job_with, text_keys
+from security.hostile import CIRCLE, READINGS, circle_text_keys, circular_job_with, job_with, text_keys
+from zlmreport.cli import main
 from zlmreport.plugin.registry import find_plugins
+
+pytestmark = pytest.mark.long  # all of them look at documents that take long to make
 
 #: The formats, by the folder of their files: two of them write the same file.
 FORMATS = {
@@ -88,7 +91,6 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-@pytest.mark.long
 def test_nothing_that_an_attack_names_is_opened(made: Path) -> None:
     opened = (made / "opened.txt").read_text(encoding="utf-8").splitlines()
     assert "open x-axis.csv" in opened
@@ -118,7 +120,6 @@ class _Page(HTMLParser):
             self.words.append(data)
 
 
-@pytest.mark.long
 def test_a_browser_finds_nothing_to_run_or_to_load(made: Path) -> None:
     page = _Page()
     page.feed((made / "out" / "CAL-1.html").read_text(encoding="utf-8"))
@@ -180,3 +181,16 @@ def test_no_file_holds_what_the_attack_asks_for(made: Path) -> None:
         with pikepdf.open(BytesIO((made / output / "CAL-1.pdf").read_bytes())) as pdf:
             for attachment in pdf.attachments.values():
                 assert secret not in attachment.get_file().read_bytes()
+
+
+@pytest.mark.parametrize("attack", ATTACKS)
+def test_a_text_of_a_circle_is_printed_as_it_was_typed(attack: str, tmp_path: Path) -> None:
+    assert circle_text_keys() != {}
+    (tmp_path / "job.yaml").write_text(circular_job_with(lambda _: attack), encoding="utf-8")
+    (tmp_path / "circle.csv").write_text(CIRCLE, encoding="utf-8")
+    assert main([str(tmp_path / "job.yaml"), "--quiet", "--format", "html"]) == 0
+    page = _Page()
+    page.feed((tmp_path / "CAL-2.html").read_text(encoding="utf-8"))
+    assert "".join(attack.split()) in "".join("".join(page.words).split())
+    assert not page.tags & {"script", "iframe", "object", "embed", "link", "form", "base"}
+    assert page.handlers == []
