@@ -72,9 +72,8 @@ def _reversal_kink(design: Design, random: np.random.Generator) -> FloatArray:
     return design.direction * np.maximum(0.0, _place(design) - random.uniform(0.3, 0.7))
 
 
-def _step_one_way(design: Design, random: np.random.Generator) -> FloatArray:
-    beyond = _place(design) > random.uniform(0.2, 0.8)
-    return ((design.direction > 0) & beyond).astype(np.float64)
+def _stretch_one_way(design: Design, random: np.random.Generator) -> FloatArray:
+    return (design.direction > 0) * _plateau(design, random)
 
 
 def _reversal_over_time(design: Design, random: np.random.Generator) -> FloatArray:
@@ -125,7 +124,7 @@ STRANGERS: Mapping[str, Stranger] = {
     "wave that grows": _growing_wave,
     "reversal smooth in position": _reversal_smooth,
     "reversal with a kink": _reversal_kink,
-    "step in one direction only": _step_one_way,
+    "stretch in one direction only": _stretch_one_way,
     "reversal smooth in time": _reversal_over_time,
     "smooth in time": _smooth_time,
     "passing disturbance": _passing,

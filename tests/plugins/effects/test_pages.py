@@ -19,7 +19,7 @@ abbe scale-expansion screw-expansion thermal-growth thermal-drift datum-temperat
 time-periodic air-index dead-path cosine-error probe-radius gauge-misalignment
 eccentricity ellipticity gear-mesh
 worn-zone control-increment scale-elements lost-motion-step lost-motion-wave lost-motion-turn one-way-kink
-drive-period pole-pitch growth-from-bearing growth-after-pause material-expansion passing-warmth
+one-way-step drive-period pole-pitch growth-from-bearing growth-after-pause material-expansion passing-warmth
 first-run-slope run-displaced
 """
 
@@ -68,8 +68,8 @@ def test_polynomial_contains_what_its_first_powers_are() -> None:
 ON_ROTARY = """
 offset scale-error polynomial scale-joint scale-kink compensation-sign compensation-shift worn-zone backlash
 backlash-gradient backlash-bow reversal-relaxation directional-pitch lost-motion-step lost-motion-wave
-lost-motion-turn one-way-kink encoder-interpolation periodic eccentricity ellipticity gear-mesh drive-period
-thermal-drift datum-temperature passing-warmth time-periodic datum-step first-run first-run-slope
+lost-motion-turn one-way-kink one-way-step encoder-interpolation periodic eccentricity ellipticity gear-mesh
+drive-period thermal-drift datum-temperature passing-warmth time-periodic datum-step first-run first-run-slope
 run-displaced
 """
 

@@ -173,7 +173,8 @@ def _smooth(where: FloatArray, length: float) -> FloatArray:
     values, functions = np.linalg.eigh(np.exp(-0.5 * ((grid[:, np.newaxis] - grid) / length) ** 2))
     kept = np.flatnonzero(values > _LEAST_VARIANCE * values[-1])[-_TERMS:]
     terms = functions[:, kept] * np.sqrt(values[kept])
-    return np.column_stack([np.interp(where, grid, term) for term in terms.T])
+    curves = np.column_stack([np.interp(where, grid, term) for term in terms.T])
+    return np.asarray(curves - curves.mean(axis=0), dtype=np.float64)
 
 
 _BY_POSITION = frozenset({NoiseSource.POSITION, NoiseSource.DIRECTION})
