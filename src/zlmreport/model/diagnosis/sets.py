@@ -145,8 +145,9 @@ class SetSearch:
         told(0.8)
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
-            named = self._named_alone(named.members, is_thorough=True)
-            best = min(best, self._climb(self._with(named.members, named.amplitudes)), key=_find_score)
+            for start in (named, *self._named_near(best)):
+                whole = self._named_alone(start.members, is_thorough=True)
+                best = min(best, self._climb(self._with(whole.members, whole.amplitudes)), key=_find_score)
         told(1.0)
         return best
 
@@ -156,6 +157,15 @@ class SetSearch:
         found = self._climb(self._with(start, self.contest.quiet), is_thorough=is_thorough)
         self._free, self._with_forms = self._all, True
         return found
+
+    def _named_near(self, found: EffectSet) -> list[EffectSet]:
+        """Return the best sets of names alone that were passed on the way, and lack little.
+
+        Where effects that each look needless beside a curve explain all together, a climb passes by them.
+        """
+        passed = [each for each in self._best.values() if each.named and not self.has_nameless(each)]
+        near = [each for each in passed if each.score < found.score + _PROMISING]
+        return sorted(near, key=_find_score)[:_TRIED]
 
     def _united(self, found: EffectSet, other: EffectSet) -> EffectSet:
         """Return a set with the members of another that can stand beside its own."""
