@@ -2,7 +2,8 @@
 
 Two to four causes of the catalogue act together, each of 1.5 to 4 σ beyond a constant, on half of the axes a
 stranger beside them; linear and rotary axes, three or five runs, σ from 0.05 to 3 µm. What is found is told
-axis by axis: a cause counts as found if it stands in the model at the end, a name that no cause has as wrong.
+axis by axis: a cause counts as found if it stands in the model at the end, a name that no cause has as wrong,
+and a stranger as placed if what is left without a name is told to lie where the stranger is largest.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
 from zlmreport.model.diagnosis.diagnosis import Diagnosis, diagnose
+from zlmreport.model.diagnosis.remainder import Remainder
 from zlmreport.model.effects.axis_model import AxisModel, Term
 from zlmreport.model.effects.design import Design
 from zlmreport.model.fitting.observations import Observations, make_observations_of
@@ -53,6 +55,8 @@ class Drawn:
     stranger: str | None
     observed: Observations
     sigma: float  #: m or rad.
+    #: Position (m or rad) and time (s) where the stranger is largest, less a constant; None without one.
+    peak: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +68,7 @@ class Outcome:
     equals: Mapping[str, frozenset[str]]  #: Effects that were named as equals of each that was added.
     left: float  #: Error at the end, over σ.
     remainder: bool  #: Whether something is told to be left without a name.
+    is_placed: bool  #: Whether it is told to lie where the stranger is largest, within a step of the targets.
     seconds: float  #: CPU of the dearest diagnosis.
 
     @property
@@ -114,13 +119,15 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
             causes.append(term)
         if len(causes) == _CAUSES[number % len(_CAUSES)]:
             break
-    deviation, stranger = sum_of(causes, design), None
+    deviation, stranger, peak = sum_of(causes, design), None, None
     if with_stranger:
         rms = sigma * float(random.uniform(*_SIZES))
         for name in random.permutation(sorted(STRANGERS)).tolist():
             drawn = drawn_stranger(STRANGERS[name], design, base, rms, random)
             if drawn is not None:
                 stranger, deviation = name, deviation + drawn[1]
+                at = int(np.argmax(np.abs(drawn[1] - drawn[1].mean())))
+                peak = float(design.position[at]), float(design.time[at])
                 break
     readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
     observed = make_observations_of(readings, overrun=description.plan.overrun)
@@ -130,6 +137,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
         stranger,
         observed,
         sigma,
+        peak,
     )
 
 
@@ -158,8 +166,19 @@ def followed(drawn: Drawn) -> Outcome:
 
     built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
     names = tuple(each for each in built.model.identifiers if each != "offset")
-    left = built.last.error.rms / drawn.sigma
-    return Outcome(drawn, names, equals, left, built.last.remainder is not None, max(seconds))
+    left, remainder = built.last.error.rms / drawn.sigma, built.last.remainder
+    is_placed = remainder is not None and _is_placed(remainder, drawn)
+    return Outcome(drawn, names, equals, left, remainder is not None, is_placed, max(seconds))
+
+
+def _is_placed(remainder: Remainder, drawn: Drawn) -> bool:
+    """Return whether a remainder spans the place or the moment at which the stranger is largest."""
+    if drawn.peak is None:
+        return False
+    design, is_in_time = drawn.observed.design, remainder.unit.symbol == "s"
+    steps = np.diff(np.unique(design.time if is_in_time else design.position))
+    step = float(np.median(steps))
+    return remainder.low - step <= drawn.peak[is_in_time] <= remainder.high + step
 
 
 def report(outcomes: Sequence[Outcome]) -> str:
@@ -168,14 +187,15 @@ def report(outcomes: Sequence[Outcome]) -> str:
 
 
 def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
-    yield "| σ in µm | causes | stranger | found | wrong | left in σ | without a name |"
-    yield "|---|---|---|---|---|---|---|"
+    yield "| σ in µm | causes | stranger | found | wrong | left in σ | without a name | where it is |"
+    yield "|---|---|---|---|---|---|---|---|"
     for each in outcomes:
         of = each.drawn
+        place = "–" if of.stranger is None else "yes" if each.is_placed else "no"
         yield (
             f"| {MICROMETRE.from_si(of.sigma):.2g} | {_marked(of)} | {of.stranger or '–'} | "
             f"{len(each.found)} of {len(of.causes)} | {', '.join(each.wrong) or '–'} | {each.left:.2f} | "
-            f"{'yes' if each.remainder else 'no'} |"
+            f"{'yes' if each.remainder else 'no'} | {place} |"
         )
 
 
@@ -191,12 +211,15 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
     whole = sum(len(each.found) == len(each.drawn.causes) for each in outcomes)
     down = sum(each.left <= DOWN_TO_NOISE for each in outcomes)
     named = sum(each.remainder for each in outcomes)
+    strangers = sum(each.drawn.stranger is not None for each in outcomes)
+    placed = sum(each.is_placed for each in outcomes)
     seconds = np.median([each.seconds for each in outcomes])
     return (
         f"{len(outcomes)} axes: {summed(lambda each: each.found)} of "
         f"{summed(lambda each: each.drawn.causes)} causes found, {summed(lambda each: each.wrong)} wrong, "
         f"the whole set in {whole}, down to {DOWN_TO_NOISE} σ in {down}, something left without a name in "
-        f"{named}; the dearest diagnosis of an axis takes {seconds:.1f} s of CPU in the median.\n"
+        f"{named}, where the stranger is in {placed} of {strangers}; the dearest diagnosis of an axis takes "
+        f"{seconds:.1f} s of CPU in the median.\n"
         f"Of the causes that an ideal observer tells from all else {summed(lambda each: each.told)} of "
         f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} "
         f"stand in the model or are named as equals of what stands there, and "

@@ -30,9 +30,9 @@ def test_a_stranger_stands_beside_the_causes() -> None:
 
 def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> None:
     drawn = drawn_axis(1, with_stranger=False)
-    whole = Outcome(drawn, drawn.causes, {}, 1.0, remainder=False, seconds=2.0)
+    whole = Outcome(drawn, drawn.causes, {}, 1.0, remainder=False, is_placed=False, seconds=2.0)
     first, *_ = drawn.causes
-    half = Outcome(drawn, (first, "no such effect"), {}, 3.0, remainder=True, seconds=4.0)
+    half = Outcome(drawn, (first, "no such effect"), {}, 3.0, remainder=True, is_placed=False, seconds=4.0)
     assert (half.found, half.wrong) == ((first,), ("no such effect",))
     causes = len(drawn.causes)
     last = report([whole, half]).splitlines()[-2]
@@ -45,7 +45,19 @@ def test_a_cause_that_is_named_as_an_equal_of_what_was_added_is_no_wrong_name_be
     drawn = drawn_axis(1, with_stranger=False)
     first, *others = drawn.causes
     equals = {"its twin": frozenset({first})}
-    outcome = Outcome(drawn, ("its twin", *others), equals, 1.0, remainder=False, seconds=2.0)
+    outcome = Outcome(
+        drawn, ("its twin", *others), equals, 1.0, remainder=False, is_placed=False, seconds=2.0
+    )
     assert outcome.wrong == ("its twin",)
     assert outcome.wrong_beyond_equals == ()
     assert outcome.as_equals == drawn.causes
+
+
+def test_what_is_left_is_placed_where_the_stranger_is_largest() -> None:
+    drawn = drawn_axis(2, with_stranger=True)
+    assert drawn.peak is not None
+    design = drawn.observed.design
+    assert drawn.peak[0] in design.position
+    assert drawn.peak[1] in design.time
+    last = report([Outcome(drawn, (), {}, 2.0, remainder=True, is_placed=True, seconds=1.0)])
+    assert "where the stranger is in 1 of 1" in last

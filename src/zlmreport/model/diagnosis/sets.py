@@ -145,8 +145,8 @@ class SetSearch:
         told(0.8)
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
-            for start in (named, *self._named_near(best)):
-                whole = self._named_alone(start.members, is_thorough=True)
+            for near in (named, *self._named_near(best)):
+                whole = self._named_alone(near.members, is_thorough=True)
                 best = min(best, self._climb(self._with(whole.members, whole.amplitudes)), key=_find_score)
         told(1.0)
         return best
@@ -271,15 +271,27 @@ class SetSearch:
             return family.is_named and find_installed_name(family.effect) not in known
 
         beside = replace(rest, amplitudes=found.amplitudes)
-        tried = {
-            each.members[-1].identifier: each
+        tried = [
+            each
             for start in (rest, beside)
-            for each in reversed(
-                self._ahead(start, _LISTED, _TRIED, is_another, found.score + within + _PROMISING)
-            )
-        }
-        near = [each for each in tried.values() if each.score < found.score + within]
-        return sorted(near, key=lambda each: each.score)
+            for each in self._ahead(start, _LISTED, _TRIED, is_another, found.score + within + _PROMISING)
+        ]
+        near = sorted((*tried, *self._seen_instead(found, rest)), key=_find_score, reverse=True)
+        best = {each.members[-1].identifier: each for each in near if each.score < found.score + within}
+        return sorted(best.values(), key=_find_score)
+
+    def _seen_instead(self, found: EffectSet, rest: EffectSet) -> Iterator[EffectSet]:
+        """Yield the sets looked at that have one new effect, as their last, and not what `rest` is without.
+
+        It may make others of the set needless, too.
+        """
+        own, forms = _names(found.named), _list_forms(found)
+        gone = own - _names(rest.named)
+        for (names, unnamed), each in self._best.items():
+            others = [member for member in each.named if find_installed_name(member.effect) not in own]
+            if len(others) == 1 and not names & gone and unnamed <= forms:
+                beside = (member for member in each.members if member is not others[0])
+                yield replace(each, members=(*beside, others[0]))
 
     def ahead(self, found: EffectSet) -> list[EffectSet]:
         """Return a set with one more installed effect, each effect once, the most promising first."""
