@@ -25,6 +25,7 @@ from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import _WORTHS, Amplitudes, Contest, _root_of, average_evidence
 from zlmreport.model.diagnosis.families import PRICE
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
+from zlmreport.model.diagnosis.nameless import Course
 from zlmreport.model.diagnosis.null_distribution import TRIALS, NullDistribution, Scores, simulate_null
 from zlmreport.model.fitting.contrasts import describe_single_readings
 from zlmreport.model.fitting.noise import NoiseSource
@@ -312,3 +313,16 @@ def test_column_of_zeros_changes_nothing_of_a_set() -> None:
     root = _root_of(padded)
     assert np.abs(root).max() < 10.0
     assert root.T @ root == pytest.approx(np.linalg.pinv(padded), abs=1e-9)
+
+
+def test_a_curve_without_a_name_varies_about_nothing() -> None:
+    # Its mean has a name: a constant gap is lost motion, whatever the gap does beside it.
+    design = linear_test()
+    base = np.ones((len(design.position), 1))
+    contest = Contest.of(design, base, [EFFECTS["scale-error"]], noise(design))
+    gap = contest.space.of(design.direction[:, np.newaxis])[:, 0]
+    curves = [each for each in contest.parts if each.course is Course.REVERSAL and each.source is None]
+    assert curves
+    for each in curves:
+        columns = contest.columns.values(each.columns)
+        assert np.abs(gap @ columns).max() < 1e-9 * np.linalg.norm(gap) * np.linalg.norm(columns)

@@ -54,6 +54,27 @@ def test_slope_is_seen_beside_lost_motion_that_is_a_hundred_times_as_large() -> 
 
 
 @pytest.mark.long
+def test_screw_worn_on_one_flank_is_told_with_its_lost_motion_and_its_slope() -> None:
+    design = replace(linear_test(21, 3), conditions={})
+    first, last = design.span
+    worn = (design.direction < 0) * (3e-6 + 5e-6 * (design.position > 0.55 * last + 0.45 * first))
+    readings = 8e-6 * design.position + worn + noise(design, 1, 0.7e-6)
+    found = built(model_of("offset"), design, readings)
+    assert {each.identifier for each in found.steps} == {"one-way-step", "backlash", "scale-error"}
+    assert found.last.verdict is Verdict.ADEQUATE
+
+
+@pytest.mark.long
+def test_lost_motion_is_told_beside_a_kink_in_one_direction() -> None:
+    design = replace(linear_test(21, 3), conditions={})
+    first, last = design.span
+    kink = (design.direction > 0) * 12e-6 * np.maximum(0.0, design.position - 0.4 * last - 0.6 * first)
+    readings = 5e-6 * design.position - 1.5e-6 * design.direction + kink + noise(design, 1, 0.7e-6)
+    found = built(model_of("offset"), design, readings)
+    assert {each.identifier for each in found.steps} == {"one-way-kink", "backlash", "scale-error"}
+
+
+@pytest.mark.long
 def test_noise_that_lasts_over_a_few_readings_is_noise() -> None:
     readings = known(_DESIGN) + lasting_noise(_DESIGN, 0.6)
     assert diagnosed(USUAL, _DESIGN, readings).verdict is Verdict.ADEQUATE

@@ -168,7 +168,11 @@ def _normalise(values: FloatArray) -> FloatArray:
 
 
 def _smooth(where: FloatArray, length: float) -> FloatArray:
-    """Return the leading eigenfunctions of a smooth random curve on 0 to 1, at the readings."""
+    """Return the leading eigenfunctions of a smooth random curve on 0 to 1 at the readings, about their mean.
+
+    What a curve has everywhere has a name: a gap that changes along the axis is lost motion and a curve about
+    it, not a curve that hides the lost motion.
+    """
     grid = np.linspace(0.0, 1.0, _GRID)
     values, functions = np.linalg.eigh(np.exp(-0.5 * ((grid[:, np.newaxis] - grid) / length) ** 2))
     kept = np.flatnonzero(values > _LEAST_VARIANCE * values[-1])[-_TERMS:]
