@@ -9,8 +9,10 @@ from model.axis_tests import EFFECTS, INSTALLED, SIGMA, hidden, linear_test, mod
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest
+from zlmreport.model.diagnosis.effect_set import EffectSet
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
-from zlmreport.model.diagnosis.sets import UNUSUAL, EffectSet, SetSearch, weigh_size
+from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
+from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
 

@@ -15,6 +15,7 @@ import numpy as np
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.candidates import list_effects_to_try
 from zlmreport.model.diagnosis.contest import Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember, find_installed_name
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.null_distribution import (
     LEVEL,
@@ -24,7 +25,7 @@ from zlmreport.model.diagnosis.null_distribution import (
     simulate_null,
 )
 from zlmreport.model.diagnosis.remainder import Remainder, find_remainder_of
-from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch, find_installed_name
+from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.visibility import Visibility, judge_visibility
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.effects.design import Design

@@ -15,9 +15,10 @@ from zlmreport.job.formula_keys import FormulaKeys
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.units import Unit
+from zlmreport.model.diagnosis.effect_set import EffectSet, SetMember
 from zlmreport.model.diagnosis.forms import CARRIERS, IN_TIME, LOCAL, UnnamedForm
 from zlmreport.model.diagnosis.nameless import Along, Course
-from zlmreport.model.diagnosis.sets import EffectSet, SetMember, SetSearch
+from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.diagnosis.single_run import SingleRun
 from zlmreport.model.effects import wording
 from zlmreport.model.effects.design import Design

@@ -1,17 +1,16 @@
 """The search over sets: which effects together explain the readings, beside what has no name.
 
-A set is scored by its evidence: spike and slab (T. J. Mitchell and J. J. Beauchamp, J. Amer. Statist. Assoc.
-83 (1988) 1023), the coefficients of its effects, their searched parameters and σ averaged over, the
-amplitudes of all nameless parts chosen anew for each set. Effects come in, go out and take each other's
-places as long as the evidence grows; also in pairs where something without a name is left. The search begins
-twice, with effects alone and beside all that has no name: beside random curves of any size a cause may look
-needless, and without them one may look needed that is a makeshift.
+A set is scored by its evidence, the coefficients of its effects, their searched parameters and σ averaged
+over (`set_costs`), the amplitudes of all nameless parts chosen anew for each set. Effects come in, go out and
+take each other's places as long as the evidence grows; also in pairs where something without a name is left.
+The search begins twice, with effects alone and beside all that has no name: beside random curves of any size
+a cause may look needless, and without them one may look needed that is a makeshift.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence, Set as AbstractSet
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TypeAlias
 
 import numpy as np
@@ -19,10 +18,19 @@ import numpy as np
 from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.effect_set import (
+    EffectSet,
+    SetMember,
+    find_installed_name,
+    find_score,
+    list_beside,
+    list_names,
+    list_unnamed,
+)
 from zlmreport.model.diagnosis.families import Family, make_orthonormal
-from zlmreport.model.effects.design import Design
-from zlmreport.model.effects.effect import Dimension, Effect, Parameter
-from zlmreport.model.effects.sizes import compute_times_usual, find_usual_range, name_of
+from zlmreport.model.diagnosis.refining import jump_along_grids, refine_member
+from zlmreport.model.diagnosis.set_costs import SetCosts
+from zlmreport.model.effects.effect import Effect
 
 #: Effects of a set at most, and moves of a search.
 _MOST_MEMBERS, _MOST_MOVES = 10, 24
@@ -33,81 +41,18 @@ _PROMISING, _SHARE_OF_GAIN = 12.0, 0.3
 _LISTED_FOR_ANOTHER, _TRIED_FOR_ANOTHER = 4, 2
 #: Evidence that a move must gain, and more where it changes what a set means.
 _GAIN, _CLEAR_GAIN = 0.01, 0.5
-#: Evidence by which another part of a grid must be better for a parameter to jump there.
-_JUMP = 2.0
-#: Values that are tried between two of a grid, in rounds, each about the best of the last.
-_BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
 #: Effects of a set beside nothing without a name at most, and what it may lack, to be looked at thoroughly.
 _MOST_ALONE, _NEAR = 5, 40.0
 _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 #: Evidence of each effect's own above which a set of a few is not looked for again from another start: many
 #: names may do what one curve without a name does at less cost.
 _SURE, _FEW = 6.0, 2
-#: What a value costs on the side where none is usual, odds of 20 to 1, and one that physics forbids.
-UNUSUAL, FORBIDDEN = 6.0, 1e3
-#: Standard uncertainties beyond which nothing is in doubt; of a searched value, taken as a share of it.
-_DOUBT, _SHARE_OF_SEARCHED = 2.0, 0.25
-#: Times the usual beyond which a value of the wrong sign costs no more.
-_FARTHEST = 1e3
 #: To how many digits searched parameters are the same.
 _AS_FAR = ".3g"
 _NONE: frozenset[int] = frozenset()
 #: Parts that may be more than noise, whether forms are thought of, families with their searched parameters,
 #: amplitudes.
 _State: TypeAlias = tuple[frozenset[int], bool, frozenset[tuple[int, tuple[str, ...]]], Amplitudes]
-#: Of the longest column of an effect, one that is as short is imitated by the model.
-_SEEN = 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class SetMember:
-    """An effect of a set, at values of its searched parameters."""
-
-    family: Family
-    theta: FloatArray  #: (s,): Its searched parameters.
-    columns: IntArray  #: (k,) integer: Places of its columns.
-    rank: int  #: How many of them are not zero.
-    spread: float = 0.0  #: What it costs that θ had to be found.
-    tangents: IntArray | None = None  #: Place of what a shift of θ would change.
-
-    @property
-    def identifier(self) -> str:
-        """As jobs name the effect."""
-        return self.family.identifier
-
-    @property
-    def effect(self) -> Effect:
-        """The effect, in its form."""
-        return self.family.effect
-
-
-@dataclass(frozen=True, slots=True)
-class EffectSet:
-    """Effects together, with the amplitudes of what has no name beside them."""
-
-    members: tuple[SetMember, ...]
-    amplitudes: Amplitudes
-    score: float  #: −2·ln of its evidence, but for a constant of the test.
-
-    @property
-    def named(self) -> tuple[SetMember, ...]:
-        """Those that are installed effects."""
-        return tuple(each for each in self.members if each.family.is_named)
-
-    @property
-    def unnamed(self) -> tuple[SetMember, ...]:
-        """Forms without a name."""
-        return tuple(each for each in self.members if not each.family.is_named)
-
-    @property
-    def columns(self) -> list[IntArray]:
-        """The columns of its members."""
-        return [each.columns for each in self.members]
-
-    @property
-    def columns_with_tangents(self) -> list[IntArray]:
-        """The same, and what shifts of their searched parameters would change."""
-        return [*self.columns, *(each.tangents for each in self.members if each.tangents is not None)]
 
 
 class SetSearch:
@@ -121,7 +66,7 @@ class SetSearch:
         self._ends: dict[tuple[bool, _State], EffectSet] = {}
         # Of all sets that were looked at the best ones, by the effects and the forms that are in it.
         self._best: dict[tuple[frozenset[str], frozenset[str]], EffectSet] = {}
-        self._turns: dict[int, FloatArray] = {}  # of members, by the place of their first column
+        self._costs = SetCosts(contest)
         self._with_forms = True  # whether forms without a name are thought of
 
     def found(self, start: Sequence[SetMember] = (), told: Told = tell_nobody) -> EffectSet:
@@ -141,13 +86,13 @@ class SetSearch:
         beside = self._climb(self._with(start, self.contest.quiet), is_thorough=False)
         told(0.6)
         together = self._climb(self._united(beside, named), is_thorough=False)
-        best = self._climb(min((released, beside, together), key=_find_score))
+        best = self._climb(min((released, beside, together), key=find_score))
         told(0.8)
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
             for near in (named, *self._named_near(best)):
                 whole = self._named_alone(near.members, is_thorough=True)
-                best = min(best, self._climb(self._with(whole.members, whole.amplitudes)), key=_find_score)
+                best = min(best, self._climb(self._with(whole.members, whole.amplitudes)), key=find_score)
         told(1.0)
         return best
 
@@ -165,13 +110,13 @@ class SetSearch:
         """
         passed = [each for each in self._best.values() if each.named and not self.has_nameless(each)]
         near = [each for each in passed if each.score < found.score + _PROMISING]
-        return sorted(near, key=_find_score)[:_TRIED]
+        return sorted(near, key=find_score)[:_TRIED]
 
     def _united(self, found: EffectSet, other: EffectSet) -> EffectSet:
         """Return a set with the members of another that can stand beside its own."""
         members = found.members
         for each in other.members:
-            if len(_list_beside(members, each.effect)) == len(members):
+            if len(list_beside(members, each.effect)) == len(members):
                 members = (*members, each)
         return self._with(members, found.amplitudes)
 
@@ -196,7 +141,7 @@ class SetSearch:
 
         `names`: As they are installed.
         """
-        forms = _list_forms(found)
+        forms = list_unnamed(found)
         others = [
             each.score for (known, own), each in self._best.items() if not known & names and own <= forms
         ]
@@ -204,9 +149,9 @@ class SetSearch:
 
     def holding(self, found: EffectSet, kept: Sequence[SetMember]) -> EffectSet:
         """Return the best set with these named members alone; what has no name as it then is."""
-        names = _names(kept)
+        names = list_names(kept)
         known = [each for (own, _), each in self._best.items() if own == names]
-        return min((self._with((*kept, *found.unnamed), found.amplitudes), *known), key=_find_score)
+        return min((self._with((*kept, *found.unnamed), found.amplitudes), *known), key=find_score)
 
     def own_evidence(self, found: EffectSet) -> list[float]:
         """Return for each member the evidence that the set loses without it, all else following."""
@@ -276,17 +221,17 @@ class SetSearch:
             for start in (rest, beside)
             for each in self._ahead(start, _LISTED, _TRIED, is_another, found.score + within + _PROMISING)
         ]
-        near = sorted((*tried, *self._seen_instead(found, rest)), key=_find_score, reverse=True)
+        near = sorted((*tried, *self._seen_instead(found, rest)), key=find_score, reverse=True)
         best = {each.members[-1].identifier: each for each in near if each.score < found.score + within}
-        return sorted(best.values(), key=_find_score)
+        return sorted(best.values(), key=find_score)
 
     def _seen_instead(self, found: EffectSet, rest: EffectSet) -> Iterator[EffectSet]:
         """Yield the sets looked at that have one new effect, as their last, and not what `rest` is without.
 
         It may make others of the set needless, too.
         """
-        own, forms = _names(found.named), _list_forms(found)
-        gone = own - _names(rest.named)
+        own, forms = list_names(found.named), list_unnamed(found)
+        gone = own - list_names(rest.named)
         for (names, unnamed), each in self._best.items():
             others = [member for member in each.named if find_installed_name(member.effect) not in own]
             if len(others) == 1 and not names & gone and unnamed <= forms:
@@ -309,84 +254,12 @@ class SetSearch:
 
     def _scored(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> EffectSet:
         columns = [each.columns for each in members]
-        score = self.contest.criterion(amplitudes, columns) + self._cost(members, amplitudes)
+        score = self.contest.criterion(amplitudes, columns) + self._costs.compute(members, amplitudes)
         found = EffectSet(tuple(members), amplitudes, score)
-        key = _names(found.named), _list_forms(found)
+        key = list_names(found.named), list_unnamed(found)
         if key not in self._best or score < self._best[key].score:
             self._best[key] = found
         return found
-
-    def _cost(self, members: Sequence[SetMember], amplitudes: Amplitudes) -> float:
-        """Return what the members cost: prior odds, coefficients, searched parameters, unusual values."""
-        if not members:
-            return 0.0
-        contest = self.contest
-        reduced = contest.reduced(amplitudes, [each.columns for each in members])
-        squares, taken = contest.left(reduced)
-        variance = squares / contest.space.degrees
-        solved = reduced.set_root.T @ taken[len(reduced.root) :] * np.sqrt(contest.squares)
-        inverse = reduced.set_root.T @ reduced.set_root
-        cost, first = 0.0, 0
-        for each in members:
-            own = slice(first, first + len(each.columns))
-            first = own.stop
-            information = np.linalg.pinv(inverse[own, own], rcond=1e-9, hermitian=True)
-            square = contest.expected.square(each.identifier)
-            cost += each.family.price + each.spread
-            for explained, rank in self._by_size(
-                each, solved[own], np.asarray(information / variance, np.float64)
-            ):
-                cost += contest.worth(explained, rank, square)
-            if each.family.is_named:
-                cost += self._unusual(each, solved[own], variance * inverse[own, own])
-        return cost
-
-    def _by_size(
-        self, member: SetMember, solved: FloatArray, information: FloatArray
-    ) -> Iterator[tuple[float, int]]:
-        """Yield what a member explains beside the others of a set, in σ², and with how many columns.
-
-        All its coefficients are of one size, but for an effect that contains others: a polynomial is a
-        constant, a slope and a bend, and a steep slope makes no bend larger. Of these each explains what
-        those before it leave.
-        """
-        if not member.effect.contains:
-            yield float(solved @ information @ solved), member.rank
-            return
-        contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
-        turned = self.contest.columns.values(member.columns).T @ contrasts
-        values, vectors = np.linalg.eigh(information)
-        root = np.sqrt(np.maximum(values, 0.0))[:, np.newaxis] * vectors.T
-        powers = root @ turned
-        lengths = np.linalg.norm(powers, axis=0)
-        powers = powers[:, lengths > _SEEN * lengths.max(initial=0.0)]
-        parts = np.linalg.qr(powers)[0].T @ (root @ solved)
-        yield from ((float(each) ** 2, 1) for each in parts[: member.rank])
-
-    def _unusual(self, member: SetMember, solved: FloatArray, covariance: FloatArray) -> float:
-        """Return what it costs that values lie beyond what is usual."""
-        effect, design = member.effect, self.contest.design
-        cost = sum(
-            weigh_size(effect, design, each, value, _SHARE_OF_SEARCHED * abs(value))
-            for each, value in zip(effect.searched, member.theta.tolist(), strict=True)
-            if not (each.dimension is Dimension.TIME and design.time_is_counted)
-        )
-        turn = self._turn(member)
-        gamma, spread = turn @ solved, np.sqrt(np.maximum(np.diagonal(turn @ covariance @ turn.T), 0.0))
-        return cost + sum(
-            weigh_size(effect, design, each, float(value), float(own))
-            for each, value, own in zip(effect.linear, gamma, spread, strict=True)
-        )
-
-    def _turn(self, member: SetMember) -> FloatArray:
-        """Return what turns coefficients of a member's columns, which are orthonormal, into parameters."""
-        place = int(member.columns[0])
-        if place not in self._turns:
-            contrasts = self.contest.space.of(member.effect.columns(self.contest.design, member.theta))
-            values = self.contest.columns.values(member.columns)
-            turn = np.linalg.lstsq(contrasts, values, rcond=1e-9)[0]
-            self._turns[place] = np.asarray(turn, dtype=np.float64)
-        return self._turns[place]
 
     def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
         """Return the best amplitudes of all parts near others, one after another."""
@@ -559,7 +432,7 @@ class SetSearch:
             member = SetMember(
                 family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread
             )
-            members = (*_list_beside(now.members, member.effect), member)
+            members = (*list_beside(now.members, member.effect), member)
             glanced.append(self._glanced(members, now.amplitudes))
         glanced.sort(key=lambda each: each.score)
         if limit is None and glanced:
@@ -604,177 +477,27 @@ class SetSearch:
                 criterion = contest.criterion(each, columns)
                 if criterion < best:
                     best, now = criterion, each
-        return EffectSet(tuple(members), now, best + self._cost(members, now))
+        return EffectSet(tuple(members), now, best + self._costs.compute(members, now))
 
     def _tried(self, glanced: EffectSet) -> EffectSet:
         """Return a set with one effect more, its parameters between those of the grid."""
         members = list(glanced.members)
         amplitudes = self._amplitudes(glanced.columns, glanced.amplitudes)
-        members, has_moved = self._jumped(members, amplitudes)
+        members, has_moved = jump_along_grids(self.contest, members, amplitudes)
         if has_moved:
             amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
-        members[-1] = self._refined(members, len(members) - 1, amplitudes)
+        members[-1] = refine_member(self.contest, members, len(members) - 1, amplitudes)
         return self._scored(members, amplitudes)
 
     def _settled(self, now: EffectSet) -> EffectSet:
         """Return a set with all its parameters refined and its amplitudes chosen anew."""
         members, amplitudes = list(now.members), now.amplitudes
         for number in range(len(members)):
-            members[number] = self._refined(members, number, amplitudes)
+            members[number] = refine_member(self.contest, members, number, amplitudes)
         amplitudes = self._amplitudes([each.columns for each in members], amplitudes)
-        members, _ = self._jumped(members, amplitudes)
+        members, _ = jump_along_grids(self.contest, members, amplitudes)
         return self._scored(members, amplitudes)
-
-    def _jumped(self, members: list[SetMember], amplitudes: Amplitudes) -> tuple[list[SetMember], bool]:
-        """Return members at better parts of their grids, beside each other, and whether any moved."""
-        contest, found, has_moved = self.contest, list(members), False
-        for number, member in enumerate(members):
-            forms = [
-                place
-                for place, each in enumerate(contest.families)
-                if each.identifier == member.identifier and each.is_named == member.family.is_named
-            ]
-            if len(forms) == 1 and len(member.family.thetas) == 1:
-                continue
-            rest = [each.columns for place, each in enumerate(found) if place != number]
-            scan = contest.scan(amplitudes, rest, forms)
-            best = min(forms, key=lambda place: float(scan.criterion[place]))
-            own = next(place for place in forms if contest.families[place] is member.family)
-            if not np.isfinite(scan.criterion[best]):
-                continue
-            is_other = scan.criterion[best] < scan.criterion[own] - _CLEAR_GAIN
-            chosen = best if is_other else own
-            family, block = contest.families[chosen], int(scan.best[chosen])
-            moved = contest.criterion(amplitudes, [*rest, family.blocks[block]])
-            if is_other or moved < contest.criterion(amplitudes, [*rest, member.columns]) - _JUMP:
-                found[number] = SetMember(
-                    family, family.thetas[block], family.blocks[block], int(family.ranks[block])
-                )
-                has_moved = True
-            found[number] = replace(found[number], spread=float(scan.spread[chosen]))
-        return found, has_moved
-
-    def _refined(self, members: Sequence[SetMember], number: int, amplitudes: Amplitudes) -> SetMember:
-        """Return a member with its searched parameters between those of the grid, one after another."""
-        contest, member = self.contest, members[number]
-        family, effect = member.family, member.effect
-        places = [
-            (column, np.unique(family.thetas[:, column]))
-            for column, each in enumerate(effect.searched)
-            if each.is_refined
-        ]
-        places = [(column, values) for column, values in places if len(values) > 1]
-        if not places:
-            return member
-        rest = contest.reduced(
-            amplitudes, [each.columns for place, each in enumerate(members) if place != number]
-        )
-        taken = contest.left(rest)[1]
-        theta = member.theta.copy()
-        most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis], taken)[0])
-        best: tuple[FloatArray, int] | None = None
-        steps = {}
-        for column, values in places:
-            near = int(np.clip(np.searchsorted(values, theta[column]), 1, len(values) - 1))
-            step = steps[column] = float(values[near] - values[near - 1])
-            for _ in range(_ROUNDS):
-                tried = np.repeat(theta[np.newaxis], _BETWEEN, axis=0)
-                tried[:, column] += step * np.linspace(-_REACH, _REACH, _BETWEEN)
-                tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
-                blocks, ranks, seen = make_orthonormal(
-                    contest.space, contest.design, effect, tried, contest.least_visible
-                )
-                if not len(seen):
-                    break
-                explained = contest.explained(rest, blocks, taken)
-                leading = int(np.argmax(explained))
-                if explained[leading] > most:
-                    most, theta = float(explained[leading]), tried[seen[leading]]
-                    best = blocks[:, leading], int(ranks[leading])
-                step *= _CLOSER
-        columns = member.columns if best is None else contest.columns.add(best[0])
-        rank = member.rank if best is None else best[1]
-        moved = replace(member, theta=theta, columns=columns, rank=rank)
-        tangents = self._tangents(
-            [*members[:number], moved, *members[number + 1 :]], number, amplitudes, steps
-        )
-        return replace(moved, tangents=tangents)
-
-    def _tangents(
-        self, members: Sequence[SetMember], number: int, amplitudes: Amplitudes, steps: dict[int, float]
-    ) -> IntArray | None:
-        """Return the places of what small shifts of a member's searched parameters change."""
-        contest, member = self.contest, members[number]
-        reduced = contest.reduced(amplitudes, [each.columns for each in members])
-        taken = contest.left(reduced)[1]
-        solved = reduced.set_root.T @ taken[len(reduced.root) :]
-        first = sum(len(each.columns) for each in members[:number])
-        own = contest.columns.values(member.columns) @ solved[first : first + len(member.columns)]
-        effect, design = member.effect, contest.design
-        gamma = np.linalg.lstsq(contest.space.of(effect.columns(design, member.theta)), own, rcond=1e-9)[0]
-        found = []
-        for column, step in steps.items():
-            shift = np.where(np.arange(len(member.theta)) == column, 0.3 * step, 0.0)
-            change = effect.columns(design, member.theta + shift) - effect.columns(
-                design, member.theta - shift
-            )
-            slope = contest.space.of((change @ gamma)[:, np.newaxis])
-            length = float(np.linalg.norm(slope))
-            if length > 0:
-                found.append(slope / length)
-        return contest.columns.add(np.concatenate(found, axis=1)) if found else None
-
-
-def find_installed_name(effect: Effect) -> str:
-    """Return the name of an effect by which it is installed, whichever time it stands in a model."""
-    return part_number(effect.identifier)[0] if effect.several else effect.identifier
-
-
-def _names(members: Sequence[SetMember]) -> frozenset[str]:
-    return frozenset(find_installed_name(each.effect) for each in members)
-
-
-def _list_forms(found: EffectSet) -> frozenset[str]:
-    return frozenset(each.identifier for each in found.unnamed)
-
-
-def _find_score(found: EffectSet) -> float:
-    return found.score
 
 
 def _move_amplitude(amplitudes: Amplitudes, number: int, level: int) -> Amplitudes:
     return (*amplitudes[:number], level, *amplitudes[number + 1 :])
-
-
-def _list_beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:
-    """Return the members that can stand beside an effect: none that it contains or takes the place of."""
-    replaced = {effect.identifier, *effect.contains}
-    return tuple(
-        each
-        for each in members
-        if each.identifier not in replaced and effect.identifier not in each.effect.contains
-    )
-
-
-def weigh_size(
-    effect: Effect, design: Design, parameter: Parameter, value: float, uncertainty: float
-) -> float:
-    """Return what the size of a parameter costs, as far as it is beyond doubt; physics alone forbids one.
-
-    Beyond what is usual every decade is as likely as the next: twenty times as much, or as little, has odds
-    of 20 to 1. A value that has a name of its own, such as that of a correction made twice, costs nothing.
-    """
-    reach = _DOUBT * uncertainty
-    if all(effect.forbids(design, {parameter.name: value + each}) for each in (-reach, 0.0, reach)):
-        return FORBIDDEN
-    low, high = find_usual_range(parameter, design.axis.kind)
-    sure = min(max(value, min(low, value + reach)), max(high, value - reach))
-    times = compute_times_usual(parameter, sure, design.axis.kind)
-    if times == 1.0 or name_of(parameter, value) is not None:
-        return 0.0
-    if np.isfinite(times):
-        least = -np.inf if parameter.smallest is None else parameter.smallest
-        most = np.inf if parameter.largest is None else parameter.largest
-        is_far = not least <= sure <= most
-        return 2.0 * abs(float(np.log(times))) + (UNUSUAL if is_far else 0.0)
-    return UNUSUAL + 2.0 * float(np.log1p(abs(sure) / max(abs(low), abs(high), abs(sure) / _FARTHEST)))

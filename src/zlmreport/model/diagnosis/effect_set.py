@@ -1,0 +1,93 @@
+"""A set of effects that stand in a model together, with the amplitudes of what has no name beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from zlmreport.job.choices import part_number
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.diagnosis.contest import Amplitudes
+from zlmreport.model.diagnosis.families import Family
+from zlmreport.model.effects.effect import Effect
+
+
+@dataclass(frozen=True, slots=True)
+class SetMember:
+    """An effect of a set, at values of its searched parameters."""
+
+    family: Family
+    theta: FloatArray  #: (s,): Its searched parameters.
+    columns: IntArray  #: (k,) integer: Places of its columns.
+    rank: int  #: How many of them are not zero.
+    spread: float = 0.0  #: What it costs that θ had to be found.
+    tangents: IntArray | None = None  #: Place of what a shift of θ would change.
+
+    @property
+    def identifier(self) -> str:
+        """As jobs name the effect."""
+        return self.family.identifier
+
+    @property
+    def effect(self) -> Effect:
+        """The effect, in its form."""
+        return self.family.effect
+
+
+@dataclass(frozen=True, slots=True)
+class EffectSet:
+    """Effects together, with the amplitudes of what has no name beside them."""
+
+    members: tuple[SetMember, ...]
+    amplitudes: Amplitudes
+    score: float  #: −2·ln of its evidence, but for a constant of the test.
+
+    @property
+    def named(self) -> tuple[SetMember, ...]:
+        """Those that are installed effects."""
+        return tuple(each for each in self.members if each.family.is_named)
+
+    @property
+    def unnamed(self) -> tuple[SetMember, ...]:
+        """Forms without a name."""
+        return tuple(each for each in self.members if not each.family.is_named)
+
+    @property
+    def columns(self) -> list[IntArray]:
+        """The columns of its members."""
+        return [each.columns for each in self.members]
+
+    @property
+    def columns_with_tangents(self) -> list[IntArray]:
+        """The same, and what shifts of their searched parameters would change."""
+        return [*self.columns, *(each.tangents for each in self.members if each.tangents is not None)]
+
+
+def find_installed_name(effect: Effect) -> str:
+    """Return the name of an effect by which it is installed, whichever time it stands in a model."""
+    return part_number(effect.identifier)[0] if effect.several else effect.identifier
+
+
+def list_names(members: Sequence[SetMember]) -> frozenset[str]:
+    """Return the names by which some members are installed."""
+    return frozenset(find_installed_name(each.effect) for each in members)
+
+
+def list_unnamed(found: EffectSet) -> frozenset[str]:
+    """Return the forms without a name that are in a set."""
+    return frozenset(each.identifier for each in found.unnamed)
+
+
+def find_score(found: EffectSet) -> float:
+    """Return the score of a set: what a search makes small."""
+    return found.score
+
+
+def list_beside(members: Sequence[SetMember], effect: Effect) -> tuple[SetMember, ...]:
+    """Return the members that can stand beside an effect: none that it contains or takes the place of."""
+    replaced = {effect.identifier, *effect.contains}
+    return tuple(
+        each
+        for each in members
+        if each.identifier not in replaced and effect.identifier not in each.effect.contains
+    )

@@ -1,0 +1,126 @@
+"""Between the values of a grid: where the searched parameters of a set's effects are best."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from zlmreport.measurement.arrays import FloatArray, IntArray
+from zlmreport.model.diagnosis.contest import Amplitudes, Contest
+from zlmreport.model.diagnosis.effect_set import SetMember
+from zlmreport.model.diagnosis.families import make_orthonormal
+
+#: Evidence by which another part of a grid must be better for a parameter to jump there, and of another form.
+_JUMP, _CLEAR_GAIN = 2.0, 0.5
+#: Values that are tried between two of a grid, in rounds, each about the best of the last.
+_BETWEEN, _ROUNDS, _CLOSER, _REACH = 9, 3, 0.22, 0.8
+
+
+def jump_along_grids(
+    contest: Contest, members: list[SetMember], amplitudes: Amplitudes
+) -> tuple[list[SetMember], bool]:
+    """Return members at better parts of their grids, beside each other, and whether any moved."""
+    found, has_moved = list(members), False
+    for number, member in enumerate(members):
+        forms = [
+            place
+            for place, each in enumerate(contest.families)
+            if each.identifier == member.identifier and each.is_named == member.family.is_named
+        ]
+        if len(forms) == 1 and len(member.family.thetas) == 1:
+            continue
+        rest = [each.columns for place, each in enumerate(found) if place != number]
+        scan = contest.scan(amplitudes, rest, forms)
+        best = min(forms, key=lambda place: float(scan.criterion[place]))
+        own = next(place for place in forms if contest.families[place] is member.family)
+        if not np.isfinite(scan.criterion[best]):
+            continue
+        is_other = scan.criterion[best] < scan.criterion[own] - _CLEAR_GAIN
+        chosen = best if is_other else own
+        family, block = contest.families[chosen], int(scan.best[chosen])
+        moved = contest.criterion(amplitudes, [*rest, family.blocks[block]])
+        if is_other or moved < contest.criterion(amplitudes, [*rest, member.columns]) - _JUMP:
+            found[number] = SetMember(
+                family, family.thetas[block], family.blocks[block], int(family.ranks[block])
+            )
+            has_moved = True
+        found[number] = replace(found[number], spread=float(scan.spread[chosen]))
+    return found, has_moved
+
+
+def refine_member(
+    contest: Contest, members: Sequence[SetMember], number: int, amplitudes: Amplitudes
+) -> SetMember:
+    """Return a member with its searched parameters between those of the grid, one after another."""
+    member = members[number]
+    family, effect = member.family, member.effect
+    places = [
+        (column, np.unique(family.thetas[:, column]))
+        for column, each in enumerate(effect.searched)
+        if each.is_refined
+    ]
+    places = [(column, values) for column, values in places if len(values) > 1]
+    if not places:
+        return member
+    rest = contest.reduced(
+        amplitudes, [each.columns for place, each in enumerate(members) if place != number]
+    )
+    taken = contest.left(rest)[1]
+    theta = member.theta.copy()
+    most = float(contest.explained(rest, contest.columns.values(member.columns)[:, np.newaxis], taken)[0])
+    best: tuple[FloatArray, int] | None = None
+    steps = {}
+    for column, values in places:
+        near = int(np.clip(np.searchsorted(values, theta[column]), 1, len(values) - 1))
+        step = steps[column] = float(values[near] - values[near - 1])
+        for _ in range(_ROUNDS):
+            tried = np.repeat(theta[np.newaxis], _BETWEEN, axis=0)
+            tried[:, column] += step * np.linspace(-_REACH, _REACH, _BETWEEN)
+            tried[:, column] = np.clip(tried[:, column], values[0], values[-1])
+            blocks, ranks, seen = make_orthonormal(
+                contest.space, contest.design, effect, tried, contest.least_visible
+            )
+            if not len(seen):
+                break
+            explained = contest.explained(rest, blocks, taken)
+            leading = int(np.argmax(explained))
+            if explained[leading] > most:
+                most, theta = float(explained[leading]), tried[seen[leading]]
+                best = blocks[:, leading], int(ranks[leading])
+            step *= _CLOSER
+    columns = member.columns if best is None else contest.columns.add(best[0])
+    rank = member.rank if best is None else best[1]
+    moved = replace(member, theta=theta, columns=columns, rank=rank)
+    tangents = _find_tangents(
+        contest, [*members[:number], moved, *members[number + 1 :]], number, amplitudes, steps
+    )
+    return replace(moved, tangents=tangents)
+
+
+def _find_tangents(
+    contest: Contest,
+    members: Sequence[SetMember],
+    number: int,
+    amplitudes: Amplitudes,
+    steps: dict[int, float],
+) -> IntArray | None:
+    """Return the places of what small shifts of a member's searched parameters change."""
+    member = members[number]
+    reduced = contest.reduced(amplitudes, [each.columns for each in members])
+    taken = contest.left(reduced)[1]
+    solved = reduced.set_root.T @ taken[len(reduced.root) :]
+    first = sum(len(each.columns) for each in members[:number])
+    own = contest.columns.values(member.columns) @ solved[first : first + len(member.columns)]
+    effect, design = member.effect, contest.design
+    gamma = np.linalg.lstsq(contest.space.of(effect.columns(design, member.theta)), own, rcond=1e-9)[0]
+    found = []
+    for column, step in steps.items():
+        shift = np.where(np.arange(len(member.theta)) == column, 0.3 * step, 0.0)
+        change = effect.columns(design, member.theta + shift) - effect.columns(design, member.theta - shift)
+        slope = contest.space.of((change @ gamma)[:, np.newaxis])
+        length = float(np.linalg.norm(slope))
+        if length > 0:
+            found.append(slope / length)
+    return contest.columns.add(np.concatenate(found, axis=1)) if found else None
