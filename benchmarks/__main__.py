@@ -29,6 +29,7 @@ OTHERS = {
     "hidden-effects": ("hidden_effects.command", "main"),
     "experiments": ("hidden_effects.command", "main_of_experiments"),
     "several": ("hidden_effects.several", "main"),
+    "owners": ("hidden_effects.owners", "main"),
     "priors": ("hidden_effects.command", "main_of_priors"),
     "coverage": ("coverage_of_u", "main"),
     "worlds": ("coverage_of_worlds", "main"),

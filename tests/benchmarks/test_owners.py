@@ -1,0 +1,23 @@
+"""The axes as owners know them: faults that are known, and a model that is built from nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from hidden_effects.owners import LINEAR, ROTARY, build_model
+from plugins.effects.installed import design_for
+
+
+@pytest.mark.parametrize("name", LINEAR)
+def test_a_fault_of_a_linear_axis_is_seen_in_its_readings(name: str) -> None:
+    design = design_for("backlash")
+    assert 0.5 < np.std(LINEAR[name](design)) < 500
+
+
+@pytest.mark.long
+def test_a_model_is_built_of_what_is_there() -> None:
+    (name,) = (each for each in ROTARY if each.startswith("rotary: gear mesh"))
+    told = build_model(ROTARY[name], 1, is_rotary=True)
+    assert set(told.built.model.identifiers) == {"offset", "gear-mesh", "backlash"}
+    assert told.built.last.error.rms < 1.15 * told.sigma
