@@ -3,7 +3,7 @@
 Two to four causes of the catalogue act together, each of 1.5 to 4 σ beyond a constant, on half of the axes a
 stranger beside them; linear and rotary axes, three or five runs, σ from 0.05 to 3 µm. What is found is told
 axis by axis: a cause counts as found if it stands in the model at the end, a name that no cause has as wrong,
-and a stranger as placed if what is left without a name is told to lie where the stranger is largest.
+and a stranger as placed if it is larger where what is left without a name is told to lie than elsewhere.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from hidden_effects.sizes import base_columns
 from hidden_effects.strangers import STRANGERS
 from hidden_effects.trial import EFFECTS, OF_A_GAUGE, drawn_stranger, measured, sum_of
 from hidden_effects.weather import wandering
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.diagnosis.building import build
 from zlmreport.model.diagnosis.contest import Told
@@ -55,8 +56,9 @@ class Drawn:
     stranger: str | None
     observed: Observations
     sigma: float  #: m or rad.
-    #: Position (m or rad) and time (s) where the stranger is largest, less a constant; None without one.
-    peak: tuple[float, float] | None = None
+    beside: FloatArray | None = (
+        None  #: (N,): What the stranger adds to each reading, less its mean, m or rad.
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +70,7 @@ class Outcome:
     equals: Mapping[str, frozenset[str]]  #: Effects that were named as equals of each that was added.
     left: float  #: Error at the end, over σ.
     remainder: bool  #: Whether something is told to be left without a name.
-    is_placed: bool  #: Whether it is told to lie where the stranger is largest, within a step of the targets.
+    is_placed: bool  #: Whether the stranger is larger where it is told to lie than elsewhere.
     seconds: float  #: CPU of the dearest diagnosis.
 
     @property
@@ -119,15 +121,14 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
             causes.append(term)
         if len(causes) == _CAUSES[number % len(_CAUSES)]:
             break
-    deviation, stranger, peak = sum_of(causes, design), None, None
+    deviation, stranger, beside = sum_of(causes, design), None, None
     if with_stranger:
         rms = sigma * float(random.uniform(*_SIZES))
         for name in random.permutation(sorted(STRANGERS)).tolist():
             drawn = drawn_stranger(STRANGERS[name], design, base, rms, random)
             if drawn is not None:
                 stranger, deviation = name, deviation + drawn[1]
-                at = int(np.argmax(np.abs(drawn[1] - drawn[1].mean())))
-                peak = float(design.position[at]), float(design.time[at])
+                beside = np.asarray(drawn[1] - drawn[1].mean(), dtype=np.float64)
                 break
     readings = measured(description, design, np.zeros(len(deviation)), deviation).measurements
     observed = make_observations_of(readings, overrun=description.plan.overrun)
@@ -137,7 +138,7 @@ def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
         stranger,
         observed,
         sigma,
-        peak,
+        beside,
     )
 
 
@@ -172,13 +173,14 @@ def followed(drawn: Drawn) -> Outcome:
 
 
 def _is_placed(remainder: Remainder, drawn: Drawn) -> bool:
-    """Return whether a remainder spans the place or the moment at which the stranger is largest."""
-    if drawn.peak is None:
+    """Return whether the stranger is larger between the ends of a remainder than beyond them."""
+    if drawn.beside is None:
         return False
-    design, is_in_time = drawn.observed.design, remainder.unit.symbol == "s"
-    steps = np.diff(np.unique(design.time if is_in_time else design.position))
-    step = float(np.median(steps))
-    return remainder.low - step <= drawn.peak[is_in_time] <= remainder.high + step
+    design = drawn.observed.design
+    where = design.time if remainder.unit.symbol == "s" else design.position
+    is_inside = (remainder.low <= where) & (where <= remainder.high)
+    inside, outside = drawn.beside[is_inside] ** 2, drawn.beside[~is_inside] ** 2
+    return len(inside) > 0 and (len(outside) == 0 or float(inside.mean()) > float(outside.mean()))
 
 
 def report(outcomes: Sequence[Outcome]) -> str:
