@@ -38,6 +38,11 @@ from zlmreport_step_gauge.uncertainty import list_gauge_contributions
 #: Heads what a certificate says of a gauge.
 TITLE = Words("Step gauge")
 _SECTION = Words("blocks {first} to {last}")
+_APART = Words(
+    "The step gauge is stated at {gauge} °C, and the air at {air} °C: they lie {difference} K apart"
+)
+#: Kelvins by which a gauge that lay on the machine for an hour hardly differs from the air.
+_ALIKE = 5.0
 
 
 def describe(set_up: GaugeSetUp, writer: Writer) -> Described:
@@ -175,6 +180,14 @@ class StepGaugeExtension(Extension):
         return list_gauge_contributions(
             make_gauge_set_up(job, options), measurements, expansion_is_stated=stated_as_range
         )
+
+    def doubts(self, job: Job, options: StepGaugeKeys, measurements: MeasurementSet) -> Iterator[Words]:  # noqa: ARG002
+        """Yield that the gauge is far from the temperature of the air."""
+        air = job.keys.environment.air_temperature if job.keys.environment else None
+        gauge = options.gauge_temperature
+        if gauge is not None and isinstance(air, float) and abs(gauge - air) > _ALIKE:
+            difference = float(f"{abs(gauge - air):.3g}")
+            yield _APART.given(gauge=gauge, air=air, difference=difference)
 
     def described(self, job: Job, options: StepGaugeKeys, writer: Writer) -> Described:
         """Return which section of the gauge was used, where it lay, and the graph of its calibration."""

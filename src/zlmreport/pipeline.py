@@ -176,6 +176,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
                 (
                     *find_doubts(line, of_line, [each.evaluation for each in by]),
                     *find_doubts_of_runs(of_line),
+                    *_find_doubts_of_extensions(line, of_line, registry),
                 ),
             )
             for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
@@ -250,6 +251,12 @@ def evaluate_tests(
 def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
     return GENERATOR, registry.versions(job)
+
+
+def _find_doubts_of_extensions(job: Job, measurements: MeasurementSet, registry: Registry) -> Iterator[Words]:
+    """Yield what the extensions of a job doubt of their groups of keys."""
+    for extension, choice in registry.extensions_of(job):
+        yield from extension.doubts(job, choice.options, measurements)
 
 
 def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registry) -> Budget | NoBudget:

@@ -5,6 +5,7 @@ Each is refused or marked where it is read, and of none is anything printed that
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,8 +31,13 @@ from doubtful.doubtful_jobs import (
     write,
 )
 from doubtful.test_twenty_jobs import ANGLES, GERMAN, SHEET, STANDARD, TURNING, by, false_in
+from zlmreport import pipeline
 from zlmreport.document.certificate.document import Certificate
+from zlmreport.errors import InputError
+from zlmreport.evaluation import traceability
 from zlmreport.evaluation.evaluation import Least
+from zlmreport.job.loading import load
+from zlmreport.language import Language
 
 Spoil = Callable[[np.ndarray], np.ndarray]
 _COUNT = len(order())
@@ -158,10 +164,10 @@ JOBS: dict[str, Doubtful] = {
         logged=("time", [each / 2000 for each in _EVEN]),
         targets=tuple(ANGLES),
     ),
-    "a barometer that fell silent": Doubtful(
+    "a barometer that falls": Doubtful(
         changed(SHEET),
-        "Air pressure: 0 hPa was logged at a reading, which is unusual",
-        logged=("air_pressure", [1013.0] * (_COUNT - 3) + [0.0] * 3),
+        "Air pressure: 560 hPa was logged at a reading, which is unusual",
+        logged=("air_pressure", [1013.0] * (_COUNT - 3) + [560.0] * 3),
     ),
     "a run with its directions interchanged": Doubtful(
         SOUND, "in the others: its directions seem to be interchanged", interchanged
@@ -242,6 +248,53 @@ def test_an_undated_report_claims_no_traceability(tmp_path: Path) -> None:
     undated = changed(REPORT, of=without("measurement.date", keys=SOUND))
 
     assert "metrologically traceable" not in text_of(composed(tmp_path, undated))
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("air_pressure", 0.0), ("air_temperature", -273.15), ("relative_humidity", 140.0)]
+)
+def test_air_that_is_nowhere_is_refused_at_its_reading(name: str, value: float, tmp_path: Path) -> None:
+    usual = {"air_pressure": 1013.0, "air_temperature": 20.0, "relative_humidity": 50.0}[name]
+    written(tmp_path, readings(), name, [usual] * (_COUNT - 3) + [value] * 3)
+
+    with pytest.raises(InputError, match=rf"(?s):\d+:\d+: {name} is not between .*was a sensor silent"):
+        documents.certificate(tmp_path, SOUND)
+
+
+def test_a_square_without_a_calibration_certificate_is_marked(tmp_path: Path) -> None:
+    shutil.copytree(documents.ROOT / "configs", tmp_path / "configs")
+    path = tmp_path / "configs/machine/xy-squareness.yaml"
+    said = (
+        "What was measured against (square): no calibration certificate named, so not shown to be traceable"
+    )
+    assert said not in _doubts_of(path)
+
+    text = path.read_text(encoding="utf-8")
+    path.write_text(text.replace(", certificate: EXAMPLE-CAL-9}", "}"), encoding="utf-8")
+
+    assert said in _doubts_of(path)
+
+
+def _doubts_of(path: Path) -> list[str]:
+    job = load(path, documents.registry())
+    found = traceability.find_doubts(job, pipeline.read(job, documents.registry()))
+    return [each.in_language(Language.ENGLISH) for each in found]
+
+
+@pytest.mark.parametrize(
+    ("count", "said"),
+    [
+        (4, "One more reading lies as far from the others of its target"),
+        (6, "3 more readings lie as far from the others of their targets"),
+    ],
+)
+def test_readings_beyond_those_that_are_named_are_counted(count: int, said: str, tmp_path: Path) -> None:
+    spoilt = readings()
+    for number in range(count):
+        spoilt[2 * number, number % 2, number % 5] += 60.0
+    written(tmp_path, spoilt)
+
+    assert said in first_page(documents.certificate(tmp_path, SOUND))
 
 
 # What is sound is not marked.

@@ -267,8 +267,8 @@ def test_a_condition_that_cannot_be_is_in_a_wrong_unit() -> None:
     ]
     assert complaints(readings) == [
         (
-            "x.csv:2:1: air_pressure is not between 0 and 1200 hPa here (readings like this: 3); "
-            "is its unit right?"
+            "x.csv:2:1: air_pressure is not between 300 and 1200 hPa here (readings like this: 3); "
+            "is its unit right, or was a sensor silent?"
         )
     ]
 

@@ -68,6 +68,15 @@ def test_a_doubtful_calibration_of_a_gauge_is_marked(
     assert said in cover
 
 
+def test_a_gauge_that_is_far_from_the_air_is_marked(tmp_path: Path) -> None:
+    said = "The step gauge is stated at 31 °C, and the air at 20.5 °C: they lie 10.5 K apart"
+    for temperature, marked in (("31", [said]), ("24", [])):
+        change = ("gauge_temperature: 20.4 ", f"gauge_temperature: {temperature} ")
+        document = composed(tmp_path / temperature, change, file="job.yaml")
+        cover = [line for block in document.cover for line in lines_of(block)]
+        assert [said for line in cover if said in line] == marked
+
+
 def test_too_short_a_section_does_not_fit_the_points_on_it(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="count the blocks between them"):
         composed(tmp_path, ("last_block: 13", "last_block: 4"), file="job.yaml")

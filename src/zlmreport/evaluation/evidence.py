@@ -35,7 +35,8 @@ _OUTLIER = Words(
     "in the "
     "results (measurement.excluded sets it aside)"
 )
-_MORE_OUTLIERS = Words("As far from the others of their targets lie more readings (number: {count})")
+_ONE_MORE_OUTLIER = Words("One more reading lies as far from the others of its target")
+_MORE_OUTLIERS = Words("{count} more readings lie as far from the others of their targets")
 _SPIKE = Words(
     "A single reading at {target} lies {distance} from those before and after it, and is in the results"
 )
@@ -212,8 +213,9 @@ def _find_outliers(measurements: MeasurementSet, readings: FloatArray) -> Iterat
             arrow=tuple(Approach)[direction].arrow,
             distance=_write_size(measurements, abs(float(distance[direction, position, run]))),
         )
-    if len(far) > _MOST_NAMED:
-        yield _MORE_OUTLIERS.given(count=len(far) - _MOST_NAMED)
+    further = len(far) - _MOST_NAMED
+    if further > 0:
+        yield _ONE_MORE_OUTLIER if further == 1 else _MORE_OUTLIERS.given(count=further)
 
 
 def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:

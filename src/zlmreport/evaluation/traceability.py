@@ -1,8 +1,7 @@
 """Whether the chain of calibrations that a job states holds: dates, certificates, the accredited scope.
 
 A calibration certificate is refused where the chain is broken by the job's own words; what is merely not
-said,
-or old, is marked on its first page, as all of it is in a measuring report.
+said, or old, is marked on its first page, as all of it is in a measuring report.
 """
 
 from __future__ import annotations
@@ -56,6 +55,7 @@ _OTHER_CAPABILITY = Words(
 _OF_QUANTITY = {each.identifier: each.title for each in (POSITIONING, STRAIGHTNESS, ANGLE, CIRCLE)}
 _OF_STANDARD = Words("results by {standard}")
 _INSTRUMENT = Words("Measuring instrument")
+_ARTEFACT = Words("What was measured against ({key})")
 _OUT_OF_RANGE = Words("Outside the calibrated range of the measuring instrument: {what}")
 _OF_SPAN = Words("results over {length} (it is calibrated over {most})")
 _OF_TEMPERATURE = Words(
@@ -74,7 +74,11 @@ class _Break(NamedTuple):
 
 def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each place at which the chain does not hold, or is not said to."""
-    found = (*_find_breaks_of_instruments(job.keys), *_find_breaks_of_temperatures(job, measurements))
+    found = (
+        *_find_breaks_of_instruments(job.keys),
+        *_find_breaks_of_artefacts(job),
+        *_find_breaks_of_temperatures(job, measurements),
+    )
     return (
         *(each.words for each in found),
         *_say_out_of_scope(job, measurements),
@@ -117,15 +121,21 @@ def _list_artefacts(job: Job) -> Iterator[str]:
     An artefact is a group of keys that a standard takes from the measurement, such as a square, or causes a
     contribution that the job states with its certificate.
     """
-    for choice in job.standards:
-        groups = (getattr(choice.options, key, None) for key in choice.options.of_the_measurement)
-        for group in groups:
-            certificate = getattr(group, "certificate", None)
-            if certificate or getattr(group, "expanded_uncertainty", None) is not None:
-                yield certificate or ""
+    for _, group in _list_artefact_keys(job):
+        yield getattr(group, "certificate", None) or ""
     for line in job.lines.values():
         stated = line.keys.uncertainty.contributions if line.keys.uncertainty else ()
         yield from (each.certificate for each in stated if each.certificate)
+
+
+def _list_artefact_keys(job: Job) -> Iterator[tuple[str, object]]:
+    """Yield the groups of keys of which a certificate or U is stated, each by its name."""
+    for choice in job.standards:
+        for key in choice.options.of_the_measurement:
+            group = getattr(choice.options, key, None)
+            is_stated = getattr(group, "expanded_uncertainty", None) is not None
+            if getattr(group, "certificate", None) or is_stated:
+                yield key, group
 
 
 def is_within_calibrated_range(job: Job, measurements: MeasurementSet) -> bool:
@@ -156,6 +166,15 @@ def _find_breaks_of_instruments(keys: JobKeys) -> Iterator[_Break]:
         yield from _find_breaks_of_calibration(
             keys, each, f"environment.thermometers.{number}", same(each.name)
         )
+
+
+def _find_breaks_of_artefacts(job: Job) -> Iterator[_Break]:
+    """Yield the artefacts that no calibration certificate is named of, each once."""
+    for key, group in dict(_list_artefact_keys(job)).items():
+        if not is_reference(getattr(group, "certificate", None) or ""):
+            name = getattr(group, "name", None)
+            what = same(name) if name else _ARTEFACT.given(key=key)
+            yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
 
 
 def _find_breaks_of_calibration(

@@ -364,7 +364,7 @@ def _check_conditions_are_credible(
             yield Problem(
                 places[beyond[0]],
                 f"{name} is not between {kind.lowest:g} and {kind.highest:g} {kind.unit.symbol} "
-                f"here (readings like this: {beyond.size}); is its unit right?",
+                f"here (readings like this: {beyond.size}); is its unit right, or was a sensor silent?",
             )
 
 

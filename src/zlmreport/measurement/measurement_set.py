@@ -54,7 +54,8 @@ CONDITION_NAMES: Mapping[str, Words] = MappingProxyType(
 STATE_OF_AIR = ("air_temperature", "air_pressure", "relative_humidity")
 
 _TEMPERATURE = ConditionKind(TEMPERATURE_UNITS, CELSIUS, -50.0, 150.0, (0.0, 45.0))
-_PRESSURE = ConditionKind(PRESSURE_UNITS, HECTOPASCAL, 0.0, 1200.0, (600.0, 1100.0))
+#: On the highest mountain it is some 330 hPa: below, a barometer fell silent.
+_PRESSURE = ConditionKind(PRESSURE_UNITS, HECTOPASCAL, 300.0, 1200.0, (600.0, 1100.0))
 _HUMIDITY = ConditionKind(RATIO_UNITS, PERCENT, 0.0, 100.0, (2.0, 100.0))
 
 #: By name; `axis_temperature` is that of the machine's scale.

@@ -212,6 +212,10 @@ class Extension:
         """Return contributions to the uncertainty that stand for that of the instrument."""
         return ()
 
+    def doubts(self, job: Job, options: Any, measurements: MeasurementSet) -> Iterable[Words]:  # noqa: ARG002
+        """Return a sentence for each thing of the group that a reader may doubt: the first page marks it."""
+        return ()
+
     def described(self, job: Job, options: Any, writer: Writer) -> Described | None:  # noqa: ARG002
         """Return what the certificate says of the group, in the section on conditions."""
         return None

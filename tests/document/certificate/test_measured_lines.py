@@ -5,6 +5,8 @@ from typing import Any
 
 from document.certificate.documents import COMPLETE, certificate
 from zlmreport.document.blocks import Table
+from zlmreport.document.certificate.measured_lines import say_of_each
+from zlmreport.language import Language, same
 
 READINGS = "target,direction,run,deviation\n" + "".join(
     f"{at},{way},1,{at * 0.01}\n" for way in "+-" for at in range(0, 500, 100)
@@ -39,3 +41,16 @@ def test_budgets_that_differ_are_printed_each(tmp_path: Path) -> None:
     other = {"name": "Another", "certificate": "C-9", "expanded_uncertainty": 2.0}
     captions = budgets(tmp_path, instrument=other)
     assert [each[:2] for each in captions] == ["x:", "y:"]
+
+
+def test_what_holds_of_every_line_is_said_once() -> None:
+    shared, own = same("The instrument is old"), same("One run mirrors the others")
+    said = [
+        each.in_language(Language.ENGLISH) for each in say_of_each([("x", [shared, own]), ("y", [shared])])
+    ]
+    assert said == ["The instrument is old", "x: One run mirrors the others"]
+
+
+def test_what_a_single_line_shows_has_no_name() -> None:
+    said = list(say_of_each([("", [same("The instrument is old")])]))
+    assert [each.in_language(Language.ENGLISH) for each in said] == ["The instrument is old"]

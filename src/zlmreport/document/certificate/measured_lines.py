@@ -21,10 +21,17 @@ _TABLE = Words("{name}: {caption}")
 
 
 def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
-    """Yield sentences, each with the name of the line that it is on; without one where there is only one."""
-    for name, sentences in lines:
+    """Yield sentences, each with the name of the line that it is on; without one where there is only one.
+
+    What holds of every line, as of the instrument that read them all, is said once.
+    """
+    listed = [(name, tuple(sentences)) for name, sentences in lines]
+    of_all = [said for said in listed[0][1] if all(said in own for _, own in listed)] if listed[1:] else []
+    yield from of_all
+    for name, sentences in listed:
         for said in sentences:
-            yield _NAMED.given(name=name, said=said) if name else said
+            if said not in of_all:
+                yield _NAMED.given(name=name, said=said) if name else said
 
 
 def make_writer_of(test: Tested, writer: Writer) -> Writer:
