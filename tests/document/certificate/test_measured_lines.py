@@ -4,7 +4,10 @@ from pathlib import Path
 from typing import Any
 
 from document.certificate.documents import COMPLETE, certificate
-from zlmreport.document.blocks import Table
+from zlmreport.document.blocks import Paragraph, Table
+from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.measured_lines import say_of_each
+from zlmreport.language import Language, Words
 
 READINGS = "target,direction,run,deviation\n" + "".join(
     f"{at},{way},1,{at * 0.01}\n" for way in "+-" for at in range(0, 500, 100)
@@ -39,3 +42,50 @@ def test_budgets_that_differ_are_printed_each(tmp_path: Path) -> None:
     other = {"name": "Another", "certificate": "C-9", "expanded_uncertainty": 2.0}
     captions = budgets(tmp_path, instrument=other)
     assert [each[:2] for each in captions] == ["x:", "y:"]
+
+
+def of_a_drift(folder: Path, *sensors: str) -> Certificate:
+    """Return a report on a drift by sensors that one file has."""
+    header = ",".join(["time (h)", *(f"{name} (µm)" for name in sensors)])
+    rows = [",".join([str(hour), *[str(hour * 0.5)] * len(sensors)]) for hour in range(9)]
+    (folder / "drift.csv").write_text("\n".join([header, *rows]) + "\n", encoding="utf-8")
+    source = {"plugin": "channels-csv", "file": "drift.csv"}
+    keys = {name: each for name, each in COMPLETE.items() if name != "axis"}
+    return certificate(
+        folder,
+        {
+            **keys,
+            "certificate": {**COMPLETE["certificate"], "kind": "report"},
+            "measurement": {"date": "2022-04-18", "source": source, "tests": {name: {} for name in sensors}},
+            "evaluate": ["iso230-3"],
+        },
+    )
+
+
+def test_lines_whose_readings_are_in_files_share_a_section_and_their_file_is_listed_once(
+    tmp_path: Path,
+) -> None:
+    sections = {each.key: each for each in of_a_drift(tmp_path, "X", "Y", "Z").sections}
+    (said,) = [each for key, each in sections.items() if key.endswith("-readings")]
+    assert said.title == "X, Y, Z: Readings"
+    assert next(each for each in said.blocks if isinstance(each, Paragraph)).text.startswith(
+        "The 27 readings"
+    )
+    files = next(each for each in sections["origin"].blocks if isinstance(each, Table))
+    assert files.groups[0].heading == "Readings of X, Y, Z, read by channels-csv"
+    assert len(files.groups[0].rows) == 1
+
+
+def test_what_is_said_of_all_lines_is_said_once_and_of_some_with_their_names() -> None:
+    one, other, own = Words("one"), Words("other"), Words("own")
+    lines = [("x", [one, other]), ("y", [one, other, own]), ("z", [one])]
+    said = [each.in_language(Language.ENGLISH) for each in say_of_each(lines)]
+    assert said == ["one", "x, y: other", "y: own"]
+
+
+def test_what_is_said_of_one_line_has_its_name_and_of_no_line_none() -> None:
+    said = [
+        [each.in_language(Language.ENGLISH) for each in say_of_each([(name, [Words("one")])])]
+        for name in ("x", "")
+    ]
+    assert said == [["x: one"], ["one"]]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Section, Table
 from zlmreport.document.certificate import conditions, readings, results, uncertainty
 from zlmreport.document.writer import Writer
-from zlmreport.language import Words
+from zlmreport.language import Row, Words, same
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.results import Evaluated, Tested
@@ -21,10 +21,22 @@ _TABLE = Words("{name}: {caption}")
 
 
 def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
-    """Yield sentences, each with the name of the line that it is on; without one where there is only one."""
+    """Yield sentences, each once, with the names of the lines that it is on; without where it is on all."""
+    count = 0
+    said: list[tuple[Words, list[str | Words]]] = []
     for name, sentences in lines:
-        for said in sentences:
-            yield _NAMED.given(name=name, said=said) if name else said
+        count += 1
+        for sentence in sentences:
+            names = next((names for known, names in said if known == sentence), None)
+            if names is None:
+                said.append((sentence, [name]))
+            elif name not in names:
+                names.append(name)
+    for sentence, names in said:
+        if len(names) == count > 1 or not names[0]:
+            yield sentence
+        else:
+            yield _NAMED.given(name=Row(tuple(map(same, names))), said=sentence)
 
 
 def make_writer_of(test: Tested, writer: Writer) -> Writer:
@@ -69,11 +81,27 @@ def lay_out_results(
 
 
 def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
-    """Yield the readings of each line."""
+    """Yield the readings of each line; lines of which the same is said, as they are in files, share a section."""
+    found: list[tuple[Section, list[Tested]]] = []
     for test in tests:
-        own = make_writer_of(test, writer)
-        section = readings.lay_out_readings(test.measurements, own, f"measurement.tests.{test.name}.source")
-        yield replace(section, key=f"{test.name}-readings", title=_write_title(test, section.title, own))
+        section = _lay_out_readings_of([test], writer)
+        is_in_files = test.measurements.axis.measurand.is_continuous
+        sharing = next((each for known, each in found if is_in_files and known == section), None)
+        if sharing is None:
+            found.append((section, [test]))
+        else:
+            sharing.append(test)
+    for section, sharing in found:
+        whole = section if len(sharing) == 1 else _lay_out_readings_of(sharing, writer)
+        title = _NAMED.given(name=", ".join(each.name for each in sharing), said=section.title)
+        yield replace(whole, key=f"{sharing[0].name}-readings", title=writer.say(title))
+
+
+def _lay_out_readings_of(tests: Sequence[Tested], writer: Writer) -> Section:
+    """Return the readings of a line, or of lines of which the same is said."""
+    first = tests[0]
+    key = f"measurement.tests.{first.name}.source"
+    return readings.lay_out_readings(first.measurements, make_writer_of(first, writer), key, lines=len(tests))
 
 
 def lay_out_uncertainty(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:
