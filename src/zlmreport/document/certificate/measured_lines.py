@@ -81,7 +81,7 @@ def lay_out_results(
 
 
 def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
-    """Yield the readings of each line; lines of which the same is said, as they are in files, share a section."""
+    """Yield the readings of each line; lines that have theirs in files share a section, said the same way."""
     found: list[tuple[Section, list[Tested]]] = []
     for test in tests:
         section = _lay_out_readings_of([test], writer)
