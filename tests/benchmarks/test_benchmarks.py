@@ -124,6 +124,29 @@ def test_the_page_prints_the_tables_of_hard_worlds_that_were_measured(
     assert worlds.tables(results) in page.read_text(encoding="utf-8")
 
 
+def test_the_page_prints_the_tables_of_quantities_that_were_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    quantities = import_module("coverage_of_quantities")
+    kept = quantities.read(BENCHMARKS / "measured" / "quantities.jsonl")
+    page = BENCHMARKS.parent / "docs" / "explanation" / "uncertainty.md"
+
+    assert {(row["title"], row["world"]) for row in kept} == {
+        (name, world) for name, each in quantities.QUANTITIES.items() for world in each.worlds
+    }
+    assert quantities.tables(kept) in page.read_text(encoding="utf-8")
+
+
+def test_a_table_of_a_quantity_prints_the_world_that_was_kept_last_and_what_has_no_value(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.syspath_prepend(BENCHMARKS)
+    tables = import_module("coverage_of_quantities").tables
+    row = {"title": "squareness", "world": "square", "trials": 200, "held": {"C0Y": 0.95, "slope_1": 0.9}}
+    printed = tables([{**row, "trials": 100}, row]).splitlines()
+    begin = printed.index("| Squareness | tests | C0Y | m<sub>1</sub> | m<sub>2</sub> |")
+    assert printed[begin + 2] == "| square | 200 | 95.0 | 90.0 | – |"
+
+
 @pytest.mark.long
 def test_a_world_that_is_among_the_results_is_not_measured_again(tmp_path: Path) -> None:
     results = tmp_path / "worlds.jsonl"

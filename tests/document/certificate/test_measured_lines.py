@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from document.certificate.documents import COMPLETE, certificate
-from zlmreport.document.blocks import Paragraph, Table
+from zlmreport.document.blocks import Facts, Paragraph, Table
 from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.language import Language, Words
@@ -14,8 +14,8 @@ READINGS = "target,direction,run,deviation\n" + "".join(
 )
 
 
-def budgets(folder: Path, **second: Any) -> list[str]:
-    """Return the captions of the budgets of two straightness lines; `second`: of the second's job."""
+def of_two_lines(folder: Path, **second: Any) -> Certificate:
+    """Return a report on the squareness of two straightness lines; `second`: of the second's job."""
     (folder / "line.csv").write_text(READINGS, encoding="utf-8")
     source = {"plugin": "laser-csv", "file": "line.csv"}
     tests = {"x": {"error": "EYX", "source": source}, "y": {"error": "EXY", "source": source, **second}}
@@ -27,8 +27,12 @@ def budgets(folder: Path, **second: Any) -> list[str]:
         "square": {"expanded_uncertainty": 0.5} if second else {},
         "evaluate": ["iso230-1:2012"],
     }
-    document = certificate(folder, whole)
-    section = next(each for each in document.sections if each.key == "uncertainty")
+    return certificate(folder, whole)
+
+
+def budgets(folder: Path, **second: Any) -> list[str]:
+    """Return the captions of the budgets of two straightness lines; `second`: of the second's job."""
+    section = next(each for each in of_two_lines(folder, **second).sections if each.key == "uncertainty")
     captions = [each.caption for each in section.blocks if isinstance(each, Table)]
     return [each for each in captions if "budget" in each]
 
@@ -89,3 +93,24 @@ def test_what_is_said_of_one_line_has_its_name_and_of_no_line_none() -> None:
         for name in ("x", "")
     ]
     assert said == [["x: one"], ["one"]]
+
+
+def test_lines_without_results_of_their_own_share_a_section_that_tells_only_what_differs(
+    tmp_path: Path,
+) -> None:
+    document = of_a_drift(tmp_path, "X", "Y", "Z")
+    assert not [each for each in document.sections if each.key.endswith("-line")]
+    lines = next(each for each in document.sections if each.key == "lines")
+    assert lines.title == "Sensors"
+    assert ("Record", "8 h, read at 9 moments") in [
+        pair for each in lines.blocks if isinstance(each, Facts) for pair in each.pairs
+    ]
+    (table,) = [each for each in lines.blocks if isinstance(each, Table)]
+    assert [each.heading for each in table.columns] == ["Sensor", "Measured"]
+    assert [row[0] for row in table.groups[0].rows] == ["X", "Y", "Z"]
+
+
+def test_a_line_with_results_of_its_own_has_a_section(tmp_path: Path) -> None:
+    keys = [each.key for each in of_two_lines(tmp_path).sections]
+    assert [each for each in keys if each.endswith("-line")] == ["x-line", "y-line"]
+    assert "lines" not in keys

@@ -6,10 +6,22 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Section, Table
+from zlmreport.document.blocks import (
+    Block,
+    Column,
+    ColumnKind,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    RowGroup,
+    Section,
+    Table,
+)
 from zlmreport.document.certificate import conditions, readings, results, uncertainty
-from zlmreport.document.writer import Writer
+from zlmreport.document.writer import NOTHING, Writer
 from zlmreport.language import Row, Words, same
+from zlmreport.measurement.measurand import Coordinate
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.results import Evaluated, Tested
@@ -59,25 +71,61 @@ def lay_out_results(
 ) -> Iterator[Section]:
     """Yield a section for each line: its circumstances, and what standards give for it alone.
 
+    Lines of which there is no more than their circumstances share a section, which says once what they share.
+
     `known`: The facts that the document states of all of them.
     """
     said = {pair for _, facts in known for pair in facts.pairs}
+    bare: list[tuple[Tested, list[Facts]]] = []
     for test in tests:
         own = make_writer_of(test, writer)
-        yield Section(
-            f"{test.name}-line",
-            _write_title(test, own.say(test.measurements.axis.subject), own),
-            (
-                *_list_circumstances(test, said, own),
-                *conditions.lay_out_corrections(test.measurements, own),
-                *(
-                    _rename_block(block, test.name)
-                    for each in test.evaluated
-                    for block in section_of(each, own).blocks
-                    if not isinstance(block, Formulas)
-                ),
+        circumstances = list(_list_circumstances(test, said, own))
+        blocks = [
+            *conditions.lay_out_corrections(test.measurements, own),
+            *(
+                _rename_block(block, test.name)
+                for each in test.evaluated
+                for block in section_of(each, own).blocks
+                if not isinstance(block, Formulas)
             ),
+        ]
+        if blocks:
+            title = _write_title(test, own.say(test.measurements.axis.subject), own)
+            yield Section(f"{test.name}-line", title, (*circumstances, *blocks))
+        else:
+            bare.append((test, circumstances))
+    if bare:
+        yield _lay_out_bare_lines(bare, writer)
+
+
+def _lay_out_bare_lines(lines: Sequence[tuple[Tested, Sequence[Facts]]], writer: Writer) -> Section:
+    """Return what is stated of some lines: what all share, and a row for each with what they do not."""
+    (first, of_first), *_ = lines
+    stated = [
+        {(facts.heading, label): value for facts in circumstances for label, value in facts.pairs}
+        for _, circumstances in lines
+    ]
+    names = [test.name for test, _ in lines]
+    labels = dict.fromkeys(label for each in stated for label in each)
+    values = {label: [each.get(label, NOTHING) for each in stated] for label in labels}
+    differing = [label for label, found in values.items() if len(set(found)) > 1 and found != names]
+    blocks: list[Block] = []
+    for facts in of_first:
+        pairs = tuple(pair for pair in facts.pairs if set(values[facts.heading, pair[0]]) == {pair[1]})
+        if pairs:
+            blocks.append(replace(facts, pairs=pairs))
+    is_over_time = first.measurements.axis.measurand.coordinate is Coordinate.TIME
+    title = writer.say(Words("Sensors") if is_over_time else Words("Lines"))
+    if differing:
+        columns = (
+            Column(writer.say(conditions.say_measured_of(first.job))),
+            *(Column(label, kind=ColumnKind.SENTENCES) for _, label in differing),
         )
+        rows = tuple(
+            (name, *(values[label][number] for label in differing)) for number, name in enumerate(names)
+        )
+        blocks.append(Table(title, columns, (RowGroup(rows),), dense=True))
+    return Section("lines", title, tuple(blocks))
 
 
 def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
