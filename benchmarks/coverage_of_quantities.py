@@ -9,6 +9,8 @@ against that of the true readings. A world states to the job what it does, and n
 from __future__ import annotations
 
 import argparse
+import json
+import re
 import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -113,6 +115,36 @@ def held_in(
         }
 
     return share_held(trial, trials, _SEED)
+
+
+def read(results: Path) -> list[dict[str, Any]]:
+    """Return what a file keeps of worlds, a row for each."""
+    return [json.loads(line) for line in results.read_text(encoding="utf-8").splitlines()]
+
+
+def tables(kept: Iterable[Mapping[str, Any]]) -> str:
+    """Return a table for each quantity, as a page prints it: of a world the row that was kept last."""
+    last = {(row["title"], row["world"]): row for row in kept}
+    lines = []
+    for name, quantity in QUANTITIES.items():
+        heads = " | ".join(map(_write_symbol, quantity.symbols))
+        lines += [
+            "",
+            f"| {name.capitalize()} | tests | {heads} |",
+            f"|---|{'--:|' * (1 + len(quantity.symbols))}",
+        ]
+        for world in quantity.worlds:
+            if row := last.get((name, world)):
+                held = (row["held"].get(symbol) for symbol in quantity.symbols)
+                cells = " | ".join("–" if each is None else f"{100 * each:.1f}" for each in held)
+                lines.append(f"| {world} | {row['trials']} | {cells} |")
+    return "\n".join(lines).lstrip()
+
+
+def _write_symbol(symbol: str) -> str:
+    """Return a symbol as a page writes it."""
+    arrows = symbol.replace("_fwd", "↑").replace("_bwd", "↓").replace("slope", "m")
+    return re.sub(r"_([A-Za-z0-9_]+)", lambda found: f"<sub>{found[1].replace('_', ' ')}</sub>", arrows)
 
 
 def main(arguments: list[str] | None = None) -> None:

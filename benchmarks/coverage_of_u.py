@@ -31,7 +31,8 @@ from zlmreport.evaluation.uncertainty.drift import (
     find_drift_range,
     sample_drifts,
 )
-from zlmreport.evaluation.uncertainty.monte_carlo import propagate, sample_singly
+from zlmreport.evaluation.uncertainty.monte_carlo import propagate
+from zlmreport.evaluation.uncertainty.sampling import sample_singly
 from zlmreport.job.types import Options
 from zlmreport.language import same
 from zlmreport.measurement.arrays import FloatArray

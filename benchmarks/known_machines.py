@@ -112,6 +112,14 @@ def _straightness() -> Quantity:
                 },
                 mirror,
             ),
+            **_worlds(
+                {
+                    "finer mirror, each position": (set_ups.at_each_position(0.12),),
+                    "finer mirror, one wave": (set_ups.wave(0.12, 1.0),),
+                    "finer mirror, two waves": (set_ups.wave(0.12, 2.0),),
+                },
+                _stated(0.24),
+            ),
             "slope of 100 µm/m, scale of 1 %": World(
                 (set_ups.in_proportion(0.5),), _stated(_NOTHING, 0, scale)
             ),

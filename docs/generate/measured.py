@@ -1,6 +1,7 @@
 """Puts the tables of a benchmark into their page: ``python docs/generate/measured.py NAME RESULTS``.
 
-RESULTS is the file that ``./run benchmark NAME`` keeps, of ``hidden-effects``, ``experiments`` or ``worlds``.
+RESULTS is the file that ``./run benchmark NAME`` keeps, of ``hidden-effects``, ``experiments``, ``worlds`` or
+``quantities``.
 Of results that name the state of their code those of the last one count. To make them takes hours: tests only
 hold the tables against the results that stand beside the benchmarks.
 """
@@ -16,16 +17,18 @@ _PAGES = _ROOT / "docs" / "explanation"
 
 sys.path.insert(0, str(_ROOT / "benchmarks"))
 
-import coverage_of_worlds  # noqa: E402 - found beside this folder
+import coverage_of_quantities  # noqa: E402 - found beside this folder
+import coverage_of_worlds  # noqa: E402 - the same
 from hidden_effects import records  # noqa: E402 - the same
 from hidden_effects.tables import experiments, report  # noqa: E402 - the same
 
+_OF_COVERAGE = ("worlds", "quantities")
 _REPORTS = {"hidden-effects": report, "experiments": experiments.report}
 
 
 def page_of(name: str) -> Path:
     """Return the page on which the tables of a benchmark stand."""
-    return _PAGES / ("uncertainty.md" if name == "worlds" else "hidden-effects.md")
+    return _PAGES / ("uncertainty.md" if name in _OF_COVERAGE else "hidden-effects.md")
 
 
 def filled(text: str, name: str, results: Path) -> str:
@@ -37,6 +40,8 @@ def filled(text: str, name: str, results: Path) -> str:
 def _tables(name: str, results: Path) -> str:
     if name == "worlds":
         return coverage_of_worlds.tables(coverage_of_worlds.read(results))
+    if name == "quantities":
+        return coverage_of_quantities.tables(coverage_of_quantities.read(results))
     found = records.read(results)
     state = found[-1]["code"]
     return _REPORTS[name](records.of_state(found, state), state)

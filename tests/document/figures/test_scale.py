@@ -121,6 +121,11 @@ def test_targets_without_room_have_small_ticks_between_round_positions() -> None
     assert scale.marks == tuple(targets)
 
 
+def test_a_narrow_panel_has_two_labels_for_they_show_the_length() -> None:
+    scale = make_position_scale(np.linspace(0.0, 707.0, 15), 78.0, 12.0, POINT, _width)
+    assert scale.labels == ("0", "500")
+
+
 def test_labels_of_round_positions_keep_apart() -> None:
     targets = 1e6 + np.linspace(0.0, 1.0, 40)
     scale = make_position_scale(targets, 400.0, 12.0, POINT, _width)

@@ -9,7 +9,8 @@ import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.uncertainty.budget import Acts, Distribution
-from zlmreport.evaluation.uncertainty.monte_carlo import sample_singly, sample_stratified, shorten
+from zlmreport.evaluation.uncertainty.monte_carlo import shorten
+from zlmreport.evaluation.uncertainty.sampling import sample_singly, sample_stratified
 
 COUNT = 20_000
 #: Four standard deviations of a root mean square of so many draws: 1/√(2·COUNT) if they are normal, less

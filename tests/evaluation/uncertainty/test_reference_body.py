@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import partial
 
@@ -10,29 +12,40 @@ import pytest
 
 from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.evaluate import evaluate
+from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.monte_carlo import propagate
+from zlmreport.evaluation.uncertainty.monte_carlo import Expanded, propagate
+from zlmreport.evaluation.uncertainty.reference_bodies import Form, list_forms, sample_waves
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import evaluate_for_error
-from zlmreport.measurement.measurand import STRAIGHTNESS
+from zlmreport.measurement.measurand import STRAIGHTNESS, Measurand
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import bidirectional_test
+
+
+def evaluate_straightness(
+    at: FloatArray, deviation: FloatArray, error: float, trials: int
+) -> tuple[Evaluation, Mapping[str, Expanded]]:
+    """Return the straightness of a line and its U; `error`: u of the body it is held against, µm."""
+    readings = deviation[:, np.newaxis]
+    line = bidirectional_test(at, readings, readings, axis=Axis("X", quantity=STRAIGHTNESS, error="EYX"))
+    standard = evaluate_for_error(find_plugins().standard("iso230-1:2012"), "EYX")
+    options = standard.options()
+    evaluation = evaluate(standard, line, options, {})
+    mirror = replace(contribution(error, Acts.AT_EACH_POSITION), contributor="instrument")
+    (found,) = propagate(
+        Budget((mirror,), of_the_instrument=2 * error * MICROMETRE),
+        [(evaluation, partial(standard.arithmetic, options=options))],
+        trials,
+    )
+    return evaluation, found
 
 
 def of_a_straightness(positions: int) -> tuple[float, float]:
     """Return U of the straightness and of its slope, in the instrument's U, over 1 m by so many positions."""
     at = np.linspace(0, 1000, positions)
-    flat = 0.01 * np.sin(at / 50)[:, np.newaxis]
-    line = bidirectional_test(at, flat, flat, axis=Axis("X", quantity=STRAIGHTNESS, error="EYX"))
-    standard = evaluate_for_error(find_plugins().standard("iso230-1:2012"), "EYX")
-    options = standard.options()
-    evaluation = evaluate(standard, line, options, {})
-    mirror = replace(contribution(0.5, Acts.AT_EACH_POSITION), contributor="instrument")
-    (found,) = propagate(
-        Budget((mirror,), of_the_instrument=MICROMETRE),
-        [(evaluation, partial(standard.arithmetic, options=options))],
-        4000,
-    )
+    _, found = evaluate_straightness(at, 0.01 * np.sin(at / 50), 0.5, 6000)
     return found["EYX"].uncertainty / MICROMETRE, found["slope"].uncertainty / MICROMETRE
 
 
@@ -46,3 +59,28 @@ def test_a_slope_against_a_bent_body_is_not_known_the_better_the_more_positions_
 def test_the_bend_of_a_body_leaves_the_straightness_what_errors_one_by_one_make_of_it() -> None:
     """The range of eleven independent errors, 3.2·u by tables, is more than that of half a wave."""
     assert 3.2 / 2 < of_a_straightness(11)[0] < 5.0 / 2
+
+
+@pytest.mark.parametrize(
+    ("quantity", "contributor", "asked"),
+    [
+        (STRAIGHTNESS, "instrument", tuple(Form)),
+        (STRAIGHTNESS, None, (Form.AT_EACH_POSITION,)),
+        (None, "instrument", (Form.AT_EACH_POSITION,)),
+    ],
+    ids=["straightness", "of something else", "positions"],
+)
+def test_all_forms_are_asked_where_lines_are_held_against_a_body(
+    quantity: Measurand | None, contributor: str | None, asked: tuple[Form, ...]
+) -> None:
+    at, flat = np.linspace(0, 1000, 5), np.zeros((5, 1))
+    axis = Axis("X", quantity=quantity, error="EYX") if quantity else Axis("X")
+    error = replace(contribution(0.5, Acts.AT_EACH_POSITION), contributor=contributor)
+    assert list_forms(Budget((error,)), bidirectional_test(at, flat, flat, axis=axis)) == asked
+
+
+def test_waves_have_the_stated_size_at_each_position_whatever_their_number() -> None:
+    for form in (Form.BEND, Form.WAVES):
+        drawn = sample_waves(form, np.linspace(0, 1, 7), 40_000, np.random.default_rng(3))
+        assert np.sqrt(np.mean(drawn**2, axis=0)) == pytest.approx(np.ones(7), rel=0.02)
+        assert np.abs(drawn).max() <= math.sqrt(2)

@@ -6,10 +6,22 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from zlmreport.document.blocks import Block, Facts, Formulas, Graph, Notice, Section, Table
+from zlmreport.document.blocks import (
+    Block,
+    Column,
+    ColumnKind,
+    Facts,
+    Formulas,
+    Graph,
+    Notice,
+    RowGroup,
+    Section,
+    Table,
+)
 from zlmreport.document.certificate import conditions, readings, results, uncertainty
-from zlmreport.document.writer import Writer
-from zlmreport.language import Words
+from zlmreport.document.writer import NOTHING, Writer
+from zlmreport.language import Row, Words, same
+from zlmreport.measurement.measurand import Coordinate
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.results import Evaluated, Tested
@@ -21,17 +33,22 @@ _TABLE = Words("{name}: {caption}")
 
 
 def say_of_each(lines: Iterable[tuple[str | Words, Iterable[Words]]]) -> Iterator[Words]:
-    """Yield sentences, each with the name of the line that it is on; without one where there is only one.
-
-    What holds of every line, as of the instrument that read them all, is said once.
-    """
-    listed = [(name, tuple(sentences)) for name, sentences in lines]
-    of_all = [said for said in listed[0][1] if all(said in own for _, own in listed)] if listed[1:] else []
-    yield from of_all
-    for name, sentences in listed:
-        for said in sentences:
-            if said not in of_all:
-                yield _NAMED.given(name=name, said=said) if name else said
+    """Yield sentences, each once, with the names of the lines that it is on; without where it is on all."""
+    count = 0
+    said: list[tuple[Words, list[str | Words]]] = []
+    for name, sentences in lines:
+        count += 1
+        for sentence in sentences:
+            names = next((names for known, names in said if known == sentence), None)
+            if names is None:
+                said.append((sentence, [name]))
+            elif name not in names:
+                names.append(name)
+    for sentence, names in said:
+        if len(names) == count > 1 or not names[0]:
+            yield sentence
+        else:
+            yield _NAMED.given(name=Row(tuple(map(same, names))), said=sentence)
 
 
 def make_writer_of(test: Tested, writer: Writer) -> Writer:
@@ -54,33 +71,85 @@ def lay_out_results(
 ) -> Iterator[Section]:
     """Yield a section for each line: its circumstances, and what standards give for it alone.
 
+    Lines of which there is no more than their circumstances share a section, which says once what they share.
+
     `known`: The facts that the document states of all of them.
     """
     said = {pair for _, facts in known for pair in facts.pairs}
+    bare: list[tuple[Tested, list[Facts]]] = []
     for test in tests:
         own = make_writer_of(test, writer)
-        yield Section(
-            f"{test.name}-line",
-            _write_title(test, own.say(test.measurements.axis.subject), own),
-            (
-                *_list_circumstances(test, said, own),
-                *conditions.lay_out_corrections(test.measurements, own),
-                *(
-                    _rename_block(block, test.name)
-                    for each in test.evaluated
-                    for block in section_of(each, own).blocks
-                    if not isinstance(block, Formulas)
-                ),
+        circumstances = list(_list_circumstances(test, said, own))
+        blocks = [
+            *conditions.lay_out_corrections(test.measurements, own),
+            *(
+                _rename_block(block, test.name)
+                for each in test.evaluated
+                for block in section_of(each, own).blocks
+                if not isinstance(block, Formulas)
             ),
+        ]
+        if blocks:
+            title = _write_title(test, own.say(test.measurements.axis.subject), own)
+            yield Section(f"{test.name}-line", title, (*circumstances, *blocks))
+        else:
+            bare.append((test, circumstances))
+    if bare:
+        yield _lay_out_bare_lines(bare, writer)
+
+
+def _lay_out_bare_lines(lines: Sequence[tuple[Tested, Sequence[Facts]]], writer: Writer) -> Section:
+    """Return what is stated of some lines: what all share, and a row for each with what they do not."""
+    (first, of_first), *_ = lines
+    stated = [
+        {(facts.heading, label): value for facts in circumstances for label, value in facts.pairs}
+        for _, circumstances in lines
+    ]
+    names = [test.name for test, _ in lines]
+    labels = dict.fromkeys(label for each in stated for label in each)
+    values = {label: [each.get(label, NOTHING) for each in stated] for label in labels}
+    differing = [label for label, found in values.items() if len(set(found)) > 1 and found != names]
+    blocks: list[Block] = []
+    for facts in of_first:
+        pairs = tuple(pair for pair in facts.pairs if set(values[facts.heading, pair[0]]) == {pair[1]})
+        if pairs:
+            blocks.append(replace(facts, pairs=pairs))
+    is_over_time = first.measurements.axis.measurand.coordinate is Coordinate.TIME
+    title = writer.say(Words("Sensors") if is_over_time else Words("Lines"))
+    if differing:
+        columns = (
+            Column(writer.say(conditions.say_measured_of(first.job))),
+            *(Column(label, kind=ColumnKind.SENTENCES) for _, label in differing),
         )
+        rows = tuple(
+            (name, *(values[label][number] for label in differing)) for number, name in enumerate(names)
+        )
+        blocks.append(Table(title, columns, (RowGroup(rows),), dense=True))
+    return Section("lines", title, tuple(blocks))
 
 
 def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:
-    """Yield the readings of each line."""
+    """Yield the readings of each line; lines that have theirs in files share a section, said the same way."""
+    found: list[tuple[Section, list[Tested]]] = []
     for test in tests:
-        own = make_writer_of(test, writer)
-        section = readings.lay_out_readings(test.measurements, own, f"measurement.tests.{test.name}.source")
-        yield replace(section, key=f"{test.name}-readings", title=_write_title(test, section.title, own))
+        section = _lay_out_readings_of([test], writer)
+        is_in_files = test.measurements.axis.measurand.is_continuous
+        sharing = next((each for known, each in found if is_in_files and known == section), None)
+        if sharing is None:
+            found.append((section, [test]))
+        else:
+            sharing.append(test)
+    for section, sharing in found:
+        whole = section if len(sharing) == 1 else _lay_out_readings_of(sharing, writer)
+        title = _NAMED.given(name=", ".join(each.name for each in sharing), said=section.title)
+        yield replace(whole, key=f"{sharing[0].name}-readings", title=writer.say(title))
+
+
+def _lay_out_readings_of(tests: Sequence[Tested], writer: Writer) -> Section:
+    """Return the readings of a line, or of lines of which the same is said."""
+    first = tests[0]
+    key = f"measurement.tests.{first.name}.source"
+    return readings.lay_out_readings(first.measurements, make_writer_of(first, writer), key, lines=len(tests))
 
 
 def lay_out_uncertainty(evaluated: Evaluated, tests: Sequence[Tested], writer: Writer) -> Section:

@@ -65,10 +65,10 @@ def lay_out_origin_of_several(
         for name, part in parts.items()
         for line, readings in (part.measurements.tests or {"": part.measurements}).items()
     ]
-    headed = [(_OF_LINE.given(name=name, source=each.provenance.source), each) for name, each in found]
+    named = [(name, _OF_LINE, each) for name, each in found]
     blocks: list[Block] = [
         *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer))),
-        _lay_out_files_of(sources, headed, writer),
+        _lay_out_files_of(sources, named, writer),
         _list_programs(generator, plugins, writer),
     ]
     if remarks := tuple(say_of_each((name, each.provenance.remarks) for name, each in found)):
@@ -129,29 +129,35 @@ def _lay_out_files(
     sources: Sequence[Source], measurements: Sequence[MeasurementSet], writer: Writer
 ) -> Table:
     """Return the files of each measurement, and of each of several measured lines."""
-    headed = [
-        ((_OF_LINE if name else heading).given(name=name, source=line.provenance.source), line)
+    named = [
+        (name, _OF_LINE if name else heading, line)
         for heading, each in zip(_READINGS, measurements, strict=False)
         for name, line in (each.tests or {"": each}).items()
     ]
-    return _lay_out_files_of(sources, headed, writer)
+    return _lay_out_files_of(sources, named, writer)
 
 
 def _lay_out_files_of(
-    sources: Sequence[Source], headed: Sequence[tuple[Words, MeasurementSet]], writer: Writer
+    sources: Sequence[Source], named: Sequence[tuple[str, Words, MeasurementSet]], writer: Writer
 ) -> Table:
+    """Return the files of what was measured, under its names and what is said of them; once those of several.
+
+    `named`: Name, heading of its files, and what was measured.
+    """
     columns = (
         Column(writer.say(Words("File"))),
         Column("Bytes", align=Align.RIGHT),
         Column("SHA-256"),
     )
     readings = [source for source in sources if source.role is SourceRole.READINGS]
+    names_of: dict[tuple[str, str, tuple[tuple[str, str, str], ...]], list[str]] = {}
+    for name, heading, line in named:
+        rows = tuple(_lay_out_row(source) for source in readings if source.file in line.provenance.files)
+        names_of.setdefault((heading.en, line.provenance.source, rows), []).append(name)
+    headings = {heading.en: heading for _, heading, _ in named}
     groups = [
-        RowGroup(
-            tuple(_lay_out_row(source) for source in readings if source.file in line.provenance.files),
-            writer.say(heading),
-        )
-        for heading, line in headed
+        RowGroup(rows, writer.say(headings[heading].given(name=", ".join(names), source=source)))
+        for (heading, source, rows), names in names_of.items()
     ]
     others = tuple(_lay_out_row(source) for source in sources if source not in readings)
     groups.append(RowGroup(others, writer.say(Words("Job"))))

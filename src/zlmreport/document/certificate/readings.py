@@ -50,18 +50,19 @@ _INDICATION = Words("Deviations x = indicated − calibrated position, in the or
 
 
 def lay_out_readings(
-    measurements: MeasurementSet, writer: Writer, key: str = "measurement.source"
+    measurements: MeasurementSet, writer: Writer, key: str = "measurement.source", *, lines: int = 1
 ) -> Section:
     """Return the section of raw readings: one row a target, runs as columns.
 
-    `key`: The job key that names their source: marked if the readings are the customer's.
+    `key`: The job key that names their source: marked if the readings are the customer's. `lines`: So many
+    lines with as many readings are said to be in files, together.
     """
     blocks: list[Block] = [
         *list_missing_readings(measurements, writer),
         *make_exclusion_notice(measurements, writer, f"{key.removesuffix('source')}excluded"),
     ]
     if measurements.axis.measurand.is_continuous:
-        count = int(np.count_nonzero(np.isfinite(measurements.deviation)))
+        count = lines * int(np.count_nonzero(np.isfinite(measurements.deviation)))
         is_over_time = measurements.axis.measurand.coordinate is Coordinate.TIME
         said = _IN_FILES_OVER_TIME if is_over_time else _IN_FILES
         blocks.append(Paragraph(writer.say(said.given(count=count))))

@@ -23,6 +23,8 @@ _LEAST_ROUND_DISTANCE = 34.0
 _PARTS_OF_A_TURN = (15.0, 30.0, 45.0, 90.0)
 #: Of an axis of deviations: one number alone gives no scale.
 _FEWEST_TICKS = 3
+#: More steps that are tried of positions where fewer leave a single label, which shows no length.
+_MORE_STEPS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,10 +152,12 @@ def make_position_scale(  # noqa: PLR0913 - what an axis follows from
         labels = tuple(write_fixed_number(tick, 0, sign) for tick in ticks)
         if 1 < len(ticks) <= most and fit(ticks, labels):
             return AxisScale(lower, upper, ticks, labels, marks)
-    ticks, labels = _label_ticks(lower, upper, most, sign)
-    while most > 1 and not fit(ticks, labels):
-        most -= 1
-        ticks, labels = _label_ticks(lower, upper, most, sign)
+    tried = [
+        _label_ticks(lower, upper, steps, sign)
+        for steps in (*range(most, 0, -1), *range(most + 1, most + 1 + _MORE_STEPS))
+    ]
+    fitting = [each for each in tried if fit(*each)]
+    ticks, labels = next((each for each in fitting if len(each[0]) > 1), (fitting or tried)[0])
     return AxisScale(lower, upper, ticks, labels, marks)
 
 

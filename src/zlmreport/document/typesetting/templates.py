@@ -37,7 +37,7 @@ from zlmreport.document.typesetting.overview import (
 )
 from zlmreport.document.typesetting.resources import PACKAGE
 from zlmreport.errors import InputError, Place
-from zlmreport.language.formatting import WORD_JOINER, Span, hold_together, split_spans
+from zlmreport.language.formatting import HELD, WORD_JOINER, Span, hold_together, split_spans
 
 
 @dataclass(frozen=True, slots=True)
@@ -290,9 +290,11 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
     return Markup(text)  # noqa: S704 (the template has escaped every value)
 
 
-#: What holds no elements, and a tag; and words whose parts are joined, in the text between tags.
+#: What holds no elements, and a tag; and words whose parts are joined, in the text between tags. The number
+#: before a unit is of its word: a line that is broken before such a unit would end anywhere before it.
 _HELD_WORDS = re.compile(
-    rf"<(title|style|script|svg|a)\b.*?</\1>|<[^>]*>|[^\s<>]*(?:{WORD_JOINER} ?[^\s<>{WORD_JOINER}]*)+",
+    rf"<(title|style|script|svg|a)\b.*?</\1>|<[^>]*>"
+    rf"|(?:[^\s<>]|{HELD})*(?:{WORD_JOINER} ?[^\s<>{WORD_JOINER}]*)+",
     re.DOTALL,
 )
 

@@ -10,7 +10,6 @@ import hashlib
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from statistics import NormalDist
 from types import MappingProxyType
 
 import numpy as np
@@ -27,8 +26,6 @@ from zlmreport.evaluation.uncertainty.budget import (
     COVERAGE_PROBABILITY,
     Acts,
     Budget,
-    Contribution,
-    Distribution,
     compute_effect_along,
 )
 from zlmreport.evaluation.uncertainty.drift import (
@@ -39,8 +36,15 @@ from zlmreport.evaluation.uncertainty.drift import (
     sample_drifts,
 )
 from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
+from zlmreport.evaluation.uncertainty.reference_bodies import (
+    Form,
+    is_of_the_instrument,
+    list_forms,
+    sample_waves,
+)
 from zlmreport.evaluation.uncertainty.round_the_circle import smooth_curves
 from zlmreport.evaluation.uncertainty.rounding import find_hiding_resolution, sample_rounding
+from zlmreport.evaluation.uncertainty.sampling import sample_singly, sample_stratified
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurement_set import MeasurementSet
@@ -80,7 +84,7 @@ class _Ways:
     """How errors go of which a job states the size only."""
 
     drift: Drift | None  #: Of what drifts; None where nothing does.
-    is_bent: bool = False  #: Whether the instrument errs along a bend, and not at each position by itself.
+    form: Form = Form.AT_EACH_POSITION  #: Of a body that lines were held against.
 
 
 def propagate(
@@ -103,9 +107,10 @@ def propagate(
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
     than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
-    drift, and where lines were held against a body, as a mirror, that of two ways in which that may err: at
-    each position by itself, and along a bend. Where the instrument errs as much as the axis, U reaches to the
-    farthest of the flatter axes of which the readings may be a test, among 95.45 % of those simulated of it
+    drift, and where lines were held against a body, as a mirror, that of the forms which that may have
+    (`zlmreport.evaluation.uncertainty.reference_bodies`). Where the instrument errs as much as the axis, U
+    reaches to the farthest of the flatter axes of which the readings may be a test, among 95.45 % of those
+    simulated of it
     (J. Neyman, Phil. Trans. R. Soc. A 236, 1937). It is never less than the budget's bounds. Known errors are
     taken out of the readings first, errors are drawn about what is left, and U has in it whole what the
     parameter changes by (JCGM 100, F.2.4.5).
@@ -120,9 +125,7 @@ def propagate(
     found: list[dict[str, Expanded]] = [{} for _ in evaluations]
     drifts = any(each.acting(Acts.IN_TIME) for each in budget.lines)
     kinds: Sequence[Drift | None] = choose_drift_kinds(measurements) if drifts else (None,)
-    asked = [_Ways(kind) for kind in kinds]
-    if _asks_for_a_bend(budget, measurements):
-        asked += [_Ways(kind, is_bent=True) for kind in kinds]
+    asked = [_Ways(kind, form) for form in list_forms(budget, measurements) for kind in kinds]
     each_of = trials // len(asked)
     for ways in asked:
         distances = _measure_distances(budget, evaluations, ways, each_of, generator)
@@ -150,25 +153,6 @@ def propagate(
             found, _find_comparing_parameters(evaluations), known, strict=True
         )
     )
-
-
-def _asks_for_a_bend(budget: Budget, measurements: MeasurementSet) -> bool:
-    """Return whether lines were held against a body that may be bent, with an error that is stated.
-
-    A slope is known the better the more positions there are, if each has an error of its own; against a
-    bent mirror or straightedge it is not. The bound of U by the instrument, which counts that in elsewhere,
-    is none of a slope, nor of what follows from several lines.
-    """
-    lines = zip(budget.lines, measurements.lines, strict=True)
-    return any(
-        line.axis.measurand.has_reference_body and any(map(_is_of_the_instrument, of_line.contributions))
-        for of_line, line in lines
-    )
-
-
-def _is_of_the_instrument(contribution: Contribution) -> bool:
-    """Return whether it is an instrument's error at each position, of which nobody knows the curve."""
-    return contribution.acts is Acts.AT_EACH_POSITION and contribution.contributor == "instrument"
 
 
 def _find_reached(  # noqa: PLR0913, PLR0917 - what a simulation of a test is made of
@@ -394,11 +378,11 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         count = min(at_once, trials - first)
         errors = along[first : first + count, np.newaxis] * effect
         at_positions = budget.acting(Acts.AT_EACH_POSITION)
-        bent = [each for each in at_positions if ways.is_bent and _is_of_the_instrument(each)]
-        own_of_positions = [each for each in at_positions if each not in bent]
+        formed = [each for each in at_positions if ways.form.value and is_of_the_instrument(each)]
+        own_of_positions = [each for each in at_positions if each not in formed]
         errors += sample_singly(own_of_positions, errors.shape, generator)
-        for each in bent:
-            errors += each.standard_uncertainty * _sample_bends(effect, count, generator)
+        for each in formed:
+            errors += each.standard_uncertainty * sample_waves(ways.form, effect, count, generator)
         for each in (*budget.acting(Acts.ROUND_THE_CIRCLE), *budget.acting(Acts.OFF_CENTRE)):
             curves = smooth_curves(each.acts, measurements.target_positions, count, generator)
             errors += each.standard_uncertainty * curves
@@ -418,14 +402,6 @@ def _simulate_tests(  # noqa: PLR0913, PLR0917 - what a simulation of a test is 
         for draws, effects in changing:
             tests += np.multiply.outer(draws[trial], effects)
         yield tests, rounded.shown if rounded else None
-
-
-def _sample_bends(shares: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
-    """Return half waves of any phase along a line, of root mean square 1 at each position: (count, m)."""
-    phases = np.pi * generator.random((count, 1))
-    return np.asarray(
-        math.sqrt(2.0) * np.sin(np.pi * shares + phases) * generator.choice((-1.0, 1.0), (count, 1))
-    )
 
 
 def _sample_errors_of_lines(
@@ -512,56 +488,3 @@ def _raise_to_bounds(expanded: Expanded, budget: Budget, compares_positions: boo
 def shorten(value: float) -> float:
     """Return a value with the digits that are kept."""
     return float(f"{value:.{_DIGITS}g}")
-
-
-def sample_stratified(
-    contributions: Sequence[Contribution], count: int, generator: np.random.Generator
-) -> FloatArray:
-    """Return sums of one error of each contribution, spread evenly over the distributions, shape (count,).
-
-    Each contribution takes the middles of `count` equally probable parts of its distribution once each, in
-    an order of its own (Latin hypercube): the tails are as full as they should be, and not as chance has it.
-    """
-    middles = (np.arange(count) + 0.5) / count
-    total = np.zeros(count)
-    for distribution, standard_uncertainty in _combine_distributions(contributions):
-        total += standard_uncertainty * generator.permutation(_compute_quantiles(distribution, middles))
-    return total
-
-
-def sample_singly(
-    contributions: Sequence[Contribution], shape: tuple[int, ...], generator: np.random.Generator
-) -> FloatArray:
-    """Return sums of one error of each contribution, each element drawn for itself, m or rad."""
-    total = np.zeros(shape)
-    for distribution, standard_uncertainty in _combine_distributions(contributions):
-        if distribution is Distribution.NORMAL:
-            errors = generator.standard_normal(shape)
-        else:
-            errors = _compute_quantiles(distribution, generator.random(shape))
-        errors *= standard_uncertainty
-        total += errors
-    return total
-
-
-def _combine_distributions(contributions: Sequence[Contribution]) -> Iterator[tuple[Distribution, float]]:
-    """Yield distributions with their standard uncertainties; the sum of normal ones is normal."""
-    normal = [each for each in contributions if each.distribution is Distribution.NORMAL]
-    if normal:
-        yield Distribution.NORMAL, math.sqrt(math.fsum(each.standard_uncertainty**2 for each in normal))
-    for each in contributions:
-        if each.distribution is not Distribution.NORMAL:
-            yield each.distribution, each.standard_uncertainty
-
-
-def _compute_quantiles(distribution: Distribution, probability: FloatArray) -> FloatArray:
-    """Return the quantiles of a distribution whose root mean square is 1."""
-    full_range = distribution.range_over_standard_uncertainty
-    if distribution is Distribution.NORMAL:
-        return np.array(list(map(NormalDist().inv_cdf, probability.tolist())))
-    if distribution is Distribution.ONE_SIDED:
-        return probability * full_range
-    if distribution is Distribution.RECTANGULAR:
-        return (probability - 0.5) * full_range
-    tail = np.sqrt(np.minimum(probability, 1 - probability) / 2)
-    return np.asarray(np.where(probability < 0.5, tail - 0.5, 0.5 - tail) * full_range)

@@ -9,7 +9,7 @@ import numpy as np
 
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget, compute_effect_along
-from zlmreport.evaluation.uncertainty.monte_carlo import sample_singly
+from zlmreport.evaluation.uncertainty.sampling import sample_singly
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.model.compensation.basis import TableBasis, join_directions
 from zlmreport.model.compensation.curve import CompensationTable, ErrorCurve

@@ -1,0 +1,55 @@
+"""Along which curves a body errs that lines are held against: a mirror, a square, a straightedge.
+
+Its certificate gives one number for its form, and the form is whatever it is. A body that errs at each
+position by itself leaves a slope that many positions know well; one that is bent by half a wave does not. One
+of a whole wave or two has all of its error in every test, where errors at each position have their largest in
+few. So each of these is asked. Derived here.
+"""
+
+from __future__ import annotations
+
+import math
+from enum import Enum
+
+import numpy as np
+
+from zlmreport.evaluation.uncertainty.budget import Acts, Budget, Contribution
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.measurement_set import MeasurementSet
+
+
+class Form(Enum):
+    """How a body errs of which the size is known only: the half waves that it may have along a line."""
+
+    AT_EACH_POSITION = ()  #: None: each position has an error of its own.
+    BEND = (1,)
+    WAVES = (2, 4)
+
+
+def list_forms(budget: Budget, measurements: MeasurementSet) -> tuple[Form, ...]:
+    """Return the forms that are asked: all where lines were held against a body with an error that is stated.
+
+    The bound of U by the instrument, which counts a bend in elsewhere, is none of a slope, nor of what
+    follows from several lines.
+    """
+    lines = zip(budget.lines, measurements.lines, strict=True)
+    has_body = any(
+        line.axis.measurand.has_reference_body and any(map(is_of_the_instrument, of_line.contributions))
+        for of_line, line in lines
+    )
+    return tuple(Form) if has_body else (Form.AT_EACH_POSITION,)
+
+
+def is_of_the_instrument(contribution: Contribution) -> bool:
+    """Return whether it is an instrument's error at each position, of which nobody knows the curve."""
+    return contribution.acts is Acts.AT_EACH_POSITION and contribution.contributor == "instrument"
+
+
+def sample_waves(form: Form, shares: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
+    """Return waves of any phase along a line, of root mean square 1 at each position: (count, m).
+
+    `shares`: Of the length, at each position. Each number of half waves that a form has is as likely.
+    """
+    half_waves = generator.choice(form.value, (count, 1))
+    phases = 2 * np.pi * generator.random((count, 1))
+    return np.asarray(math.sqrt(2.0) * np.sin(np.pi * half_waves * shares + phases))
