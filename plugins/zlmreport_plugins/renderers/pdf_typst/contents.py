@@ -78,7 +78,7 @@ def collect_contents(certificate: Certificate) -> Data:
     cover, *sections = (
         [_make_block(each, certificate) for each in blocks] for blocks in numbered_blocks(certificate)
     )
-    letterhead, words = certificate.letterhead, certificate.page_words
+    letterhead, words = certificate.printed_letterhead, certificate.page_words
     ended = endings(certificate)
     return {
         "language": certificate.language.value,
@@ -94,6 +94,7 @@ def collect_contents(certificate: Certificate) -> Data:
         "subtitle": fit_text(certificate.subtitle, _SUBTITLE),
         "number": fit_text(certificate.number, _SUBTITLE, FontFace.SEMIBOLD),
         "letterhead": _make_letterhead(letterhead) if letterhead else None,
+        "small-head": certificate.head == "small",
         "accent": certificate.look.accent,
         "logo": certificate.look.logo,
         "words": {
