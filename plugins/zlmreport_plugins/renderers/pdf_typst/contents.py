@@ -186,7 +186,7 @@ def _make_facts(groups: tuple[Facts, ...]) -> Data:
                 {
                     "heading": fit_text(group.heading, for_names + for_values, FontFace.SEMIBOLD),
                     "pairs": [
-                        [fit_text(name, for_names), fit_text(value, for_values)]
+                        [fit_text(name, for_names), fit_text(value, for_values, may_be_smaller=True)]
                         for name, value in group.pairs
                     ],
                     "whole": _measure_group(group) <= _WHOLE,

@@ -289,7 +289,7 @@ def _gather_said(of: Material, page: _Page) -> Said:
     )
     who, stated = _gather_stated(of, page)
     if page.head is not Head.WHOLE:
-        who = (*_list_laboratory(of), *who)
+        who = (*who, *_list_laboratory(of))
     groups = [(key, replace(group, heading="") if key in _PLAIN_GROUPS else group) for key, group in stated]
     return Said(
         notices=notices,
