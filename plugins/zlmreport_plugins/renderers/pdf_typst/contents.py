@@ -80,6 +80,7 @@ def collect_contents(certificate: Certificate) -> Data:
     )
     letterhead, words = certificate.printed_letterhead, certificate.page_words
     ended = endings(certificate)
+    followed = (*ended[1:], Ending())[: len(ended)]
     return {
         "language": certificate.language.value,
         "paper": certificate.paper,
@@ -117,7 +118,7 @@ def collect_contents(certificate: Certificate) -> Data:
                 "blocks": blocks,
             }
             for number, (section, ending, after, blocks) in enumerate(
-                zip(certificate.sections, ended, (*ended[1:], Ending()), sections, strict=True), start=1
+                zip(certificate.sections, ended, followed, sections, strict=True), start=1
             )
         ],
     }
