@@ -218,7 +218,7 @@ _WORDS = ("Werk", "a", "Instandhaltung", "Präzisionswerkzeugmaschinen-Instandha
 
 
 def joined(words: Iterable[str]) -> str:
-    return " ".join(words)[:LONG].strip()
+    return " ".join(words)[:LONGEST].strip()
 
 
 _TEXTS = st.lists(st.sampled_from(_WORDS), min_size=1, max_size=60).map(joined)
