@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,28 @@ def test_the_page_and_its_tables_fit_into_the_window(
     assert page.locator("html, .wide").evaluate_all(too_wide) == 0
     heights = [box["height"] for each in page.locator(".links a").all() if (box := each.bounding_box())]
     assert min(heights, default=24) >= 24
+
+
+@pytest.mark.parametrize(("width", "most"), [(1280, 2900), (375, 4900)])
+@pytest.mark.parametrize("language", Language)
+def test_twenty_five_axes_are_looked_through_in_a_few_screens(
+    window: Callable[..., Page], tmp_path: Path, language: Language, width: int, most: int
+) -> None:
+    entries = [
+        replace(each, machine=f"Example Works MT 500, serial {machine}", job=f"{machine}/{each.job}")
+        for machine in range(5)
+        for axis in "XYZBC"
+        for each in history([8.0, 8.2, 8.1, 8.3, 8.2, 8.1, 8.15, 8.2], axis=axis)
+    ]
+    state = state_of("Hall North", entries, [each.job for each in entries], None)
+    file = tmp_path / "fleet.html"
+    file.write_text(make_overview(state, language, Names(find_plugins().standards), "."), encoding="utf-8")
+    page = window(file.as_uri(), viewport={"width": width, "height": 900})
+    wide, high = page.evaluate(
+        "(({scrollWidth, scrollHeight}) => [scrollWidth, scrollHeight])(document.documentElement)"
+    )
+    assert wide == width
+    assert high <= most
 
 
 def test_nothing_is_loaded(window: Callable[..., Page], page_file: Path) -> None:

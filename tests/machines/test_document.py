@@ -59,3 +59,5 @@ def test_a_sheet_is_one_page_and_german_is_german(folder):
     assert "Eine Vorhersage ist keine Messung." in " ".join(text(path).split())
     assert "Bericht über eine Maschine" in text(path)
     assert "läuft X um" in text(path)
+    words = text(path)
+    assert words.index("Es fehlt") < words.index("Bild 1") < words.index("Seriennummer")

@@ -83,6 +83,15 @@ def test_a_test_is_drawn_with_prediction_band_and_residual(page: TestClient) -> 
     )
 
 
+def test_a_format_that_states_what_a_job_measured_is_not_offered(page: TestClient) -> None:
+    offered = {each["format"] for each in page.get("/api/job").json()["offered"]["formats"]}
+    assert {"pdf", "pdf-typst", "html"} <= offered
+    assert "dcc" not in offered
+    asked = page.post("/api/made/certificate", json={"formats": ["dcc"]})
+    assert asked.status_code == 422
+    assert "no format" in asked.text
+
+
 def test_where_it_differs_points_at_the_readings_there(page: TestClient) -> None:
     found = page.get("/api/job").json()
     first, readings = found["failures"][0], found["tests"][0]["readings"]

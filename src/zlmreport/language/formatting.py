@@ -32,7 +32,7 @@ _ANY_DOUBLE = Context(prec=800, rounding=ROUND_HALF_EVEN)
 #: A blank between a number and its unit, within a coverage factor in brackets, and within n − 1.
 _TOGETHER = re.compile(
     r"(?<=\d) (?=(?:[µmn]?m|s|min|K|hPa|°C|%)(?!\w))|(?<=\(k) (?== )|(?<=\(k =) (?=\d)"
-    r"|(?<=\b[A-Za-z]) (?=− \d)|(?<=\b[A-Za-z] −) (?=\d)"
+    r"|(?<=[≤≥≈<>]) (?=\d)|(?<=\b[A-Za-z]) (?=− \d)|(?<=\b[A-Za-z] −) (?=\d)"
 )
 #: Where a line could end within a name or a number and must not: after the slash between two bodies of one
 #: standard or two units, before the number of a standard, after a hyphen of a number such as 4711-D-K-2026.
@@ -91,13 +91,15 @@ def write_general_number(value: float, sign: DecimalSign = DecimalSign.POINT, di
 
 
 def hold_together(text: str) -> str:
-    r"""Return a text of a page in which no line parts a number from its unit, or a name or number in itself.
+    r"""Return a text of a page of which no line parts a number from its unit or sign, or a name in itself.
 
     Within names and numbers stand word joiners, before a blank too: whoever sets the text takes them out and
     keeps the word on a line, so that who copies a number gets it to the letter.
 
     >>> hold_together("2 °C below, 11.5 µm/K, U = 2 µm (k = 2)").replace(WORD_JOINER, "|")
     '2\xa0°C below, 11.5\xa0µm/|K, U = 2\xa0µm (k\xa0=\xa02)'
+    >>> hold_together("EBY ≤ 6 µm")
+    'EBY ≤\xa06\xa0µm'
     >>> hold_together("VDI/VDE 2617: ÷ (n − 1), No. 4711-D-K").replace(WORD_JOINER, "|")
     'VDI/|VDE| 2617: ÷ (n\xa0−\xa01), No. 4711-|D-|K'
     """

@@ -186,11 +186,11 @@ def _cover(material: _Material, say: Sayer) -> Iterator[Block]:
 
 
 def _lay_out_sheet(material: _Material, registry: Registry, say: Sayer) -> Iterator[Block]:
-    """Yield all that fits on a page."""
-    yield _list_facts(material.machine, say)
+    """Yield all that fits on a page: the verdict and the circles first."""
     yield from _lay_out_first(material, say)
     circles = [each for each in material.complete or material.by_axes if isinstance(each.test, CircularTest)]
     yield from (Graph(tests.draw_circle(each)) for each in circles[:_ON_A_SHEET])
+    yield _list_facts(material.machine, say)
     promised = say_promised(material.machine, registry, say)
     if promised:
         yield promised

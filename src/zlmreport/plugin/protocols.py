@@ -191,6 +191,7 @@ class Renderer(Protocol):
     ``carries_attachments`` is true of a document that carries the files of others: it is rendered last, with
     ``certificate.attachments``. A renderer of PDF whose files do not name this program as their creator says
     in ``creator`` what that entry begins with: a certificate is verified by the renderer that made it.
+    ``needs_job`` is true of one that writes what a job states, and no document on a whole machine.
 
     Attributes
     ----------
@@ -218,6 +219,11 @@ def find_relationship_of(renderer: Renderer) -> Relationship | None:
 def carries_attachments(renderer: Renderer) -> bool:
     """Return whether a renderer's documents carry other files."""
     return getattr(renderer, "carries_attachments", False)
+
+
+def needs_job(renderer: Renderer) -> bool:
+    """Return whether a renderer writes what a job states, and so no document on a whole machine."""
+    return getattr(renderer, "needs_job", False)
 
 
 def is_made_by(renderer: Renderer, creator: str) -> bool:

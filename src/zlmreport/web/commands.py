@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,7 +16,7 @@ from zlmreport.errors import InputError
 from zlmreport.files import Document, write
 from zlmreport.job.job import Job
 from zlmreport.language import Language
-from zlmreport.plugin.registry import Registry
+from zlmreport.plugin.protocols import Renderer
 from zlmreport.web.bench import PLACE, Bench, Loaded
 from zlmreport.web.making import Making, make_documents, make_values
 
@@ -72,7 +72,7 @@ class Commands:
             arguments = [
                 str(path.resolve()),
                 *self._sheet(loaded.job, wanted),
-                *list_demanded_formats(wanted, self.bench.registry),
+                *list_demanded_formats(wanted, self.bench.registry.renderers),
             ]
         elif name == "table":
             folder = str(loaded.job.directory.resolve())
@@ -145,13 +145,14 @@ class Commands:
         return [*chosen, "--unconfirmed"] if wanted.unconfirmed else chosen
 
 
-def list_demanded_formats(wanted: Wanted, registry: Registry) -> list[str]:
+def list_demanded_formats(wanted: Wanted, offered: Iterable[Renderer]) -> list[str]:
     """Return the formats that a page wants as the command line has them; none for those of the file.
 
     Raises `InputError` if one is none that the page offered.
     """
+    known = [renderer.identifier for renderer in offered]
     for each in wanted.formats:
-        _demand(each, [renderer.identifier for renderer in registry.renderers], "format")
+        _demand(each, known, "format")
     return ["--format", ",".join(wanted.formats)] if wanted.formats else []
 
 

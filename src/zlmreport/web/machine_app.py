@@ -45,7 +45,7 @@ class MachineCommands:
         Raises `InputError` if a format is none that the page offered.
         """
         loaded = self.bench.loaded()
-        formats = list_demanded_formats(wanted, self.bench.registry)
+        formats = list_demanded_formats(wanted, self.bench.renderers)
         self.making[name].begin(
             loaded.stamp, "machine", "certificate", str(self.bench.path.resolve()), *formats
         )

@@ -16,6 +16,7 @@ from zlmreport.machines.diagnosis import compute_rms_of
 from zlmreport.machines.reading import MachineFile, read_machine
 from zlmreport.machines.study import CircleStudy
 from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.plugin.protocols import Renderer, needs_job
 from zlmreport.plugin.registry import Registry
 from zlmreport.verification.carrier import find_results_in
 from zlmreport.web.bench import make_stamp_of
@@ -66,6 +67,11 @@ class MachineBench:
     _loaded: LoadedMachine | None = None
     _watched: tuple[Path, ...] = ()
     _studies: OrderedDict[tuple[str, ...], CircleStudy] = field(default_factory=OrderedDict)
+
+    @property
+    def renderers(self) -> list[Renderer]:
+        """Those that make a document on a machine."""
+        return [each for each in self.registry.renderers if not needs_job(each)]
 
     def stamp(self) -> str:
         """Return the name of the state in which the files are now, without reading them."""

@@ -103,7 +103,7 @@ class MachineView:
             "offered": {
                 "formats": [
                     {"format": each.identifier, "chosen": each.identifier in keys.output.formats}
-                    for each in self.bench.registry.renderers
+                    for each in self.bench.renderers
                 ],
                 "tables": list_offered_tables(self.bench, loaded, self.language),
             },

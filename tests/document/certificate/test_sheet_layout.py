@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import shutil
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -10,12 +11,13 @@ from typing import Any
 
 import pypdf
 import pytest
+import yaml
 from hypothesis import example, given, settings, strategies as st
 
-from document.certificate.documents import COMPLETE, certificate, having, lines_of, registry, without
+from document.certificate.documents import COMPLETE, ROOT, certificate, having, lines_of, registry, without
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, Table
 from zlmreport.document.certificate import columns
-from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate, Head, Letterhead, Party
 from zlmreport.language import Language
 
 SEVEN = (
@@ -163,6 +165,7 @@ STATED = (
     "laboratory.name",
     "laboratory.address",
     "laboratory.accreditation",
+    "certificate.title",
     "certificate.authorised_by.name",
     "certificate.authorised_by.function",
     "customer.name",
@@ -194,12 +197,12 @@ def stating(words: Mapping[str, str]) -> Mapping[str, Any]:
 
 def taken(of: Certificate) -> list[float]:
     """Return how high each page is estimated to be, in parts of what it has."""
-    head = columns.estimate_head_height(of.letterhead, of.title, of.subtitle, of.number) + columns.BELOW_TITLE
+    head = columns.estimate_head_height(of.letterhead, of.title, of.subtitle, of.number, of.head)
     heights = [
         columns.estimate_heading_height(each.title) + columns.estimate_height(each.blocks)
         for each in of.sections
     ]
-    heights[0] += head
+    heights[0] += head + columns.BELOW_TITLE
     return [height / (columns.PAGES[of.paper] + columns.END_MARK) for height in heights]
 
 
@@ -207,8 +210,8 @@ def longest(letters: int) -> dict[str, str]:
     return dict.fromkeys(STATED, ("Präzisionswerkzeugmaschinen-Instandhaltung der Halle " * 12)[:letters])
 
 
-#: The longest text of which a sheet keeps its promises, letters.
-LONGEST = 110
+#: The longest text that a job may state in a line, letters; one as long as names are.
+LONGEST, LONG = 500, 110
 _LANGUAGES = [each.value for each in Language]
 #: Words that end a line anywhere, and words that leave much of it empty.
 _WORDS = ("Werk", "a", "Instandhaltung", "Präzisionswerkzeugmaschinen-Instandhaltung", "MWMW")
@@ -223,7 +226,7 @@ _TEXTS = st.lists(st.sampled_from(_WORDS), min_size=1, max_size=60).map(joined)
 
 @pytest.mark.parametrize("paper", ["A4", "Letter"])
 @pytest.mark.parametrize("language", _LANGUAGES)
-@pytest.mark.parametrize("letters", [25, LONGEST])
+@pytest.mark.parametrize("letters", [25, LONG, LONGEST])
 def test_the_graph_of_a_sheet_is_90_mm_high_whatever_the_length_of_what_is_stated(
     tmp_path: Path, paper: str, language: str, letters: int
 ) -> None:
@@ -310,10 +313,63 @@ def test_no_line_parts_the_number(tmp_path: Path, renderer: str) -> None:
     assert page.count(number) == 2
 
 
-def test_what_is_as_long_as_a_job_may_state_it_is_not_refused(tmp_path: Path) -> None:
-    found = certificate(tmp_path, stating(longest(500)))
+@pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
+def test_what_is_as_long_as_a_job_may_state_it_is_not_refused(tmp_path: Path, renderer: str) -> None:
+    addresses = dict.fromkeys(("laboratory.address", "customer.address"), "Lane 2, " * 600)
+    stated = {"certificate.paper": "Letter", **longest(LONGEST), **addresses}
+    found = certificate(tmp_path, stating(stated))
     assert [each.key for each in found.sections] == ["iso230-2-2014", "details"]
-    assert max(taken(found)) <= 1
+    assert taken(found)[0] <= 1
+    (figure,) = found.figures
+    assert figure.height is not None
+    assert figure.height >= 90
+    first, *_ = pages(found, renderer)
+    assert found.sections[0].title in first
+    assert found.digest in first
+
+
+def test_a_letterhead_that_leaves_the_graph_no_room_has_the_name_and_details_the_rest(tmp_path: Path) -> None:
+    of_laboratory = {"laboratory.address": "Gaugeway 1 " * 40, "laboratory.accreditation": "Body, No. 7"}
+    words = {**longest(200), **of_laboratory, "certificate.paper": "Letter"}
+    found = certificate(tmp_path, stating(words))
+    assert found.head is not Head.WHOLE
+    assert found.printed_letterhead == Letterhead(Party(words["laboratory.name"].strip()))
+    sheet, details = pages(found)
+    assert "Gaugeway" not in sheet
+    assert "No. 7" not in sheet
+    assert "Gaugeway 1" in details
+    assert "Body, No. 7" in details
+    assert found.letterhead
+    assert found.letterhead.accreditation == "Body, No. 7"
+
+
+#: Jobs of other quantities, with what their sheets show.
+_OTHERS = (
+    "rotary-axis/report",
+    "machine/x-straightness",
+    "whole-machine/circle-xy",
+    "whole-machine/x-pitch",
+    "flatness/certificate",
+    "step-gauge/job",
+)
+
+
+@pytest.mark.parametrize("path", _OTHERS)
+def test_the_graph_of_any_quantity_is_90_mm_high_below_the_longest_letterhead(
+    tmp_path: Path, path: str
+) -> None:
+    file = ROOT / "configs" / f"{path}.yaml"
+    shutil.copytree(file.parent, tmp_path / "jobs")
+    shutil.copy(ROOT / "configs" / "laboratory.yaml", tmp_path)
+    (tmp_path / "machine").symlink_to(ROOT / "configs" / "machine")
+    keys: Mapping[str, Any] = yaml.safe_load(file.read_text(encoding="utf-8"))
+    own = {each: value for each, value in longest(LONGEST).items() if not each.startswith("instrument")}
+    for dotted, value in {**own, "certificate.layout": "sheet", "certificate.paper": "Letter"}.items():
+        keys = having(dotted, value, keys)
+    found = certificate(tmp_path / "jobs", keys)
+    assert taken(found)[0] <= 1
+    assert found.figures[0].height is not None
+    assert found.figures[0].height >= 90
 
 
 def test_customer_and_machine_stand_on_every_page(tmp_path: Path) -> None:

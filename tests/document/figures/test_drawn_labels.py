@@ -11,7 +11,7 @@ from document.figures.samples import ALL, ORDINARY, both_directions, collisions,
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.figure import Bar, Figure, Panel
 from zlmreport.document.figures.layout import measure_figure, write_axis_title
-from zlmreport.language import Language, same
+from zlmreport.language import Language, Words, same
 
 by_name = pytest.mark.parametrize("sample", ALL.values(), ids=ALL.keys())
 
@@ -175,3 +175,16 @@ def test_titles_of_several_quantities_do_not_meet(*, is_wide: bool) -> None:
 def test_an_axis_names_a_unit_that_is_but_a_small_sign() -> None:
     titles = [write_axis_title(same("Deviation"), unit, Language.ENGLISH) for unit in ("″", "°", "µm")]
     assert titles == ["Deviation in ″ (arcsec)", "Deviation in ° (deg)", "Deviation in µm"]
+
+
+def test_an_axis_has_its_unit_in_the_words_of_its_language() -> None:
+    titles = {
+        each.value: write_axis_title(Words("Deviation"), "µm", each).removesuffix("µm") for each in Language
+    }
+    assert titles == {
+        "en": "Deviation in ",
+        "de": "Abweichung in ",
+        "fr": "Écart en ",
+        "it": "Scostamento in ",
+        "es": "Desviación en ",
+    }

@@ -133,7 +133,7 @@ EQUATIONS: Mapping[str, Equation] = {
     "lost-motion-wave": lambda r, v: r.d * wave(2 * math.pi * r.P / v["period"], v),
     "lost-motion-turn": lambda r, v: r.d * wave(math.radians(r.P), v),
     "one-way-kink": lambda r, v: v["slope"] * 1e-3 * max(0.0, r.P - v["kink"]) * (r.d > 0),
-    "one-way-step": lambda r, v: v["step"] * (r.P > v["place"]) * (r.d > 0),
+    "one-way-step": lambda r, v: v["step"] if v["place"] < r.P and r.d > 0 else 0.0,
     "drive-period": lambda r, v: wave(2 * math.pi * r.P / 10 * v["ratio"], v),
     "pole-pitch": lambda r, v: wave(2 * math.pi * r.P / 24, v),
     "growth-from-bearing": lambda r, v: (

@@ -5,6 +5,7 @@ from __future__ import annotations
 import unicodedata
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -72,6 +73,12 @@ def _running(certificate: Certificate) -> tuple[str, ...]:
     words = certificate.page_words
     laboratory = certificate.letterhead.laboratory.name if certificate.letterhead else ""
     return words.number, laboratory, certificate.subtitle, f"{words.page}{{}}{words.of}{{}}"
+
+
+def test_a_document_that_is_all_on_its_first_page_is_printed_as_the_sheet_of_a_machine_is() -> None:
+    certificate = replace(samples.certificate(), sections=())
+    (page,) = texts(read(certificate))
+    assert certificate.number in page
 
 
 @pytest.mark.parametrize("language", Language)

@@ -24,6 +24,7 @@ class DccRenderer:
     title = Words("Digital calibration certificate (DCC, XML)")
     suffix = ".xml"
     relationship = Relationship.ALTERNATIVE
+    needs_job = True
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the file, UTF-8.

@@ -78,8 +78,9 @@ def collect_contents(certificate: Certificate) -> Data:
     cover, *sections = (
         [_make_block(each, certificate) for each in blocks] for blocks in numbered_blocks(certificate)
     )
-    letterhead, words = certificate.letterhead, certificate.page_words
+    letterhead, words = certificate.printed_letterhead, certificate.page_words
     ended = endings(certificate)
+    followed = (*ended[1:], Ending())[: len(ended)]
     return {
         "language": certificate.language.value,
         "paper": certificate.paper,
@@ -94,6 +95,7 @@ def collect_contents(certificate: Certificate) -> Data:
         "subtitle": fit_text(certificate.subtitle, _SUBTITLE),
         "number": fit_text(certificate.number, _SUBTITLE, FontFace.SEMIBOLD),
         "letterhead": _make_letterhead(letterhead) if letterhead else None,
+        "small-head": certificate.head == "small",
         "accent": certificate.look.accent,
         "logo": certificate.look.logo,
         "words": {
@@ -116,7 +118,7 @@ def collect_contents(certificate: Certificate) -> Data:
                 "blocks": blocks,
             }
             for number, (section, ending, after, blocks) in enumerate(
-                zip(certificate.sections, ended, (*ended[1:], Ending()), sections, strict=True), start=1
+                zip(certificate.sections, ended, followed, sections, strict=True), start=1
             )
         ],
     }
@@ -185,7 +187,7 @@ def _make_facts(groups: tuple[Facts, ...]) -> Data:
                 {
                     "heading": fit_text(group.heading, for_names + for_values, FontFace.SEMIBOLD),
                     "pairs": [
-                        [fit_text(name, for_names), fit_text(value, for_values)]
+                        [fit_text(name, for_names), fit_text(value, for_values, may_be_smaller=True)]
                         for name, value in group.pairs
                     ],
                     "whole": _measure_group(group) <= _WHOLE,

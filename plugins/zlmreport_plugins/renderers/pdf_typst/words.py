@@ -30,6 +30,8 @@ Text: TypeAlias = str | list[tuple[Any, str]]
 #: As it stands; parted anywhere, as a number, a path or a digest; by the rules of the language; with marks
 #: placed one by one; as a symbol.
 AS_WORDS, ANYWHERE, BY_SYLLABLES, MARKED, SYMBOL = "words", "anywhere", "syllables", "marked", "symbol"
+#: In one piece and in smaller type, in parts of the usual size, as the document's template has it.
+SMALLER, _SMALLER = "smaller", 0.765
 
 #: A blank behind a joiner belongs to its word: ISO 230-2.
 _WORDS = re.compile(r"\S+(?:(?<=\u2060) \S+)*|\s+")
@@ -40,13 +42,21 @@ _WIDEST_LETTER = 1.0
 _JOINER = "\N{WORD JOINER}"
 
 
-def fit_text(text: str, room: float, face: FontFace = FontFace.REGULAR) -> Text:
-    """Return a text for a place of a width, in em: as it stands where every word fits and none has marks."""
+def fit_text(
+    text: str, room: float, face: FontFace = FontFace.REGULAR, *, may_be_smaller: bool = False
+) -> Text:
+    """Return a text for a place of a width, in em: as it stands where every word fits and none has marks.
+
+    `may_be_smaller`: Whether a number that is wider than the place is set in smaller type.
+    """
     text = held_together(text)
     longest = max(map(len, text.split()), default=0)
     if _WIDEST_LETTER * longest <= room and _JOINER not in text and not has_marks(text):
         return text
-    ways = [(word.replace(_JOINER, ""), _measure_way(word, room, face)) for word in _WORDS.findall(text)]
+    most = room / _SMALLER if may_be_smaller else room
+    ways = [
+        (word.replace(_JOINER, ""), _measure_way(word, room, face, most)) for word in _WORDS.findall(text)
+    ]
     if all(way == AS_WORDS for _, way in ways):
         return text
     return [
@@ -69,11 +79,15 @@ def fit_text_with_symbols(text: str, notations: Iterable[str], room: float) -> T
     return [stretch for part in parts for stretch in ([(part, AS_WORDS)] if isinstance(part, str) else part)]
 
 
-def _measure_way(word: str, room: float, face: FontFace) -> str:
+def _measure_way(word: str, room: float, face: FontFace, most: float) -> str:
+    """Return the way of a word in a place of a width; `most`: Em that a number may have, in smaller type."""
     if has_marks(word):
         return MARKED
     if _JOINER in word:  # whole, and without the sign: a reader of the document would find it in the text
-        return MARKED if text_advance(word.replace(_JOINER, ""), face) <= room else ANYWHERE
+        width = text_advance(word.replace(_JOINER, ""), face)
+        if width <= room:
+            return MARKED
+        return SMALLER if width <= most else ANYWHERE
     if _WIDEST_LETTER * len(word) <= room or text_advance(word, face) <= room:
         return AS_WORDS
     is_of_language = word.strip(".,;:!?()").replace("-", "").isalpha() and len(word) <= _LONGEST_WORD

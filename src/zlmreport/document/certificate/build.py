@@ -146,6 +146,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         job=job,
         sources=made_from,
         is_compact=laid_out.is_compact,
+        head=laid_out.head,
         look=read_look(job),
         doubts=doubtful,
         evidence=shown,

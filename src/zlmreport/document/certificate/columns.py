@@ -31,7 +31,7 @@ from zlmreport.document.blocks import (
     Verdict,
     write_cell_text,
 )
-from zlmreport.document.certificate.document import Certificate, Letterhead
+from zlmreport.document.certificate.document import Certificate, Head, Letterhead, shorten_letterhead
 from zlmreport.document.figures.canvas import TypeFace
 from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.language.formatting import WORD_JOINER, hold_together
@@ -361,6 +361,8 @@ _LOGO = 31.0
 #: Em of a page of the type of the line below the title, and of a laboratory's name without and with a logo.
 _SUBJECT_EM, _LABORATORY_EM = 50.0, (46.0, 30.0)
 _SUBJECT_LINE = 12.9
+#: A name and a title in small type, in parts of their usual sizes.
+_SMALL_NAME, _SMALL_TITLE = 0.765 / 1.167, 1 / 1.8
 #: What a section has above its heading that begins below the title, and no page.
 BELOW_TITLE = 5.5
 #: Em of the names and values of facts in one of two columns, and where a single group has the page's width.
@@ -375,17 +377,23 @@ def estimate_height(blocks: Iterable[Block]) -> float:
     return sum(map(_estimate_height, gather_facts(blocks)))
 
 
-def estimate_head_height(letterhead: Letterhead | None, title: str, subject: str, number: str) -> float:
+def estimate_head_height(
+    letterhead: Letterhead | None, title: str, subject: str, number: str, head: Head = Head.WHOLE
+) -> float:
     """Return how high the letterhead and the title stand, with what the first page has besides.
 
     The number stands behind the subject, or below it where it would be parted.
     """
     below_title = _count_lines_of_words(f"{subject} {number.replace('-', '_')}", _SUBJECT_EM)
-    room = _count_lines_in_room(title, 26.0) * 17.5 + _SUBJECT_LINE * below_title + 7.0
+    smaller, small_title = (_SMALL_NAME, _SMALL_TITLE) if head is Head.SMALL else (1.0, 1.0)
+    room = _count_lines_in_room(title, 26.0 / small_title) * 17.5 * small_title
+    room += _SUBJECT_LINE * below_title + 7.0
+    letterhead = shorten_letterhead(letterhead, head)
     if letterhead:
         beside = ", ".join((*letterhead.laboratory.lines, letterhead.accreditation))
-        name = _count_lines_of_words(letterhead.laboratory.name, _LABORATORY_EM[bool(letterhead.logo)])
-        text = 1.0 + 12.8 * name + 9.8 * _count_lines_in_room(beside, 40.0)
+        name_em = _LABORATORY_EM[bool(letterhead.logo)] / smaller
+        name = _count_lines_of_words(letterhead.laboratory.name, name_em)
+        text = 1.0 + 12.8 * smaller * name + (9.8 * _count_lines_in_room(beside, 40.0) if beside else 0.0)
         room += max(text, _LOGO if letterhead.logo else 0.0) + 10.2
     return room - _OF_FIRST
 

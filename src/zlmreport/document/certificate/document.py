@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import date
+from enum import StrEnum
 from typing import TYPE_CHECKING, Any, Literal
 
 from zlmreport.document.blocks import Block, Graph, Section
@@ -38,6 +39,21 @@ class Letterhead:
     accreditation: str = ""
     logo: bytes | None = None
     logo_type: str = ""
+
+
+class Head(StrEnum):
+    """How much stands above the first page of a document, and how large."""
+
+    WHOLE = "whole"  #: Letterhead and title.
+    NAME = "name"  #: Of the laboratory the name alone: address and accreditation stand elsewhere.
+    SMALL = "small"  #: The same, in small type.
+
+
+def shorten_letterhead(letterhead: Letterhead | None, head: Head) -> Letterhead | None:
+    """Return what of a letterhead is printed."""
+    if letterhead is None or head is Head.WHOLE:
+        return letterhead
+    return replace(letterhead, laboratory=Party(letterhead.laboratory.name), accreditation="")
 
 
 _OF_PAGES = (Words("page"), Words("of"), Words("End of document"), Words("Figure"), Words("Table"))
@@ -123,6 +139,8 @@ class Certificate:
         Whether it is set in smaller type, with less room between its parts.
     letterhead
         The issuing laboratory.
+    head
+        How much of it stands above the first page.
     cover
         The blocks of the first page under the title.
     sections
@@ -191,12 +209,18 @@ class Certificate:
     sources: tuple[Source, ...] = ()
     attachments: tuple[Attachment, ...] = ()
     is_compact: bool = False
+    head: Head = Head.WHOLE
     look: Look = Look()
     doubts: tuple[Words, ...] = ()
     digest: str = ""
     evidence: tuple[Words, ...] = ()
     tests: tuple[Tested, ...] = ()
     parts: Mapping[str, Certificate] = field(default_factory=dict)
+
+    @property
+    def printed_letterhead(self) -> Letterhead | None:
+        """What of the letterhead stands above the first page."""
+        return shorten_letterhead(self.letterhead, self.head)
 
     @property
     def running_head(self) -> str:

@@ -15,6 +15,7 @@ from zlmreport.document.certificate import (
     results,
     uncertainty,
 )
+from zlmreport.document.certificate.document import Head
 from zlmreport.document.certificate.statements import lay_out_opinions
 
 if TYPE_CHECKING:
@@ -98,6 +99,7 @@ class LaidOut:
     cover: tuple[Block, ...]
     sections: tuple[Section, ...]
     is_compact: bool = False
+    head: Head = Head.WHOLE
 
 
 def lay_out_uncertainty(of: Material) -> Iterator[Section]:

@@ -89,6 +89,12 @@ def fill(said: Said, room: float, writer: Writer, gained: float = 0.0) -> Filled
     return _fill_with_what_matters(said, room + gained, writer, filled.left.names)
 
 
+def measure_least(said: Said, writer: Writer) -> float:
+    """Return the points of a page that no more than says where all of it stands."""
+    pointed_at = _list_ways_to_note(said.notices, writer)[-1]
+    return columns.estimate_height([_say_elsewhere(said.names, writer), *pointed_at])
+
+
 def lay_out_details(left: Iterable[Said], writer: Writer, page: float) -> tuple[str, tuple[Block, ...]]:
     """Return title and blocks of the page of what sheets do not hold; what several lack stands there once.
 

@@ -25,10 +25,11 @@ from zlmreport.document.certificate import (
 )
 from zlmreport.document.certificate.circumstances import select_stated_facts
 from zlmreport.document.certificate.digest import DIGEST
+from zlmreport.document.certificate.document import Head
 from zlmreport.document.certificate.material import LaidOut, Material
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.results import Evaluated, make_section_key
-from zlmreport.document.certificate.sheet_filling import Pair, Said, fill, lay_out_details
+from zlmreport.document.certificate.sheet_filling import Pair, Said, fill, lay_out_details, measure_least
 from zlmreport.document.certificate.standard_layout import (
     find_main_graph,
     fit_on_a_page,
@@ -66,6 +67,7 @@ _BESIDE_GRAPH = 8.0
 #: Groups of facts that need no heading, for their names say of what they are.
 _PLAIN_GROUPS = ("axis", "circle", "measurement", "environment")
 
+_LABORATORY = Words("Laboratory")
 _DIGEST = Words("{name}: {digest}.")
 #: Marks of verdicts in the order of their lines.
 _GRAVEST_FIRST = ("not met", "open", "met")
@@ -79,6 +81,7 @@ class _Page:
     free: float  #: What of the page is left for them, points; of the last, beside the mark of the end.
     gained: float  #: What there is besides where another page follows after all.
     is_as_found: bool = False  #: Whether it was measured before an adjustment.
+    head: Head = Head.WHOLE  #: What of the letterhead stands above it, if it is the first.
 
     @property
     def evaluations(self) -> tuple[Evaluation, ...]:
@@ -103,7 +106,7 @@ def lay_out(of: Material) -> LaidOut:
         _Page(last, whole + _GAINED, 0.0) if goes_on else _Page(last, whole, _GAINED),
     ]
     if not of.is_part:  # or else the summary stands before them
-        pages[0] = replace(pages[0], free=pages[0].free - measure_head_height(of) - columns.BELOW_TITLE)
+        pages[0] = _choose_head(of, pages[0])
     sheets = [_fill_sheet(of, page) for page in pages]
     before = {
         each.evaluation.standard: _fill_sheet(of, _Page((each,), whole + _GAINED, 0.0, is_as_found=True))
@@ -117,7 +120,21 @@ def lay_out(of: Material) -> LaidOut:
         *statements.lay_out_opinions(keys, of.writer),
     )
     begun = (*_begin_pages(others), *lay_out_results_by_line(of, _lay_out_line), *_begin_pages(last_pages))
-    return LaidOut((), (first, *begun), is_compact=True)
+    return LaidOut((), (first, *begun), is_compact=True, head=pages[0].head)
+
+
+def _choose_head(of: Material, first: _Page) -> _Page:
+    """Return the first page below as much of letterhead and title as leaves the graph its usual height."""
+    ways = [
+        replace(first, free=first.free - measure_head_height(of, head) - columns.BELOW_TITLE, head=head)
+        for head in Head
+    ]
+    for page in ways:
+        figure = find_main_graph(page.evaluated[0].figures)
+        beside = _measure_with_graph(_measure_usual_height(figure)) if figure else 0.0
+        if _measure_free(of, page) - beside >= _LEAST_ROOM:
+            return page
+    return ways[-1]
 
 
 def _begin_pages(sections: Iterable[Section]) -> Iterator[Section]:
@@ -152,20 +169,15 @@ def _lay_out_beside_as_found(
 def _fill_sheet(of: Material, page: _Page) -> _Sheet:
     """Return a page, and what has no place on it."""
     writer, evaluation = of.writer, page.evaluations[0]
-    title = results.write_title_of(page.evaluations, writer)
-    outcome, listed = tuple(_say_outcome(evaluation, of)), _lay_out_parameters(evaluation, writer)
-    digest = tuple(_digest(of))
-    free = (
-        page.free
-        - columns.estimate_heading_height(title)
-        - columns.estimate_height((*outcome, *listed, *digest))
-    )
-    main = find_main_graph(page.evaluated[0].figures)
-    filled = fill(_gather_said(of, page), _measure_room_beside(main, free), writer, page.gained)
+    outcome, listed, digest = _lay_out_always(of, evaluation)
+    free, main = _measure_free(of, page), find_main_graph(page.evaluated[0].figures)
+    said = _gather_said(of, page)
+    room = _measure_room_beside(main, free, measure_least(said, writer))
+    filled = fill(said, room, writer, page.gained)
     free += page.gained if filled.left != Said() else 0.0
     free -= columns.estimate_height(filled.notices) + columns.estimate_height(filled.others)
     table = tuple(results.lay_out_by_position(evaluation, writer))
-    with_graph = (_measure_usual_height(main) + _BESIDE_GRAPH) * columns.MILLIMETRE if main else 0.0
+    with_graph = _measure_with_graph(_measure_usual_height(main)) if main else 0.0
     holds_table = columns.estimate_height(table) <= free - with_graph
     if holds_table:
         free -= columns.estimate_height(table)
@@ -178,7 +190,22 @@ def _fill_sheet(of: Material, page: _Page) -> _Sheet:
         *filled.others,
         *digest,
     )
+    title = results.write_title_of(page.evaluations, writer)
     return _Sheet(Section(make_section_key(evaluation), title, blocks), filled.left)
+
+
+def _lay_out_always(
+    of: Material, evaluation: Evaluation
+) -> tuple[tuple[Block, ...], tuple[Block, ...], tuple[Block, ...]]:
+    """Return what every sheet has beside its graph: verdicts, parameters, digest."""
+    return tuple(_say_outcome(evaluation, of)), _lay_out_parameters(evaluation, of.writer), tuple(_digest(of))
+
+
+def _measure_free(of: Material, page: _Page) -> float:
+    """Return what a page leaves for its graph and all that it need not have, points."""
+    title = results.write_title_of(page.evaluations, of.writer)
+    always = [block for blocks in _lay_out_always(of, page.evaluations[0]) for block in blocks]
+    return page.free - columns.estimate_heading_height(title) - columns.estimate_height(always)
 
 
 def _lay_out_line(each: Evaluated, writer: Writer) -> Section:
@@ -189,15 +216,20 @@ def _lay_out_line(each: Evaluated, writer: Writer) -> Section:
     return Section(make_section_key(evaluation), title, (*graph, *_lay_out_parameters(evaluation, writer)))
 
 
-def _measure_room_beside(figure: Figure | None, free: float) -> float:
-    """Return what a page leaves to all but the graph, which is lower only where nothing else had room."""
+def _measure_room_beside(figure: Figure | None, free: float, least: float) -> float:
+    """Return what a page leaves to all but the graph, which is lower only where nothing else had room.
+
+    `least`: That all else must have, points.
+    """
     if figure is None:
         return free
-    usual, least = (
-        (height + _BESIDE_GRAPH) * columns.MILLIMETRE
-        for height in (_measure_usual_height(figure), _LEAST_GRAPH)
-    )
-    return max(free - usual, min(_LEAST_ROOM, free - least))
+    usual, lowest = map(_measure_with_graph, (_measure_usual_height(figure), _LEAST_GRAPH))
+    return max(free - usual, min(least, free - lowest))
+
+
+def _measure_with_graph(height: float) -> float:
+    """Return the points that a graph of a height, mm, takes with its caption."""
+    return (height + _BESIDE_GRAPH) * columns.MILLIMETRE
 
 
 def _measure_usual_height(figure: Figure) -> float:
@@ -256,6 +288,8 @@ def _gather_said(of: Material, page: _Page) -> Said:
         *statements.list_notices(job.keys, writer, names_all=True),
     )
     who, stated = _gather_stated(of, page)
+    if page.head is not Head.WHOLE:
+        who = (*who, *_list_laboratory(of))
     groups = [(key, replace(group, heading="") if key in _PLAIN_GROUPS else group) for key, group in stated]
     return Said(
         notices=notices,
@@ -273,6 +307,13 @@ def _gather_said(of: Material, page: _Page) -> Said:
         if page.is_as_found
         else tuple(conditions.lay_out_corrections(of.measurements, writer)),
     )
+
+
+def _list_laboratory(of: Material) -> Iterator[Pair]:
+    """Yield what of the laboratory its letterhead has no room for."""
+    if of.letterhead:
+        said = filter(None, (", ".join(of.letterhead.laboratory.lines), of.letterhead.accreditation))
+        yield of.writer.say(_LABORATORY), "; ".join(said)
 
 
 def _gather_stated(of: Material, page: _Page) -> tuple[tuple[Pair, ...], tuple[tuple[str, Facts], ...]]:

@@ -11,6 +11,7 @@ from typing import TypeAlias, TypeGuard
 
 from zlmreport.document.blocks import Block, Facts, Graph, Notice, Paragraph, RowGroup, Section, Symbol, Table
 from zlmreport.document.certificate import columns, conditions, conformity, results, statements
+from zlmreport.document.certificate.document import Head
 from zlmreport.document.certificate.first_page import lay_out_first_page
 from zlmreport.document.certificate.material import (
     LaidOut,
@@ -82,10 +83,11 @@ def lay_out(of: Material) -> LaidOut:
     )
 
 
-def measure_head_height(of: Material) -> float:
+def measure_head_height(of: Material, head: Head = Head.WHOLE) -> float:
     """Return how high a document's letterhead and title stand, points."""
     subject = of.writer.say(statements.name_subject_of(of.job))
-    return columns.estimate_head_height(of.letterhead, of.title, subject, of.job.keys.certificate.number)
+    number = of.job.keys.certificate.number
+    return columns.estimate_head_height(of.letterhead, of.title, subject, number, head)
 
 
 def lay_out_one(each: Evaluated, writer: Writer) -> Section:

@@ -209,11 +209,14 @@ def lay_out_alone(
     return lay_out_panel(panel, frame, legend, levels, language)
 
 
+_IN_UNIT = Words("{quantity} in {unit}")
+
+
 def write_axis_title(quantity: Words, unit: str, language: Language) -> str:
     """Return what stands at an axis; a unit that is but a small sign has its name, too."""
-    text = quantity.in_language(language)
-    unit = _NAMED_SIGNS.get(unit, unit)
-    return f"{text} in {unit}" if unit else text
+    named = _NAMED_SIGNS.get(unit, unit)
+    title = _IN_UNIT.given(quantity=quantity, unit=named) if named else quantity
+    return title.in_language(language)
 
 
 def _place_boxes(

@@ -108,7 +108,7 @@ def compose(certificate: Certificate, setting: Setting = Setting()) -> str:
 
 
 def _set_letterhead(certificate: Certificate, setting: Setting) -> Markup:
-    letterhead = certificate.letterhead
+    letterhead = certificate.printed_letterhead
     if letterhead is None:
         return Markup()
     logo = setting.logo if letterhead.logo else ""

@@ -10,6 +10,8 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, fields
 from functools import lru_cache
+from html import unescape
+from math import inf
 from typing import ClassVar, TypeAlias
 from xml.etree import ElementTree as ET
 
@@ -26,6 +28,8 @@ from markupsafe import Markup
 
 from zlmreport.document.blocks import Facts, Symbol, split_at_symbols
 from zlmreport.document.certificate.document import Certificate, Letterhead
+from zlmreport.document.figures.canvas import TypeFace
+from zlmreport.document.figures.metrics import measure_advance
 from zlmreport.document.typesetting.overview import (
     OverviewContext,
     OverviewLegendContext,
@@ -106,6 +110,11 @@ class FactsContext:
 
     template: ClassVar[str] = "facts.html"
     columns: tuple[tuple[Facts, ...], ...]
+
+    @property
+    def room(self) -> float:
+        """Em of a value."""
+        return _VALUE_EM[len(self.columns) > 1]
 
 
 @dataclass(frozen=True, slots=True)
@@ -286,10 +295,14 @@ def render(context: Context, own: tuple[tuple[str, str], ...] = ()) -> Markup:
             raise InputError.at(
                 place, f"this template leaves out {' '.join(lacking[:8])}; all must be printed"
             )
-    text = _set_held_words(_NOT_IN_XML.sub(_REPLACEMENT, text))
+    text = _set_held_words(
+        _NOT_IN_XML.sub(_REPLACEMENT, text), context.room if isinstance(context, FactsContext) else inf
+    )
     return Markup(text)  # noqa: S704 (the template has escaped every value)
 
 
+#: Em that a value has where facts share a page's width with their names, and in one of two columns.
+_VALUE_EM = (36.0, 13.5)
 #: What holds no elements, and a tag; and words whose parts are joined, in the text between tags. The number
 #: before a unit is of its word: a line that is broken before such a unit would end anywhere before it.
 _HELD_WORDS = re.compile(
@@ -299,17 +312,23 @@ _HELD_WORDS = re.compile(
 )
 
 
-def _set_held_words(markup: str) -> str:
+def _set_held_words(markup: str, room: float = inf) -> str:
     """Set words that no line parts as such, and take the signs out that joined their parts.
 
-    Nothing but what is seen stands in the text then; a word that is wider than its place is parted there.
+    Nothing but what is seen stands in the text then. A word that is wider than its place, of so many em, is
+    set in smaller type, and parted there if it is wider yet. In a link its blanks are held: an element within
+    would be a second link.
     """
     if WORD_JOINER not in markup:
         return markup
 
     def set_words(found: re.Match[str]) -> str:
-        words = found[0].replace(WORD_JOINER, "")
-        return words if words.startswith("<") else f'<span class="held">{words}</span>'
+        is_link = found[1] == "a"
+        words = found[0].replace(f"{WORD_JOINER} ", HELD if is_link else " ").replace(WORD_JOINER, "")
+        if words.startswith("<"):
+            return words
+        smaller = " smaller" if measure_advance(unescape(words), TypeFace.REGULAR) > room else ""
+        return f'<span class="held{smaller}">{words}</span>'
 
     return _HELD_WORDS.sub(set_words, markup)
 

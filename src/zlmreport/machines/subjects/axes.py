@@ -148,8 +148,10 @@ _NOTE = Words(
     "Size is the span of the curve, of a squareness error its value; ± is U, k = 2. An error that nobody "
     "measured is bounded and never taken as zero."
 )
-_NOT_MEASURED = Words("not measured, taken as bounded: {errors}")
-_ASSUMED = Words("{count} of these bounds are assumptions of this program; state your own as bounds:")
+_NOT_MEASURED = Words("Not measured, taken as bounded: {errors}")
+_ASSUMED = Words(
+    "{count} of these bounds are assumptions of this program; the machine file (bounds) states your own."
+)
 _ERROR, _SIZE = Words("Error"), Words("Size")
 _UNIT, _RANGE = Words("Unit"), Words("Range")
 _LINE, _FROM = Words("Line at"), Words("From")
