@@ -88,8 +88,8 @@ class MachineDiagnosis:
     not_testable: tuple[str, ...]
     catalogue: tuple[CircleEffect, ...]  #: All effects that were thought of.
     is_tied: bool  #: Whether the next effect has an equal that this plan cannot tell from it.
-    #: Root mean square of what scatters, m: beside the model that describes them best. Where effects are
-    #: tied, that has one of them, though `complete` has none: what they do is no noise.
+    #: Root mean square of what scatters beside the model that describes the circles best, m. Where effects
+    #: are tied, that has one of them, though `complete` has none: what they do is no noise.
     noise: float
 
 
