@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -97,6 +99,16 @@ def test_in_one_sense_squareness_and_servo_mismatch_are_one_thing():
     assert "cannot tell them apart" in values["statement"]
 
 
+@pytest.mark.parametrize("senses", [(1,), (1, -1)])
+def test_what_tied_effects_do_is_no_noise(senses):
+    """With one sense nothing is added, but the noise is what either of the effects would leave."""
+    found = diagnosed(circle(out_of_square(60 * MICRO), seed=2, senses=senses, count=120, noise=0.2 * MICRO))
+    values = collect_diagnosis(found, (), ())
+    assert found.is_tied == (senses == (1,))
+    assert values["error"]["noise_rms"] == pytest.approx(0.2, rel=0.35)
+    assert values["error"]["noise_rms"] == pytest.approx(values["candidates"][0]["rms_after"], rel=0.35)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(2))
 def test_five_lobes_are_nobodys(seed):
@@ -186,3 +198,20 @@ def test_few_readings_and_part_of_a_circle_are_diagnosed_too():
 def test_a_model_without_anything_begins_with_where_the_bar_stands():
     found = diagnosed(circle(lagging(0.0, 0.3e-3), seed=1), effects=())
     assert set(found.found) == {"radius", "centre-offset", "servo-mismatch"}
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-9, 12e-6, 1.0])
+def test_the_evidence_of_what_is_exactly_explained_is_finite(size):
+    """Readings without any scatter, all of them zero or just what an effect makes."""
+    plain = circle(nothing, count=60, noise=0.0)
+    shape = -size * np.sin(plain.angle) * np.cos(plain.angle)
+    found = diagnosed(replace(plain, deviation=shape), effects=("radius",))
+    assert all(np.isfinite(each.evidence) for each in found.candidates)
+    assert np.isfinite(found.noise)
+    assert all(np.isfinite(each.probability) for each in found.candidates)
+    assert (found.verdict is Verdict.ADEQUATE) == (size == 0.0)
+    if size == 12e-6:
+        assert "squareness" in {
+            found.candidates[0].effect.identifier,
+            *found.candidates[0].indistinguishable_from,
+        }

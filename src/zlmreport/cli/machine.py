@@ -86,7 +86,7 @@ def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[I
         compare_circles(machine.machine, machine.measured, registry, study)
         for study in (found.study, found.complete)
     )
-    blocks: list[Block] = [tests.lay_out_sizes(before, _SAY, found.complete.noise.rms)]
+    blocks: list[Block] = [tests.lay_out_sizes(before, _SAY, found.noise)]
     failures = tests.make_failure_notice(before, _SAY)
     if failures:
         blocks.append(failures)

@@ -130,5 +130,7 @@ def _compute_tangents(
             for way in (-1.0, 1.0)
         ]
         low, high = (each.columns @ weights for each in ends)
-        found.append((effect.searched[place], np.asarray((high - low) / (2.0 * step))))
+        column = np.asarray((high - low) / (2.0 * step))
+        if np.any(column):  # Of an effect of no size no value is determined.
+            found.append((effect.searched[place], column))
     return tuple(found)

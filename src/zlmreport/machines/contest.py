@@ -20,7 +20,7 @@ import numpy as np
 from zlmreport.language import Words
 from zlmreport.machines.design import ThinnedDesign
 from zlmreport.machines.forms import CircleForm
-from zlmreport.machines.noise import NoiseFound, NoiseModel, Whitened
+from zlmreport.machines.noise import NoiseFound, NoiseModel, Whitened, bound_square
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.model.diagnosis.null_distribution import LEVEL, NullDistribution, PValue, Scores
 from zlmreport.model.effects.circle_design import AXES
@@ -185,7 +185,7 @@ class _Arena:
         self._whitened = whitened
         own = whitened.of(together)
         self._left = own - whitened.taken @ (whitened.taken.T @ own)
-        self._squares = np.sum(own * self._left, axis=0)
+        self._squares = bound_square(np.sum(own * self._left, axis=0), np.sum(own**2, axis=0))
         self._freedom = whitened.freedom
         self.null = -0.5 * whitened.log_determinant - 0.5 * self._freedom * np.log(self._squares)
 

@@ -88,6 +88,9 @@ class MachineDiagnosis:
     not_testable: tuple[str, ...]
     catalogue: tuple[CircleEffect, ...]  #: All effects that were thought of.
     is_tied: bool  #: Whether the next effect has an equal that this plan cannot tell from it.
+    #: Root mean square of what scatters beside the model that describes the circles best, m. Where effects
+    #: are tied, that has one of them, though `complete` has none: what they do is no noise.
+    noise: float
 
 
 def compute_rms_of(study: CircleStudy) -> float:
@@ -159,7 +162,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     verdict = Verdict.MISSING if found or is_tied else verdict
     return MachineDiagnosis(
         study, last.study, verdict, first.outcome.p_value, first.shown, tuple(found), tuple(steps),
-        remainder, first.hidden, tuple(catalogue), is_tied,
+        remainder, first.hidden, tuple(catalogue), is_tied, stages[chosen].study.noise.rms,
     )  # fmt: skip
 
 

@@ -31,7 +31,7 @@ def collect_diagnosis(
     `tests`: The tests beside the model as it is.
     `complete`: The same beside the model with all that was found.
     """
-    noise = diagnosis.complete.noise.rms
+    noise = diagnosis.noise
     return {
         "schema": SCHEMA,
         "model": collect_model(diagnosis.study),
@@ -89,7 +89,7 @@ def build_values(diagnosis: MachineDiagnosis, language: Language = Language.ENGL
         "verdict": Verdict.UNEXPLAINED.value if diagnosis.remainder else _say_after(diagnosis),
         "remainder": collect_remainder(diagnosis, language),
         "model": collect_model(diagnosis.complete),
-        "error": collect_study(diagnosis.complete, diagnosis.complete.noise.rms),
+        "error": collect_study(diagnosis.complete, diagnosis.noise),
     }
 
 

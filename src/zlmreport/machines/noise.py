@@ -31,8 +31,14 @@ _KEPT, _MOST = 0.98, 6
 _LEAST_VARIANCE = 1e-4
 #: A hair of the diagonal: columns of the base that nearly coincide must not stop the work.
 _HAIR = 1e-12
-#: Deviations that are nothing but zeros have a logarithm, too.
-_LEAST_SQUARE = 1e-300
+#: Of the square of deviations, what is taken to be left where a model explains them exactly: rounding leaves
+#: anything about zero there, and deviations that are nothing but zeros have a logarithm, too.
+_LEAST_LEFT, _LEAST_SQUARE = 1e-10, 1e-300
+
+
+def bound_square(left: FloatArray, whole: FloatArray) -> FloatArray:
+    """Return what a model leaves of squared deviations, (B,), but no less than rounding may leave."""
+    return np.asarray(np.maximum(left, _LEAST_LEFT * whole + _LEAST_SQUARE))
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,7 +200,7 @@ class NoiseModel:
         # With the deviations as a last column, the factor's last element is the root of their P-square.
         bordered = np.empty((len(matrix) + 1, len(matrix) + 1))
         bordered[:-1, :-1], bordered[-1, :-1] = matrix, products[used]
-        bordered[-1, -1] = square * (1.0 + _HAIR) + _LEAST_SQUARE
+        bordered[-1, -1] = square * (1.0 + _LEAST_LEFT) + _LEAST_SQUARE
         factor = np.diag(cholesky(bordered))
         log_determinant = log_rest + 2.0 * float(np.sum(np.log(factor[:-1])))
         left = float(factor[-1]) ** 2

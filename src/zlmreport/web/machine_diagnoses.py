@@ -64,8 +64,8 @@ def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language
         "noise": None
         if diagnosis.is_tied
         else {
-            "value": MICROMETRE.from_si(diagnosis.complete.noise.rms),
-            "written": say.micrometres(diagnosis.complete.noise.rms),
+            "value": MICROMETRE.from_si(diagnosis.noise),
+            "written": say.micrometres(diagnosis.noise),
         },
         "findings": collect_blocks(findings, names),
         "candidates": candidates,
