@@ -42,6 +42,7 @@ _NEVER_OF_ONE = (
     "all {total} readings",
     "{count} readings chosen",
     "{count} readings were set aside and did not enter the results",
+    "{count} more readings lie as far from the others of their targets",
     "{count} measurements of {machine}",
     "{count} files; unless the job says otherwise",
     "{count} turns of radius {radius} mm",
