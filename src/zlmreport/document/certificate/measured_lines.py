@@ -26,6 +26,8 @@ from zlmreport.measurement.measurand import Coordinate
 if TYPE_CHECKING:
     from zlmreport.document.certificate.results import Evaluated, Tested
 
+#: Key of the section on lines without results of their own.
+BARE_LINES = "lines"
 _NAMED = Words("{name}: {said}")
 #: Groups of facts that a line may have of its own: the machine is that of the document.
 _OWN = ("axis", "measurement", "instrument", "environment")
@@ -125,7 +127,7 @@ def _lay_out_bare_lines(lines: Sequence[tuple[Tested, Sequence[Facts]]], writer:
             (name, *(values[label][number] for label in differing)) for number, name in enumerate(names)
         )
         blocks.append(Table(title, columns, (RowGroup(rows),), dense=True))
-    return Section("lines", title, tuple(blocks))
+    return Section(BARE_LINES, title, tuple(blocks))
 
 
 def lay_out_readings(tests: Sequence[Tested], writer: Writer) -> Iterator[Section]:

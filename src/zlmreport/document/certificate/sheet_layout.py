@@ -119,7 +119,12 @@ def lay_out(of: Material) -> LaidOut:
         *([Section("details", title, lacking)] if lacking else []),
         *statements.lay_out_opinions(keys, of.writer),
     )
-    begun = (*_begin_pages(others), *lay_out_results_by_line(of, _lay_out_line), *_begin_pages(last_pages))
+    by_line = tuple(lay_out_results_by_line(of, _lay_out_line))
+    ended = tuple(_begin_pages(last_pages))
+    if ended and by_line and by_line[-1].key == measured_lines.BARE_LINES:
+        # What little is said of lines without results of their own fills no page.
+        ended = (replace(ended[0], new_page=False), *ended[1:])
+    begun = (*_begin_pages(others), *by_line, *ended)
     return LaidOut((), (first, *begun), is_compact=True, head=pages[0].head)
 
 
