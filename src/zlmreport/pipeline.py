@@ -39,6 +39,7 @@ from zlmreport.evaluation.uncertainty.job_budget import find_unstated, make_budg
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import Document
+from zlmreport.job.days import demand_days_past
 from zlmreport.language import Language, Words
 from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurement_set import join_lines
@@ -359,6 +360,7 @@ def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]
 
 def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
+    demand_days_past(job)
     renderers = [registry.renderer(identifier) for identifier in job.formats]
     with _collect_garbage_once():
         certificate = compose(job, registry, showing=showing)

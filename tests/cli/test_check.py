@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import datetime as dt
+
+import pytest
+
 from cli.commands import Shop
+from zlmreport.job import days
 
 
 def test_sound_job_is_told_with_every_requirement(shop: Shop) -> None:
@@ -36,6 +41,19 @@ def test_nothing_is_written(shop: Shop) -> None:
     shop.job()
     before = sorted(shop.folder.rglob("*"))
     shop.run("check", "job.yaml")
+    assert sorted(shop.folder.rglob("*")) == before
+
+
+@pytest.mark.parametrize("command", [("check", "job.yaml"), ("job.yaml",)])
+def test_a_measurement_of_a_day_that_has_not_come_is_refused(
+    command: tuple[str, ...], shop: Shop, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(days, "read_clock", lambda: dt.date(2031, 3, 1))
+    shop.job(("date: 2026-11-18", "date: 2031-04-18"))
+    before = sorted(shop.folder.rglob("*"))
+    run = shop.run(*command)
+    assert run.code == 2
+    assert "job.yaml:9:9: measurement.date: 2031-04-18 lies in the future" in run.messages
     assert sorted(shop.folder.rglob("*")) == before
 
 

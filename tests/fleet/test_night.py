@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 import os
 import shutil
 from dataclasses import replace
@@ -17,6 +18,7 @@ from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
+from zlmreport.job import days
 
 FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
 OTHER_READINGS = "2 2 3 -1 -2 -3"
@@ -210,6 +212,16 @@ def test_a_job_with_unreadable_data_fails_alone_with_its_message(fleet: Fleet) -
     entry = next(each for each in fleet.entries() if each.state is State.FAILED)
     assert (entry.number, entry.axis) == ("CAL-X", "X")
     assert entry.message == "\n".join(map(str, night.of("x").problems))
+
+
+def test_a_measurement_of_a_day_that_has_not_come_fails_alone(
+    fleet: Fleet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(days, "read_clock", lambda: dt.date(2031, 3, 1))
+    fleet.job("x", ("date: 2026-11-18", "date: 2031-04-18"))
+    night = fleet.spend()
+    assert night.what == {"x": What.FAILED, "y": What.ISSUED}
+    assert "2031-04-18 lies in the future" in str(night.of("x").problems[0])
 
 
 def test_what_failed_is_tried_again_the_next_night(fleet: Fleet) -> None:

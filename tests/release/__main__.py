@@ -10,6 +10,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))  # for its neighbours, as pyt
 
 from release.rule import fingerprint, raise_version, record
 from verification.issued import issue, lay_out
+from zlmreport.job.days import read_clock
 
 if __name__ == "__main__":
     match sys.argv[1:]:
@@ -19,7 +20,9 @@ if __name__ == "__main__":
             with tempfile.TemporaryDirectory() as folder:
                 job = lay_out(Path(folder))
                 sys.stdout.write(
-                    record(fingerprint({name: issue(job, name) for name in ("pdf", "pdf-typst")}))
+                    record(
+                        fingerprint({name: issue(job, name) for name in ("pdf", "pdf-typst")}), read_clock()
+                    )
                 )
         case _:
             sys.exit(__doc__)

@@ -12,6 +12,7 @@ releases, however often results change.
 
 from __future__ import annotations
 
+import datetime as dt
 import json
 import re
 from collections.abc import Mapping
@@ -28,6 +29,7 @@ from verification.issued import NUMBER, content_of
 from zlmreport.version import __version__
 
 RELEASES = ROOT / "releases.yaml"
+_RELEASED = re.compile(r"RELEASED = dt\.date\(.*\)")
 _VERSION = ROOT / "src" / "zlmreport" / "version.py"
 _CHANGES = ROOT / "CHANGELOG.md"
 _GOLDEN = ROOT / "tests" / "document" / "certificate" / "golden"
@@ -80,11 +82,14 @@ def released() -> dict[str, dict[str, str]]:
     return read
 
 
-def record(present: Mapping[str, str]) -> str:
-    """Write down that the present version is released, and return what was done."""
+def record(present: Mapping[str, str], today: dt.date) -> str:
+    """Write down that the present version is released, and on which day, and return what was done."""
     rows = {**released(), __version__: dict(present)}
     RELEASES.write_text(_HEAD + yaml.safe_dump(rows, sort_keys=False), encoding="utf-8")
     _replace(_CHANGES, _HEADING.format(__version__), f"## {__version__}")
+    stated = _VERSION.read_text(encoding="utf-8")
+    day = f"RELEASED = dt.date({today.year}, {today.month}, {today.day})"
+    _VERSION.write_text(_RELEASED.sub(day, stated), encoding="utf-8")
     return f"{__version__} is recorded in {RELEASES.name} and {_CHANGES.name}; tag it v{__version__}\n"
 
 

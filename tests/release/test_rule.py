@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime as dt
 from pathlib import Path
 
 import pytest
@@ -63,7 +64,7 @@ def test_a_release_is_recorded_and_the_next_one_begun(
 ) -> None:
     for name, text in {
         "RELEASES": "0.9.0: {results: a}\n",
-        "_VERSION": '__version__ = "0.10.0"\n',
+        "_VERSION": '__version__ = "0.10.0"\nRELEASED = dt.date(2026, 1, 9)\n',
         "_CHANGES": "# Changelog\n\n## Unreleased (0.10.0)\n\n- A line.\n\n## 0.9.0\n",
     }.items():
         file = tmp_path / name
@@ -71,10 +72,12 @@ def test_a_release_is_recorded_and_the_next_one_begun(
         monkeypatch.setattr(rule, name, file)
     monkeypatch.setattr(rule, "__version__", "0.10.0")
     assert "not released yet" in rule.raise_version()
-    rule.record({"results": "b"})
+    rule.record({"results": "b"}, dt.date(2026, 12, 4))
     assert released() == {"0.9.0": {"results": "a"}, "0.10.0": {"results": "b"}}
     assert "## 0.10.0\n\n- A line." in (tmp_path / "_CHANGES").read_text(encoding="utf-8")
     rule.raise_version()
-    assert (tmp_path / "_VERSION").read_text(encoding="utf-8") == '__version__ = "0.11.0"\n'
+    assert (tmp_path / "_VERSION").read_text(encoding="utf-8") == (
+        '__version__ = "0.11.0"\nRELEASED = dt.date(2026, 12, 4)\n'
+    )
     text = (tmp_path / "_CHANGES").read_text(encoding="utf-8")
     assert text.startswith("# Changelog\n\n## Unreleased (0.11.0)\n\n## 0.10.0\n")

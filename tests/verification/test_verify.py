@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import datetime as dt
 from collections.abc import Callable
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -21,6 +23,7 @@ from verification.issued import (
     issue,
     lay_out,
     page_with,
+    registry,
     specification,
     with_attachment,
     with_digit,
@@ -31,6 +34,7 @@ from verification.issued import (
 from zlmreport import pipeline
 from zlmreport.cli.terminal import say
 from zlmreport.document.certificate.build import GENERATOR
+from zlmreport.verification import verify
 from zlmreport.verification.findings import (
     CheckedStatement,
     Verification,
@@ -75,6 +79,20 @@ def test_a_certificate_holds_as_it_was_issued(issued: bytes, verified: Verify) -
     }
     verdicts = {each.verdict for each in (*found.files, *found.values, *found.pages, *found.document)}
     assert verdicts == {VerificationVerdict.HOLDS}
+
+
+def test_a_day_that_has_not_come_by_the_clock_is_not_decided(
+    issued: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(verify, "read_clock", lambda: dt.date(2026, 11, 1))
+    path = tmp_path / "certificate.pdf"
+    path.write_bytes(issued)
+    found = verify.verify(path, registry())  # what is remembered of other tests knows no clock
+    said = [each for each in found.document if each.subject == "certificate.issued"]
+    assert [each.verdict for each in said] == [VerificationVerdict.OPEN]
+    assert "2026-11-20 lies in the future: by the clock of this computer it is 2026-11-01" in say(
+        said[0].detail
+    )
 
 
 def test_every_number_of_the_results_file_is_compared(issued: bytes, verified: Verify) -> None:

@@ -18,6 +18,7 @@ from zlmreport.cli.terminal import show_progress
 from zlmreport.errors import InputError, Place
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import write
+from zlmreport.job.days import demand_days_past
 from zlmreport.job.loading import choose_formats_once
 from zlmreport.pipeline import PDF
 from zlmreport.plugin.registry import Registry, find_plugins
@@ -131,6 +132,7 @@ def check(options: Namespace) -> int:
             if awaits_capture(job):
                 demand_capturable(job, registry)
                 return result
+        demand_days_past(job)
         certificate = pipeline.compose(job, registry, showing=_make_showing(options), trials=trials)
         return replace(
             result,

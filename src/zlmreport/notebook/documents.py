@@ -14,6 +14,7 @@ from zlmreport.document.subjects.compensation import forecast
 from zlmreport.document.writer import Writer
 from zlmreport.errors import InputError, Place, did_you_mean
 from zlmreport.files import Document, write, write_new
+from zlmreport.job.days import demand_days_past
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
@@ -117,6 +118,7 @@ def certificate(job: str | Path) -> Certificate:
         If a file cannot be read.
     """
     loaded = load(Path(job), registry())
+    demand_days_past(loaded)
     return Certificate(loaded, pipeline.compose(loaded, registry()))
 
 

@@ -17,6 +17,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.document.signing.state import Integrity, Signature, SignatureState, read_signature_state
 from zlmreport.errors import InputError, Place, ZlmreportError
 from zlmreport.files import demand
+from zlmreport.job.days import find_days_to_come, read_clock
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Words, same
@@ -33,7 +34,6 @@ from zlmreport.verification.attached import (
     lay_out,
 )
 from zlmreport.verification.carrier import LARGEST, Carrier, find_results_in, guard, open_pdf, read_file
-from zlmreport.verification.dates import find_future_dates
 from zlmreport.verification.findings import (
     CheckedStatement,
     Identity,
@@ -52,6 +52,7 @@ _OTHER_RELEASES = Words(
     "not decided; to decide, install the releases that made it, and verify it there"
 )
 _REPEATED = Words("made by {stated}; this is {here}, and it repeats all of it in that name")
+_AHEAD = Words("{date} lies in the future: by the clock of this computer it is {today}")
 _OWN_LOOK = Words(
     "printed in a typeface or by templates of the laboratory's own (certificate.style), which it does not "
     "carry: how its pages are drawn is not decided"
@@ -81,7 +82,7 @@ class _Again:
 
     `programs` made it here, in whosever name; `results` is its results file. It may be that another renderer
     than the one that made it had to print it. `own_words` are those of whoever wrote its job, and
-    `find_future_dates` what it says of days that have not come; `digest` is that of its readings and results.
+    `future_dates` what it says of days that have not come; `digest` is that of its readings and results.
     """
 
     programs: pipeline.Programs
@@ -202,7 +203,7 @@ def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry
         is_made_by(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
         has_own_look,
         quote_own_texts(certificate, job),
-        find_future_dates(job, dt.date.today()),  # noqa: DTZ011 - a day here, as a certificate states one
+        _say_days_to_come(job, read_clock()),
         certificate.digest,
     )
 
@@ -225,6 +226,18 @@ def _make_machine_again(path: Path, carrier: Carrier, stated: Results, registry:
         is_made_by(printer, carrier.creator) or carrier.creator.startswith(f"{_PROGRAM} "),
         has_own_look=False,
         own_words=quote_own_texts_of(machine.file.keys),
+    )
+
+
+def _say_days_to_come(job: Job, today: dt.date) -> tuple[CheckedStatement, ...]:
+    """Return the days of a job that have not come yet, as not decided."""
+    return tuple(
+        CheckedStatement(
+            f"{each.within}{each.key}",
+            VerificationVerdict.OPEN,
+            _AHEAD.given(date=each.day.isoformat(), today=today.isoformat()),
+        )
+        for each in find_days_to_come(job, today)
     )
 
 
