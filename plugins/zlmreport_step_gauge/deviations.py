@@ -17,7 +17,9 @@ from zlmreport_step_gauge.set_up import GaugeSetUp
 
 #: Of the smallest distance between faces: a deviation that is larger is a face that was mistaken.
 _OF_A_STEP = 0.1
-#: A gauge is taken to be reversed where its calibration, read from the other end, leaves this much less.
+#: A gauge is taken to be reversed, or its calibration to have the wrong sign, where this much less is left
+#: when it is read the other way. By chance that is hardly so: the errors of the machine would have to follow
+#: what the blocks of this gauge depart from nominal.
 _REVERSED = 4.0
 _FEWEST_FACES = 8
 
@@ -57,6 +59,8 @@ def compute_deviations_of(
     reference = float(np.nanmean(expanded[0]))
     values = equations.error(expanded, np.array(reference), actual[:, np.newaxis], np.array(actual[0]))
     problems = list(_find_another_section(probed, values, place))
+    if not problems:
+        problems = list(_find_exchanged_sign(probed, values, place))
     if not problems and direction is not None:
         problems = list(_find_reversed(probed, values, place))
     if problems:
@@ -147,6 +151,24 @@ def _find_reversed(probed: Probed, values: FloatArray, place: Place) -> Iterator
             f"({MICROMETRE.from_si(from_end):.2f} µm are left instead of "
             f"{MICROMETRE.from_si(as_it_is):.2f} µm): the gauge lies the other way round; exchange beginning "
             "and end, and number the faces from there",
+        )
+
+
+def _find_exchanged_sign(probed: Probed, values: FloatArray, place: Place) -> Iterator[Problem]:
+    """Yield that the calibration fits far better when its departures from nominal have the other sign."""
+    if len(probed.faces) < _FEWEST_FACES:
+        return
+    means = np.nanmean(values, axis=-1)
+    departure = np.array([face.distance - face.nominal for face in probed.faces])
+    exchanged = means + 2 * (departure - departure[0])
+    as_it_is, otherwise = (_compute_left_over(each, probed) for each in (means, exchanged))
+    if as_it_is > _REVERSED * otherwise:
+        yield Problem(
+            place,
+            "the calibration fits the points far better where its distances depart from nominal the other way "
+            f"({MICROMETRE.from_si(otherwise):.2f} µm are left instead of "
+            f"{MICROMETRE.from_si(as_it_is):.2f} µm): were nominal − calibrated entered for calibrated − "
+            "nominal? State the distances of the certificate",
         )
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from zlmreport.plugin import (
+    CELSIUS,
     MICROMETRE,
     MICRORADIAN,
     MILLIMETRE,
@@ -139,6 +140,17 @@ def _write_range(curve: Curve, side: Side) -> Words:
     )
 
 
+def _find_air_temperature(job: Job, measurements: MeasurementSet) -> float | None:
+    """Return the temperature of the air, °C, as stated or else as it was logged in the mean; None if neither."""
+    stated = job.keys.environment.air_temperature if job.keys.environment else None
+    if isinstance(stated, float):
+        return stated
+    logged = measurements.conditions.get("air_temperature")
+    if logged is None or np.isnan(logged).all():
+        return None
+    return float(round(CELSIUS.from_si(float(np.nanmean(logged))), 2))
+
+
 class StepGaugeExtension(Extension):
     """A calibrated step gauge instead of a laser."""
 
@@ -181,11 +193,11 @@ class StepGaugeExtension(Extension):
             make_gauge_set_up(job, options), measurements, expansion_is_stated=stated_as_range
         )
 
-    def doubts(self, job: Job, options: StepGaugeKeys, measurements: MeasurementSet) -> Iterator[Words]:  # noqa: ARG002
+    def doubts(self, job: Job, options: StepGaugeKeys, measurements: MeasurementSet) -> Iterator[Words]:
         """Yield that the gauge is far from the temperature of the air."""
-        air = job.keys.environment.air_temperature if job.keys.environment else None
+        air = _find_air_temperature(job, measurements)
         gauge = options.gauge_temperature
-        if gauge is not None and isinstance(air, float) and abs(gauge - air) > _ALIKE:
+        if gauge is not None and air is not None and abs(gauge - air) > _ALIKE:
             difference = float(f"{abs(gauge - air):.3g}")
             yield _APART.given(gauge=gauge, air=air, difference=difference)
 

@@ -135,6 +135,14 @@ def test_a_gauge_that_lies_the_other_way_round_is_told() -> None:
     assert "the gauge lies the other way round" in refused(touched(turned))
 
 
+def test_a_calibration_with_the_wrong_sign_is_told() -> None:
+    departures = tuple(round((face.distance - face.nominal) * 1e6, 6) for face in GAUGE.faces)
+    exchanged = gauge(tuple(-each for each in departures))
+    assert "were nominal − calibrated entered for calibrated − nominal?" in refused(touched(exchanged))
+    of_the_machine = touched(exchanged, lambda x, side: 2e-6 * np.sin(x / 0.02) + side * 1e-6)
+    deviations(of_the_machine, set_up(GAUGE))  # errors as large as the departures: nobody can tell
+
+
 def test_a_machine_with_errors_does_not_turn_the_gauge_round() -> None:
     deviations(touched(GAUGE, lambda x, side: 8e-6 * np.sin(x / 0.01) + side * 1e-6), set_up(GAUGE))
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from document.certificate.documents import lines_of, registry
@@ -75,6 +77,24 @@ def test_a_gauge_that_is_far_from_the_air_is_marked(tmp_path: Path) -> None:
         document = composed(tmp_path / temperature, change, file="job.yaml")
         cover = [line for block in document.cover for line in lines_of(block)]
         assert [said for line in cover if said in line] == marked
+
+
+def test_a_gauge_is_held_against_logged_air_where_none_is_stated(tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "configs" / "step-gauge", tmp_path / "step-gauge")
+    shutil.copy(ROOT / "configs" / "laboratory.yaml", tmp_path)
+    path = tmp_path / "step-gauge" / "job.yaml"
+    path.write_text(
+        path.read_text(encoding="utf-8").replace("  air_temperature: 20.5\n", "  remarks: none\n"),
+        encoding="utf-8",
+    )
+    job = load(path, registry())
+    measurements = pipeline.read(job, registry())
+    ((extension, choice),) = registry().extensions_of(job)
+    for logged, count in ((26.0, 1), (22.0, 0), (np.nan, 0)):
+        air = np.full(measurements.deviation.size, logged + 273.15)
+        conditions = {**measurements.conditions, "air_temperature": air}
+        found = list(extension.doubts(job, choice.options, replace(measurements, conditions=conditions)))
+        assert len(found) == count
 
 
 def test_too_short_a_section_does_not_fit_the_points_on_it(tmp_path: Path) -> None:
