@@ -165,8 +165,8 @@ def _find_exchanged_sign(probed: Probed, values: FloatArray, place: Place) -> It
     if as_it_is > _REVERSED * otherwise:
         yield Problem(
             place,
-            "the calibration fits the points far better where its distances depart from nominal the other way "
-            f"({MICROMETRE.from_si(otherwise):.2f} µm are left instead of "
+            "the calibration fits the points far better where its distances depart from nominal the other "
+            f"way ({MICROMETRE.from_si(otherwise):.2f} µm are left instead of "
             f"{MICROMETRE.from_si(as_it_is):.2f} µm): were nominal − calibrated entered for calibrated − "
             "nominal? State the distances of the certificate",
         )

@@ -141,7 +141,7 @@ def _write_range(curve: Curve, side: Side) -> Words:
 
 
 def _find_air_temperature(job: Job, measurements: MeasurementSet) -> float | None:
-    """Return the temperature of the air, °C, as stated or else as it was logged in the mean; None if neither."""
+    """Return the temperature of the air, °C: as stated, or else the mean of its log; None without either."""
     stated = job.keys.environment.air_temperature if job.keys.environment else None
     if isinstance(stated, float):
         return stated

@@ -260,6 +260,21 @@ def test_wrong_value_is_refused_where_it_stands(
 
 # Lines after the sound job's last, where the message points, what it says.
 WRONG_ADDITIONS = {
+    "bar for hectopascal": (
+        "environment: {air_pressure: 1.013}",
+        "16:29",
+        "'1.013' is not a number of at least 300",
+    ),
+    "kelvin for degrees": (
+        "environment: {air_temperature: 293.15}",
+        "16:32",
+        "'293.15' is not a number of at most 150",
+    ),
+    "more than saturated": (
+        "environment: {relative_humidity: 140}",
+        "16:34",
+        "'140' is not a number of at most 100",
+    ),
     "key twice": ("machine: {}", "16:1", "'machine' stands in line 6 already"),
     "extends a number of nothing": ("extends: [a, [b]]", "16:14", "extends names a file, or a list of files"),
     "extends a group": ("extends: {a: b}", "16:10", "extends names a file, or a list of files"),

@@ -25,6 +25,14 @@ def the_mistake(text: str, folder: Path) -> str:
             "dates.received: 2026-11-19 lies after the measurement of 2026-11-18",
         ),
         (
+            "instrument: {name: Laser, calibrated: 2026-03-02, due: 2025-03-02}",
+            "instrument.due: 2025-03-02 does not lie after the calibration of 2026-03-02",
+        ),
+        (
+            "environment: {thermometers: [{name: T, calibrated: 2026-03-02, due: 2026-03-02}]}",
+            "environment.thermometers.due: 2026-03-02 does not lie after the calibration of 2026-03-02",
+        ),
+        (
             "dates: {sampled: 2026-11-19}",
             "dates.sampled: 2026-11-19 lies after the measurement of 2026-11-18",
         ),

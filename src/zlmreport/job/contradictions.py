@@ -13,7 +13,7 @@ from pydantic import BaseModel, ValidationError
 from zlmreport.errors import Problem, did_you_mean, quoted
 from zlmreport.job.evaluation_keys import find_uncertainty_contradictions, plan_contradictions
 from zlmreport.job.keys import JobKeys
-from zlmreport.job.measurement_keys import Measurement
+from zlmreport.job.measurement_keys import Instrument, Measurement, SensorKeys
 from zlmreport.job.sentences import (
     GROUP_EXPECTED,
     MISSING,
@@ -158,14 +158,25 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
     yield from _find_per_metre(keys)
 
 
+def _list_devices(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], Instrument | SensorKeys]]:
+    """Yield the instrument and the thermometers, each with the path of its keys."""
+    if keys.instrument:
+        yield ("instrument",), keys.instrument
+    for number, each in enumerate(keys.environment.thermometers if keys.environment else ()):
+        yield ("environment", "thermometers", number), each
+
+
 def _find_turned_ranges(keys: JobKeys) -> Iterator[Contradiction]:
-    """Yield the calibrated ranges that end before they begin."""
-    sensors = enumerate(keys.environment.thermometers if keys.environment else ())
-    devices = [(("environment", "thermometers", number), each) for number, each in sensors]
-    for group, device in [(("instrument",), keys.instrument), *devices]:
-        extent = device.calibrated_range if device else None
+    """Yield the calibrated ranges that end before they begin, and calibrations due before they were made."""
+    for group, device in _list_devices(keys):
+        extent = device.calibrated_range
         if extent and extent[0] >= extent[1]:
             yield (*group, "calibrated_range"), "the first value of the range must be less than the last"
+        if device.due and device.calibrated and device.due <= device.calibrated:
+            yield (
+                (*group, "due"),
+                f"{device.due} does not lie after the calibration of {device.calibrated}",
+            )
 
 
 def _find_per_metre(keys: JobKeys) -> Iterator[Contradiction]:

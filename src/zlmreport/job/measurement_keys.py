@@ -9,6 +9,7 @@ from zlmreport.job.evaluation_keys import UncertaintyKeys
 from zlmreport.job.types import (
     Date,
     Finite,
+    Humidity,
     InstrumentUncertainty,
     InWords,
     JobPart,
@@ -16,6 +17,8 @@ from zlmreport.job.types import (
     Lines,
     NotNegative,
     Positive,
+    Pressure,
+    Temperature,
     Text,
     parse_along_the_length,
 )
@@ -342,13 +345,13 @@ class Instrument(JobPart):
 class Environment(JobPart):
     """Conditions during the measurement that the readings do not carry themselves."""
 
-    air_temperature: Finite | InWords | None = Field(None, description="°C", examples=[20.1])
-    material_temperature: Finite | InWords | None = Field(None, description="°C", examples=[20.3])
-    axis_temperature: Finite | InWords | None = Field(
+    air_temperature: Temperature | InWords | None = Field(None, description="°C", examples=[20.1])
+    material_temperature: Temperature | InWords | None = Field(None, description="°C", examples=[20.3])
+    axis_temperature: Temperature | InWords | None = Field(
         None, description="Of the machine's scale, °C", examples=[20.4]
     )
-    air_pressure: Positive | InWords | None = Field(None, description="hPa", examples=[1013])
-    relative_humidity: Finite | InWords | None = Field(None, description="%", examples=[45])
+    air_pressure: Pressure | InWords | None = Field(None, description="hPa", examples=[1013])
+    relative_humidity: Humidity | InWords | None = Field(None, description="%", examples=[45])
     expansion_coefficient: Finite | InWords | None = Field(
         None, description="Of the machine, µm/(m·K): for its expansion, corrected or not", examples=[11.5]
     )

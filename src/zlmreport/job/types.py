@@ -24,6 +24,7 @@ from pydantic.fields import FieldInfo
 from zlmreport.errors import Place, quoted
 from zlmreport.files import say_outside
 from zlmreport.job.tree import Step
+from zlmreport.measurement.measurement_set import CONDITIONS
 
 _ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
 
@@ -261,6 +262,12 @@ Positive = Annotated[
 NotNegative = Annotated[float, Field(ge=0, le=_LARGEST, allow_inf_nan=False)]
 #: A number of a size that things have.
 Finite = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST, allow_inf_nan=False)]
+_TEMPERATURE, _PRESSURE = CONDITIONS["air_temperature"], CONDITIONS["air_pressure"]
+_HUMIDITY = CONDITIONS["relative_humidity"]
+#: Conditions in which somebody measures, °C, hPa and %: beyond, they are refused where they are logged, too.
+Temperature = Annotated[float, Field(ge=_TEMPERATURE.lowest, le=_TEMPERATURE.highest, allow_inf_nan=False)]
+Pressure = Annotated[float, Field(ge=_PRESSURE.lowest, le=_PRESSURE.highest, allow_inf_nan=False)]
+Humidity = Annotated[float, Field(ge=_HUMIDITY.lowest, le=_HUMIDITY.highest, allow_inf_nan=False)]
 #: A date as jobs write it: 2026-11-20.
 Date = Annotated[dt.date, BeforeValidator(_take_date)]
 
