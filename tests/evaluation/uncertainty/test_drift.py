@@ -45,8 +45,18 @@ def test_where_one_reading_has_no_time_their_order_counts() -> None:
     assert sorted(compute_reading_times(replace(TEST, time=None)).ravel()) == pytest.approx(ORDER)
 
 
-def test_a_test_that_took_no_time_drifts_nowhere() -> None:
-    assert not compute_reading_times(replace(TEST, time=np.full(6, 7.0))).any()
+def test_of_a_clock_that_stood_only_the_order_of_the_readings_is_left() -> None:
+    timed = replace(TEST, time=np.full(6, 7.0))
+    assert sorted(compute_reading_times(timed).ravel()) == pytest.approx(ORDER)
+
+
+def test_readings_of_one_time_lie_evenly_up_to_the_next() -> None:
+    of_runs = replace(TEST, time=np.array([100.0, 100.0, 100.0, 109.0, 109.0, 109.0]))
+    assert sorted(compute_reading_times(of_runs).ravel()) == pytest.approx(ORDER)
+    stood = replace(TEST, time=np.array([100.0, 101.0, 102.0, 102.0, 104.0, 104.0]))
+    assert sorted(compute_reading_times(stood).ravel()) == pytest.approx(
+        [0.0, 0.2, 0.4, 0.6, 0.8, 1.0], abs=1e-12
+    )
 
 
 def test_noise_fills_its_range_about_nothing_and_forgets_itself() -> None:

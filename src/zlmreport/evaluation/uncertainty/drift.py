@@ -56,9 +56,24 @@ def compute_reading_times(measurements: MeasurementSet) -> FloatArray:
     """
     taken = np.arange(len(measurements.deviation), dtype=float)
     if measurements.time is not None and np.isfinite(measurements.time).all():
-        taken = measurements.time
+        taken = _spread_ties(measurements.time)
     first, last = float(taken.min()), float(taken.max())
     return measurements.arranged((taken - first) / (last - first) if last > first else np.zeros_like(taken))
+
+
+def _spread_ties(times: FloatArray) -> FloatArray:
+    """Return times of which those that are alike lie evenly up to the next one.
+
+    A clock that stood, or that tells one time for a whole run, would have it that nothing drifted meanwhile.
+    The last ones go on at the mean pace of those before; where all are alike, only their order is left.
+    """
+    count = np.arange(len(times), dtype=float)
+    begins = np.flatnonzero(np.append(True, np.diff(times) != 0))
+    if len(begins) == 1:
+        return count
+    pace = (times[begins[-1]] - times[0]) / begins[-1]
+    end = times[-1] + pace * (len(times) - begins[-1])
+    return np.interp(count, np.append(begins, len(times)), np.append(times[begins], end))
 
 
 def sample_drifts(kind: Drift, times: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
