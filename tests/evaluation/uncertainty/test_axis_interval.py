@@ -173,6 +173,26 @@ def test_a_cell_stands_out_by_2_2_standard_deviations_of_chance(deviations: floa
     assert (freedom[1, 4], freedom[0, 0]) == pytest.approx((4, 84) if is_alone else (88, 88))
 
 
+@pytest.mark.parametrize(("deviations", "is_alone"), [(1.5, False), (1.6, True)])
+def test_a_position_stands_out_by_both_directions_together(deviations: float, *, is_alone: bool) -> None:
+    """Of two the mean scatters by 1/√2 of one: 2.2/√2 = 1.556. What they tell of their common s is joined."""
+    variances = np.ones((2, 11))
+    variances[:, 4] = math.exp(deviations * math.sqrt(CHANCE))
+    variance, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
+    assert (freedom[:, 4] == 8.0).all() is np.bool_(is_alone)
+    if is_alone:
+        assert variance[:, 4] == pytest.approx(variances[:, 4])
+        assert freedom[:, 0] == pytest.approx(np.full(2, 80.0))
+
+
+def test_directions_that_scatter_each_by_its_own_at_a_position_are_not_joined() -> None:
+    variances = np.ones((2, 11))
+    variances[:, 4] = 10.0, 1000.0
+    variance, freedom = _pooled(variances, np.full((2, 11), 4.0), np.zeros(11))
+    assert variance[:, 4] == pytest.approx([10.0, 1000.0])
+    assert freedom[:, 4] == pytest.approx([4.0, 4.0])
+
+
 def test_a_small_scatter_does_not_stand_out() -> None:
     variances = np.ones((2, 11))
     variances[0, 0] = 0.1

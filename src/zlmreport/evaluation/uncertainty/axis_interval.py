@@ -10,8 +10,9 @@ opens the door) varies from run to run; what is left belongs to a position and d
 the second part are taken as drawn from one scaled inverse χ² distribution, whose two parameters are estimated
 from all of them by the moments of ln s² (G. K. Smyth, Stat. Appl. Genet. Mol. Biol. 3, 2004, article 3): so
 positions that scatter alike inform each other, and those that do not keep their own. A position whose scatter
-stands out from all others is judged by itself. That some readings lie far out may also come from long tails:
-`zlmreport.evaluation.uncertainty.long_tails` tells which is more probable, and the pairs are drawn of that.
+stands out from all others is judged by itself, by both directions together where they scatter alike. That
+some readings lie far out may also come from long tails: `zlmreport.evaluation.uncertainty.long_tails` tells
+which is more probable, and the pairs are drawn of that.
 """
 
 from __future__ import annotations
@@ -214,7 +215,23 @@ def _pooled(
     pooled = pooled * np.exp(trend)
     pooled_freedom = _blur_freedom(pooled_freedom, spent)
     stands_out = known & ~alike
-    return np.where(stands_out, variance, pooled), np.where(stands_out, freedom, pooled_freedom)
+    own, own_freedom = _join_directions(variance, freedom, stands_out, chance)
+    return np.where(stands_out, own, pooled), np.where(stands_out, own_freedom, pooled_freedom)
+
+
+def _join_directions(
+    variance: FloatArray, freedom: FloatArray, stands_out: BoolArray, chance: float
+) -> tuple[FloatArray, FloatArray]:
+    """Return variances and freedom of cells, joined at positions that stand out alike in both directions."""
+    if len(variance) == 1:
+        return variance, freedom
+    with np.errstate(invalid="ignore", divide="ignore"):
+        apart = np.abs(np.log(variance[0] / variance[1]))
+    alike = stands_out.all(axis=0) & (apart <= _STANDS_OUT * math.sqrt(2 * chance))
+    total = freedom.sum(axis=0)
+    with np.errstate(invalid="ignore"):
+        common = (variance * freedom).sum(axis=0) / np.maximum(total, 1)
+    return np.where(alike, common, variance), np.where(alike, total, freedom)
 
 
 def _fit_trend(
@@ -245,9 +262,24 @@ def _blur_freedom(freedom: FloatArray, variance: FloatArray) -> FloatArray:
 
 
 def _select_alike(logarithms: FloatArray, known: BoolArray, chance: float) -> BoolArray:
-    """Return the cells without those whose ln s² stands out from the others, the largest first."""
-    alike = known.copy()
-    while np.count_nonzero(alike) > max(_FEWEST, (1 - _MOST_STANDING_OUT) * np.count_nonzero(known)):
+    """Return the cells without those whose ln s² stands out from the others.
+
+    A position is asked as a whole first: what shakes it shakes both directions, and their mean tells by two
+    tests what the s of one, which may have come out small, does not.
+    """
+    whole = known.all(axis=0, keepdims=True)
+    means = np.where(whole, logarithms.mean(axis=0, keepdims=True), 0.0)
+    stand_out = whole & ~_drop_outstanding(means, whole, whole, chance / len(known))
+    return _drop_outstanding(logarithms, known & ~stand_out, known, chance)
+
+
+def _drop_outstanding(logarithms: FloatArray, alike: BoolArray, known: BoolArray, chance: float) -> BoolArray:
+    """Return those of `alike` that do not stand out from the others, the largest dropped first.
+
+    `known`: All, of which only so many may stand out. `chance`: The variance that alike ones show.
+    """
+    fewest = max(_FEWEST, (1 - _MOST_STANDING_OUT) * np.count_nonzero(known))
+    while np.count_nonzero(alike) > fewest:
         largest = np.unravel_index(np.argmax(np.where(alike, logarithms, -np.inf)), alike.shape)
         others = alike.copy()
         others[largest] = False
