@@ -263,17 +263,17 @@ WRONG_ADDITIONS = {
     "bar for hectopascal": (
         "environment: {air_pressure: 1.013}",
         "16:29",
-        "'1.013' is not a number of at least 300",
+        "1.013 hPa is not between 300 and 1200 hPa",
     ),
     "kelvin for degrees": (
         "environment: {air_temperature: 293.15}",
         "16:32",
-        "'293.15' is not a number of at most 150",
+        "293.15 K would be 20 °C",
     ),
     "more than saturated": (
         "environment: {relative_humidity: 140}",
         "16:34",
-        "'140' is not a number of at most 100",
+        "140 % is not between 0 and 100 %",
     ),
     "key twice": ("machine: {}", "16:1", "'machine' stands in line 6 already"),
     "extends a number of nothing": ("extends: [a, [b]]", "16:14", "extends names a file, or a list of files"),

@@ -15,7 +15,7 @@ from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.arrays import count_decimals_of
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")
@@ -94,7 +94,7 @@ def _find_unlikely_conditions(job: Job, measurements: MeasurementSet) -> Iterato
             if far and low <= of_readings[0] <= high:
                 yield _LOGGED.given(name=CONDITION_NAMES[name], value=far[0], unit=kind.unit.symbol)
         if isinstance(value, float) and not low <= value <= high:
-            meant = _find_other_unit(value, kind)
+            meant = kind.find_other_unit(value)
             sentence = _UNLIKELY
             if meant:
                 sentence = _MEANT.given(
@@ -130,13 +130,6 @@ def _is_of_a_material(expansion: float, name: Words) -> bool:
     if not expansion:
         return name is _OF_INSTRUMENT
     return _EXPANSIONS[0] <= expansion <= _EXPANSIONS[1] or _LEAST_EXPANSION <= expansion <= -_EXPANSIONS[0]
-
-
-def _find_other_unit(value: float, kind: ConditionKind) -> Scale | None:
-    """Return the unit in which a value would be a usual one, if there is one."""
-    low, high = kind.usual
-    others = (unit for unit in kind.units.values() if low <= kind.unit.from_si(unit.to_si(value)) <= high)
-    return next(others, None)
 
 
 def _name_unit(unit: Scale) -> Words:

@@ -24,7 +24,7 @@ from pydantic.fields import FieldInfo
 from zlmreport.errors import Place, quoted
 from zlmreport.files import say_outside
 from zlmreport.job.tree import Step
-from zlmreport.measurement.measurement_set import CONDITIONS
+from zlmreport.measurement.measurement_set import CONDITIONS, ConditionKind
 
 _ENCLOSURE: ContextVar[Enclosure | None] = ContextVar("enclosure", default=None)
 
@@ -264,10 +264,33 @@ NotNegative = Annotated[float, Field(ge=0, le=_LARGEST, allow_inf_nan=False)]
 Finite = Annotated[float, Field(ge=-_LARGEST, le=_LARGEST, allow_inf_nan=False)]
 _TEMPERATURE, _PRESSURE = CONDITIONS["air_temperature"], CONDITIONS["air_pressure"]
 _HUMIDITY = CONDITIONS["relative_humidity"]
+
+
+def _describe_condition(kind: ConditionKind) -> tuple[Any, AfterValidator]:
+    """Return what pydantic is to know of a condition: its bounds for the schema, and who refuses beyond."""
+
+    def take(value: float) -> float:
+        if kind.lowest <= value <= kind.highest:
+            return value
+        unit, meant = kind.unit.symbol, kind.find_other_unit(value)
+        likely = ""
+        if meant:
+            converted = float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
+            likely = f"; {value:g} {meant.symbol} would be {converted:g} {unit}"
+        raise ValueError(
+            f"{value:g} {unit} is not between {kind.lowest:g} and {kind.highest:g} {unit}{likely}"
+        )
+
+    return (
+        Field(allow_inf_nan=False, json_schema_extra={"minimum": kind.lowest, "maximum": kind.highest}),
+        AfterValidator(take),
+    )
+
+
 #: Conditions in which somebody measures, °C, hPa and %: beyond, they are refused where they are logged, too.
-Temperature = Annotated[float, Field(ge=_TEMPERATURE.lowest, le=_TEMPERATURE.highest, allow_inf_nan=False)]
-Pressure = Annotated[float, Field(ge=_PRESSURE.lowest, le=_PRESSURE.highest, allow_inf_nan=False)]
-Humidity = Annotated[float, Field(ge=_HUMIDITY.lowest, le=_HUMIDITY.highest, allow_inf_nan=False)]
+Temperature = Annotated[float, *_describe_condition(_TEMPERATURE)]
+Pressure = Annotated[float, *_describe_condition(_PRESSURE)]
+Humidity = Annotated[float, *_describe_condition(_HUMIDITY)]
 #: A date as jobs write it: 2026-11-20.
 Date = Annotated[dt.date, BeforeValidator(_take_date)]
 

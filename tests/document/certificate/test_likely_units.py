@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import pytest
 
 from document.certificate.documents import COMPLETE, certificate, text_of
+from zlmreport.errors import InputError
 from zlmreport.language import Language
 
 ROTARY = Path(__file__).parents[3] / "configs" / "rotary-axis" / "c-axis.csv"
@@ -29,8 +31,6 @@ def test_usual_values_raise_no_doubt(tmp_path: Path) -> None:
     ("condition", "value", "likely"),
     [
         ("air_temperature", 68.2, "68.2 °F would be 20.1 °C"),  # (68.2 − 32)·5/9
-        ("axis_temperature", 293.4, "293.4 K would be 20.2 °C"),  # 293.4 − 273.15 = 20.25
-        ("air_pressure", 101.3, "101.3 kPa would be 1010 hPa"),  # three digits of 1013
         ("relative_humidity", 0.45, "0.45 of 1 would be 45 %"),
     ],
 )
@@ -40,6 +40,22 @@ def test_condition_in_another_unit_is_named_with_it(
     environment = {"axis_temperature": 20, "expansion_coefficient": 11.5, condition: value}
     (sentence,) = said(tmp_path, {"environment": environment})
     assert sentence.endswith(likely)
+
+
+@pytest.mark.parametrize(
+    ("condition", "value", "likely"),
+    [
+        ("axis_temperature", 293.4, "293.4 K would be 20.2 °C"),  # 293.4 − 273.15 = 20.25
+        ("air_pressure", 101.3, "101.3 kPa would be 1010 hPa"),  # three digits of 1013
+    ],
+)
+def test_condition_in_which_nobody_measures_is_refused_with_the_unit_that_fits(
+    tmp_path: Path, condition: str, value: float, likely: str
+) -> None:
+    with pytest.raises(
+        InputError, match=f"environment.{condition}: .* is not between .*; {re.escape(likely)}"
+    ):
+        certificate(tmp_path, {**COMPLETE, "environment": {condition: value}})
 
 
 def test_a_share_of_1_is_called_one_in_german(tmp_path: Path) -> None:

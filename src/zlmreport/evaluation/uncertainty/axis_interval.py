@@ -215,8 +215,8 @@ def _pooled(
     pooled = pooled * np.exp(trend)
     pooled_freedom = _blur_freedom(pooled_freedom, spent)
     stands_out = known & ~alike
-    own, own_freedom = _join_directions(variance, freedom, stands_out, chance)
-    return np.where(stands_out, own, pooled), np.where(stands_out, own_freedom, pooled_freedom)
+    joined, joined_freedom = _join_directions(variance, freedom, stands_out, chance)
+    return np.where(stands_out, joined, pooled), np.where(stands_out, joined_freedom, pooled_freedom)
 
 
 def _join_directions(
@@ -267,7 +267,7 @@ def _select_alike(logarithms: FloatArray, known: BoolArray, chance: float) -> Bo
     A position is asked as a whole first: what shakes it shakes both directions, and their mean tells by two
     tests what the s of one, which may have come out small, does not.
     """
-    whole = known.all(axis=0, keepdims=True)
+    whole = np.asarray(known.all(axis=0, keepdims=True))
     means = np.where(whole, logarithms.mean(axis=0, keepdims=True), 0.0)
     stand_out = whole & ~_drop_outstanding(means, whole, whole, chance / len(known))
     return _drop_outstanding(logarithms, known & ~stand_out, known, chance)

@@ -73,7 +73,7 @@ def _spread_ties(times: FloatArray) -> FloatArray:
         return count
     pace = (times[begins[-1]] - times[0]) / begins[-1]
     end = times[-1] + pace * (len(times) - begins[-1])
-    return np.interp(count, np.append(begins, len(times)), np.append(times[begins], end))
+    return np.asarray(np.interp(count, np.append(begins, len(times)), np.append(times[begins], end)))
 
 
 def sample_drifts(kind: Drift, times: FloatArray, count: int, generator: np.random.Generator) -> FloatArray:
