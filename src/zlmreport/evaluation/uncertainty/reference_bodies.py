@@ -1,9 +1,9 @@
-"""Along which curves a body errs that lines are held against: a mirror, a square, a straightedge.
+"""Along which curves an instrument errs: a laser, a gauge, or a body that lines are held against, as a mirror.
 
-Its certificate gives one number for its form, and the form is whatever it is. A body that errs at each
-position by itself leaves a slope that many positions know well; one that is bent by half a wave does not. One
-of a whole wave or two has all of its error in every test, where errors at each position have their largest in
-few. So each of these is asked. Derived here.
+Its certificate gives one number, and the curve is whatever it is. What errs at each position by itself leaves
+a slope that many positions know well; what is bent by half a wave does not. An error of a whole wave or two is
+there as a whole in every test, where errors at each position have their largest in few. So each is asked.
+Derived here.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 
 
 class Form(Enum):
-    """How a body errs of which the size is known only: the half waves that it may have along a line."""
+    """How an instrument errs of which the size is known only: the half waves that it may have along a line."""
 
     AT_EACH_POSITION = ()  #: None: each position has an error of its own.
     BEND = (1,)
@@ -27,17 +27,20 @@ class Form(Enum):
 
 
 def list_forms(budget: Budget, measurements: MeasurementSet) -> tuple[Form, ...]:
-    """Return the forms that are asked: all where lines were held against a body with an error that is stated.
+    """Return the forms that are asked where the error of an instrument is stated.
 
-    The bound of U by the instrument, which counts a bend in elsewhere, is none of a slope, nor of what
+    A bend only of a body that lines were held against: it is a slope, and what an error along the length does
+    to other parameters the bound of U by the instrument counts in. That bound is none of a slope, nor of what
     follows from several lines.
     """
-    lines = zip(budget.lines, measurements.lines, strict=True)
-    has_body = any(
-        line.axis.measurand.has_reference_body and any(map(is_of_the_instrument, of_line.contributions))
-        for of_line, line in lines
-    )
-    return tuple(Form) if has_body else (Form.AT_EACH_POSITION,)
+    lines = [
+        line
+        for of_line, line in zip(budget.lines, measurements.lines, strict=True)
+        if any(map(is_of_the_instrument, of_line.contributions)) and not line.axis.measurand.is_continuous
+    ]
+    if any(line.axis.measurand.has_reference_body for line in lines):
+        return tuple(Form)
+    return (Form.AT_EACH_POSITION, Form.WAVES) if lines else (Form.AT_EACH_POSITION,)
 
 
 def is_of_the_instrument(contribution: Contribution) -> bool:
