@@ -36,7 +36,7 @@ from zlmreport.evaluation.uncertainty.drift import (
     sample_drifts,
 )
 from zlmreport.evaluation.uncertainty.flatter_axes import make_flatter_axes
-from zlmreport.evaluation.uncertainty.reference_bodies import (
+from zlmreport.evaluation.uncertainty.instrument_curves import (
     Form,
     is_of_the_instrument,
     list_forms,
@@ -84,7 +84,7 @@ class _Ways:
     """How errors go of which a job states the size only."""
 
     drift: Drift | None  #: Of what drifts; None where nothing does.
-    form: Form = Form.AT_EACH_POSITION  #: Of a body that lines were held against.
+    form: Form = Form.AT_EACH_POSITION  #: Of the instrument's error at each position.
 
 
 def propagate(
@@ -107,8 +107,8 @@ def propagate(
     holds 95.45 % of the simulated values; u is the root mean square of their distances from y. A range or a
     largest value grows when errors are added to the readings, so that its simulated values lie more above y
     than below: U and u both count that in. Where something drifts, U is the largest of those of the kinds of
-    drift, and where lines were held against a body, as a mirror, that of the forms which that may have
-    (`zlmreport.evaluation.uncertainty.reference_bodies`). Where the instrument errs as much as the axis, U
+    drift, and of the forms which the error of the instrument at each position may have
+    (`zlmreport.evaluation.uncertainty.instrument_curves`). Where the instrument errs as much as the axis, U
     reaches to the farthest of the flatter axes of which the readings may be a test, among 95.45 % of those
     simulated of it
     (J. Neyman, Phil. Trans. R. Soc. A 236, 1937). It is never less than the budget's bounds. Known errors are

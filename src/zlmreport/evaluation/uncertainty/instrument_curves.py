@@ -1,8 +1,8 @@
-"""Along which curves an instrument errs: a laser, a gauge, or a body that lines are held against, as a mirror.
+"""Along which curves an instrument errs: a laser, a gauge, a body that lines are held against, as a mirror.
 
 Its certificate gives one number, and the curve is whatever it is. What errs at each position by itself leaves
-a slope that many positions know well; what is bent by half a wave does not. An error of a whole wave or two is
-there as a whole in every test, where errors at each position have their largest in few. So each is asked.
+a slope that many positions know well; what is bent by half a wave does not. An error of a whole wave or two
+is there as a whole in every test, where errors at each position have their largest in few. So each is asked.
 Derived here.
 """
 
@@ -19,7 +19,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 
 
 class Form(Enum):
-    """How an instrument errs of which the size is known only: the half waves that it may have along a line."""
+    """How an instrument errs of which only the size is known: the half waves that it may have on a line."""
 
     AT_EACH_POSITION = ()  #: None: each position has an error of its own.
     BEND = (1,)

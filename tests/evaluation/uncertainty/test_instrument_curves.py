@@ -1,4 +1,4 @@
-"""Straightness held against a body that may be bent: that is a slope, whatever the number of positions."""
+"""Along which curves an instrument errs: waves, and a bend of a body, which leaves a slope in any plan."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from evaluation.uncertainty.budgets import MICROMETRE, contribution
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
+from zlmreport.evaluation.uncertainty.instrument_curves import Form, list_forms, sample_waves
 from zlmreport.evaluation.uncertainty.monte_carlo import Expanded, propagate
-from zlmreport.evaluation.uncertainty.reference_bodies import Form, list_forms, sample_waves
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.error_symbol import evaluate_for_error
@@ -66,17 +66,42 @@ def test_the_bend_of_a_body_leaves_the_straightness_what_errors_one_by_one_make_
     [
         (STRAIGHTNESS, "instrument", tuple(Form)),
         (STRAIGHTNESS, None, (Form.AT_EACH_POSITION,)),
-        (None, "instrument", (Form.AT_EACH_POSITION,)),
+        (None, "instrument", (Form.AT_EACH_POSITION, Form.WAVES)),
+        (None, None, (Form.AT_EACH_POSITION,)),
     ],
-    ids=["straightness", "of something else", "positions"],
+    ids=["straightness", "straightness, of something else", "positions", "positions, of something else"],
 )
-def test_all_forms_are_asked_where_lines_are_held_against_a_body(
+def test_waves_are_asked_of_an_instrument_and_a_bend_of_a_body_that_lines_are_held_against(
     quantity: Measurand | None, contributor: str | None, asked: tuple[Form, ...]
 ) -> None:
     at, flat = np.linspace(0, 1000, 5), np.zeros((5, 1))
     axis = Axis("X", quantity=quantity, error="EYX") if quantity else Axis("X")
     error = replace(contribution(0.5, Acts.AT_EACH_POSITION), contributor=contributor)
     assert list_forms(Budget((error,)), bidirectional_test(at, flat, flat, axis=axis)) == asked
+
+
+def test_u_of_a_range_holds_an_instrument_that_errs_by_a_wave() -> None:
+    """Of an axis like one wave, too; drawn here anew. Independent errors alone would give less."""
+    at = np.linspace(0, 1000, 11)
+    curve = 4.0 * np.sin(2 * np.pi * at / 1000 + 0.3)
+    readings = curve[:, np.newaxis]
+    test = bidirectional_test(at, readings, readings)
+    standard = find_plugins().standard("iso230-2:2014")
+    options = standard.options()
+    laser = replace(contribution(0.5, Acts.AT_EACH_POSITION), contributor="instrument")
+    (found,) = propagate(
+        Budget((laser,)),
+        [(evaluate(standard, test, options, {}), partial(standard.arithmetic, options=options))],
+        6000,
+    )
+    generator = np.random.default_rng(5)
+    phase = 2 * np.pi * generator.random((40_000, 1))
+    half_waves = generator.choice((2, 4), (40_000, 1))
+    waves = 0.5 * math.sqrt(2) * np.sin(np.pi * half_waves * at / 1000 + phase)
+    least = np.quantile(np.abs(np.ptp(curve + waves, axis=1) - np.ptp(curve)), 0.9545)
+    assert found["E"].uncertainty / MICROMETRE >= 0.98 * least
+    alone = 0.5 * generator.standard_normal((40_000, 11))
+    assert np.quantile(np.abs(np.ptp(curve + alone, axis=1) - np.ptp(curve)), 0.9545) < 0.95 * least
 
 
 def test_waves_have_the_stated_size_at_each_position_whatever_their_number() -> None:
