@@ -51,7 +51,7 @@ from zlmreport.measurement.measurement_set import MeasurementSet
 
 #: U then scatters by 1 % at most from one sequence of random numbers to another, which the second digit
 #: hardly shows.
-TRIALS = 10_000
+TRIALS = 20_000
 
 #: Readings that are simulated at once: few enough for a processor's cache.
 _AT_ONCE = 262_144
