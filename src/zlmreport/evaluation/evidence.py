@@ -18,9 +18,10 @@ from zlmreport.evaluation.turned_runs import find_mirrored_run, find_run_of_anot
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray, count_decimals_of
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.measurement.steps import find_last_digit, find_step
 from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, with_unit
 
 _DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")
@@ -332,8 +333,7 @@ def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> I
 
 def _step(measurements: MeasurementSet) -> float:
     """Return the step of the last digit of the readings, m or rad."""
-    unit = measurements.axis.deviation_unit
-    return unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    return measurements.axis.deviation_unit.to_si(find_last_digit(measurements))
 
 
 _RUN, _RUNS = Words("run {runs}"), Words("runs {runs}")
@@ -398,7 +398,7 @@ def _find_coarser_steps(job: Job, measurements: MeasurementSet) -> Iterator[Word
     unit = measurements.axis.deviation_unit
     if not stated or measurements.provenance.corrections:
         return
-    given = 10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS)
+    given = find_step(measurements)
     if given > stated * (1 + 1e-9):
         yield _COARSER.given(
             stated=_write_with_unit(stated, unit.symbol), given=_write_with_unit(given, unit.symbol)

@@ -13,9 +13,9 @@ from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
-from zlmreport.measurement.arrays import count_decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, ConditionKind, MeasurementSet
+from zlmreport.measurement.steps import find_step
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")
@@ -61,7 +61,6 @@ _LEAST_EXPANSION = -1.5
 _OTHER_EXPANSIONS = ((1e3, "mm/(m·K)"), (1e6, "1/K"), (1e-3, "nm/(m·K)"))
 #: A limit as small as this, µm or ″, beside a value so many times as large, was meant in mm or °.
 _SMALL, _MANY_TIMES = 0.5, 50.0
-_MOST_DECIMALS = 3
 
 
 def find_doubts(
@@ -148,7 +147,7 @@ def _find_unlikely_limits(evaluation: Evaluation) -> Iterator[Words]:
     measurements = evaluation.measurements
     axis, targets = measurements.axis, measurements.target_positions
     unit = axis.deviation_unit
-    step = unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    step = unit.to_si(find_step(measurements))
     small, large = [], []
     for each in evaluation.parameters:
         if each.limit is None or each.quantity.unit is not None:

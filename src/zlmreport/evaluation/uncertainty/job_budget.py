@@ -36,9 +36,10 @@ from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, 
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
-from zlmreport.measurement.arrays import FloatArray, count_decimals_of, read_only_floats
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
+from zlmreport.measurement.steps import find_last_digit, find_step
 from zlmreport.measurement.units import (
     MICROMETRE,
     MICROMETRE_PER_METRE_KELVIN,
@@ -50,8 +51,6 @@ from zlmreport.measurement.units import (
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0
 _OF_THE_READING = Unit("%", "%", 100.0)
-#: A step that readings may show is no smaller, µm or ″.
-_MOST_DECIMALS = 3
 #: The temperature that the scale, and with it the measured length, has: the first that is known counts.
 _TEMPERATURES = ("axis_temperature", "material_temperature")
 #: What is printed as 20.0 °C is 20 °C, K.
@@ -271,7 +270,8 @@ def _list_fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contr
     given = _step_given(measurements, unit)
     is_asked = not measurements.provenance.corrections or "resolution" in keys.negligible or step is not None
     if is_asked and given is not None and given > (step or 0.0):
-        step, source = given, wording.LAST_DIGIT
+        is_digit = given == find_last_digit(measurements) or bool(measurements.provenance.corrections)
+        step, source = given, wording.LAST_DIGIT if is_digit else wording.STEPS
     for key, full_range, origin, acts in (
         ("environmental_variation", keys.environmental_variation, wording.DRIFT_AT_REST, Acts.IN_TIME),
         ("resolution", step, source, Acts.AT_EACH_READING),
@@ -286,12 +286,7 @@ def _step_given(measurements: MeasurementSet, unit: Unit) -> float | None:
     provenance = measurements.provenance
     if provenance.corrections:
         return None if provenance.step is None else unit.from_si(provenance.step)
-    return _find_last_digit(unit.from_si(measurements.deviation))
-
-
-def _find_last_digit(readings: FloatArray) -> float:
-    """Return the step of the last decimal in which readings were given; that of the third one at least."""
-    return float(10.0 ** -count_decimals_of(readings, _MOST_DECIMALS))
+    return find_step(measurements)
 
 
 def _make_contribution(  # noqa: PLR0913 - a usual contribution, but for what usually holds
