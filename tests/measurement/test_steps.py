@@ -12,7 +12,9 @@ from zlmreport.measurement.steps import find_last_digit, find_step
 TARGETS = np.linspace(0.003, 0.993, 11)
 
 
-def measured(step: float, *, of_positions: bool = False, scatter: float = 20.0, seed: int = 1) -> MeasurementSet:
+def measured(
+    step: float, *, of_positions: bool = False, scatter: float = 20.0, seed: int = 1
+) -> MeasurementSet:
     """Return readings of five runs in steps of so many µm, of deviations or of positions."""
     generator = np.random.default_rng(seed)
     target = np.repeat(np.arange(11), 5)
