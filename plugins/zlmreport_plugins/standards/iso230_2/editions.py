@@ -195,7 +195,11 @@ def list_parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quanti
             formula=formula,
             meaning=_TURN if of_angle else MEANINGS[symbol],
             printed_sign=_find_printed_sign(edition, symbol),
-            never_below=_NEVER_BELOW.get(symbol, ()),
+            never_below=tuple(
+                each
+                for each in _NEVER_BELOW.get(symbol, ())
+                if edition.defines_systematic_deviation or each not in _SINCE_1997
+            ),
         )
         for symbol, formula in _list_formulas(edition).items()
         if edition.defines_systematic_deviation or symbol not in _SINCE_1997
