@@ -282,8 +282,19 @@ def test_a_dash_is_no_statement_on_a_certificate(key: str, value: object, said: 
     assert "states nothing" in refused
 
 
-@pytest.mark.parametrize(("key", "value"), [("measurement.warm_up", "none"), ("machine.serial", "7")])
-def test_a_word_is_one(key: str, value: str, tmp_path: Path) -> None:
+_EXCLUDED = [{"target": 3.1, "direction": "-", "run": 1, "reason": "The hose touched the reflector."}]
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("measurement.warm_up", "none"),
+        ("machine.serial", "7"),
+        ("measurement.excluded", _EXCLUDED),
+        ("measurement.source.units", {"deviation": "um"}),
+    ],
+)
+def test_a_word_is_one(key: str, value: object, tmp_path: Path) -> None:
     assert not refusals(tmp_path, changed((key, value)))
 
 

@@ -22,14 +22,30 @@ if TYPE_CHECKING:
     from zlmreport.job.keys import JobKeys
 
 
-#: Keys that are asked about, or marked, where they are read.
-_TOLD_ELSEWHERE = (
-    "instrument.certificate",
-    "instrument.compensation",
-    "environment.thermometers",
-    "uncertainty.negligible",
-    "measurement.excluded",
+#: Groups of keys that a certificate prints.
+_PRINTED = frozenset(
+    {
+        "certificate",
+        "laboratory",
+        "customer",
+        "machine",
+        "location",
+        "procedure",
+        "sampling",
+        "measurement",
+        "as_found",
+        "instrument",
+        "environment",
+        "evaluate",
+        "external",
+        "opinions",
+        "agreement",
+        "uncertainty",
+    }
 )
+#: Parts of them in which a sign has a meaning, or that are asked about or marked where they are read.
+_TOLD_ELSEWHERE = frozenset({"source", "style", "excluded", "negligible", "thermometers"})
+_TOLD_OF_INSTRUMENTS = ("instrument.certificate", "instrument.compensation")
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +162,9 @@ def find_missing_items(job: Job) -> Iterator[Problem]:
 def _find_placeholders(job: Job) -> Iterator[tuple[str, Problem]]:
     """Yield the keys that state nothing by a dash or the like, each with what is to be done."""
     for key, text in _list_texts(job.keys, ""):
-        if is_placeholder(text) and not key.startswith(_TOLD_ELSEWHERE):
+        parts = key.split(".")
+        is_told = _TOLD_ELSEWHERE.intersection(parts) or key.endswith(_TOLD_OF_INSTRUMENTS)
+        if parts[0] in _PRINTED and not is_told and is_placeholder(text):
             yield (
                 key,
                 Problem(
