@@ -32,12 +32,14 @@ from zlmreport.evaluation.correction.corrections import correct, drop_excluded, 
 from zlmreport.evaluation.decision import decided, decision_rule
 from zlmreport.evaluation.evaluate import evaluate, name_adoption
 from zlmreport.evaluation.evaluation import Evaluation
-from zlmreport.evaluation.likely_units import find_doubts
+from zlmreport.evaluation.likely_units import find_doubts, find_unlikely_limits
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
 from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
-from zlmreport.evaluation.uncertainty.job_budget import find_unstated, make_budget_of
+from zlmreport.evaluation.uncertainty.job_budget import make_budget_of
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
+from zlmreport.evaluation.uncertainty.reasons import is_placeholder
+from zlmreport.evaluation.uncertainty.unstated import find_unstated
 from zlmreport.files import Document
 from zlmreport.job.days import demand_days_past
 from zlmreport.language import Language, Words
@@ -138,7 +140,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
         *find_missing_items(job),
         *(
             one
-            for each in (*job.lines.values(), job.as_found)
+            for each in (job, *job.tests.values(), job.as_found)
             if each
             for one in traceability.find_broken_chain(each)
         ),
@@ -170,7 +172,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
     tests = evaluate_tests(job, measurements, evaluations[0].budget, registry, trials)
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
     _demand_results(job, [*evaluations, *(each for test in tests for each in test.evaluated)])
-    doubtful = tuple(
+    of_lines = tuple(
         say_of_each(
             (
                 name,
@@ -183,6 +185,8 @@ def compose(  # noqa: PLR0913 - what a document is made of
             for name, line, of_line, by in lines or [("", job, measurements, evaluations)]
         )
     )
+    joint = (words for each in evaluations for words in find_unlikely_limits(each.evaluation))
+    doubtful = (*of_lines, *(joint if tests else ()))
     return build(
         job, evaluations, plugins, doubtful, studied, as_found, describe, generator, tests, is_part=is_part
     )
@@ -286,7 +290,7 @@ def evaluate_parameters(job: Job, measurements: MeasurementSet, registry: Regist
     return tuple(
         replace(
             name_adoption(evaluate(standard, measurements, options, choice.tolerances), choice.adoption),
-            specification=choice.specification,
+            specification="" if is_placeholder(choice.specification) else choice.specification,
         )
         for (standard, options), choice in zip(choose_standards(job, registry), job.standards, strict=True)
     )

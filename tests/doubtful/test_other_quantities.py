@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+import shutil
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache
@@ -10,12 +12,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from document.certificate.documents import registry
+from document.certificate.documents import registry, text_of
 from environments import ROOT
 from zlmreport import pipeline
+from zlmreport.document.certificate.information import Information, check_information
 from zlmreport.errors import InputError
+from zlmreport.evaluation import likely_units, traceability
 from zlmreport.evaluation.disagreements import find_disagreements
 from zlmreport.evaluation.evidence import find_evidence, find_lines_read_twice
+from zlmreport.evaluation.limits import find_contradicting_limits
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words
@@ -98,3 +103,186 @@ def test_a_certificate_without_any_result_is_refused(tmp_path: Path) -> None:
 
     with pytest.raises(InputError, match="states results, and these readings give none"):
         pipeline.compose(load(tmp_path / "job.yaml", registry()), registry())
+
+
+def spoilt(folder: Path, example: str, **texts: str) -> Job:
+    """Return a job of the examples in which some texts of its file are others."""
+    shutil.copytree(ROOT / "configs", folder / "configs")
+    path = folder / "configs" / example
+    text = path.read_text(encoding="utf-8")
+    for old, new in texts.values():
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text, encoding="utf-8")
+    return load(path, registry())
+
+
+def findings(job: Job) -> str:
+    """Return what the standards of a job find not to be met."""
+    evaluations = pipeline.evaluate_parameters(job, pipeline.read(job, registry()), registry())
+    found = (each for evaluation in evaluations for each in evaluation.findings if each.met is False)
+    return say(each.found for each in found)
+
+
+@pytest.mark.parametrize(("error", "angle"), [("72", "90.02"), ("90", "90.025"), ("-45", "89.9875")])
+def test_an_angle_of_no_square_is_found(error: str, angle: str, tmp_path: Path) -> None:
+    example = "machine/xy-squareness.yaml"
+    assert findings(load(ROOT / "configs" / example, registry())) == ""
+
+    job = spoilt(tmp_path, example, error=("square: {error: 0,", f"square: {{error: {error},"))
+
+    assert f"= {angle}° is the angle of no square" in findings(job)
+
+
+def test_diagonals_over_a_part_of_the_work_space_are_found(tmp_path: Path) -> None:
+    example = "whole-machine/diagonals.yaml"
+    assert findings(load(ROOT / "configs" / example, registry())) == ""
+
+    job = spoilt(tmp_path, example, axes=("X: [0, 500]", "X: [0, 900]"))
+
+    assert "PPP was measured over 707 mm of 1029.56 mm" in findings(job)
+
+
+def test_a_diagonal_that_is_shorter_than_the_others_is_found(tmp_path: Path) -> None:
+    job = spoilt(tmp_path, "whole-machine/diagonals.yaml", axes=("axes: {X:", "# {X:"))
+    path = tmp_path / "configs/whole-machine/nnp.csv"
+    rows = path.read_text(encoding="utf-8").splitlines()
+    short = [row for row in rows if not row[0].isdecimal() or float(row.split(",")[0]) < 400]
+    path.write_text("\n".join(short), encoding="utf-8")
+
+    assert "NNP was measured over 353.5 mm of 707 mm" in findings(job)
+
+
+@pytest.mark.parametrize(
+    ("example", "old", "said"),
+    [
+        ("flatness/certificate.yaml", "EXAMPLE-K-2026-32", "What was measured against (carriage)"),
+        ("machine/xy-squareness.yaml", "EXAMPLE-CAL-9", "What was measured against (square)"),
+    ],
+)
+def test_an_artefact_with_this_document_as_its_certificate_is_no_link(
+    example: str, old: str, said: str, tmp_path: Path
+) -> None:
+    number = load(ROOT / "configs" / example, registry()).keys.certificate.number
+    job = spoilt(tmp_path, example, certificate=(old, number))
+
+    assert f"{said}: the calibration certificate named, {number}, is this document" in say(
+        traceability.find_doubts_of_artefacts(job)
+    )
+    assert traceability.find_chain(job) == traceability.Chain()
+    broken = "\n".join(map(str, traceability.find_broken_chain(job)))
+    assert (".certificate: " in broken) == (job.keys.certificate.kind == "certificate")
+
+
+def test_a_carriage_without_a_certificate_is_marked_on_the_page(tmp_path: Path) -> None:
+    job = spoilt(tmp_path, "flatness/certificate.yaml", certificate=(", certificate: EXAMPLE-K-2026-32", ""))
+
+    assert "(carriage): no calibration certificate named" in say(
+        pipeline.compose(job, registry(), trials=100).evidence
+    )
+
+
+def test_a_flatness_limit_in_millimetres_is_marked(tmp_path: Path) -> None:
+    job = spoilt(
+        tmp_path, "flatness/certificate.yaml", limit=("tolerances: {t: 4}", "tolerances: {t: 0.004}")
+    )
+    (evaluation,) = pipeline.evaluate_parameters(job, pipeline.read(job, registry()), registry())
+
+    found = say(likely_units.find_unlikely_limits(evaluation))
+
+    assert "t 0.004 µm; tolerances are stated in µm, and 1 mm is 1000 µm" in found
+
+
+def test_limits_of_a_circle_that_are_exchanged_are_marked(tmp_path: Path) -> None:
+    job = spoilt(tmp_path, CIRCLE, limit=("{G_ccw: 8, G_cw: 8, G_b: 10}", "{G_ccw: 12, G_cw: 8, G_b: 10}"))
+    (evaluation,) = pipeline.evaluate_parameters(job, pipeline.read(job, registry()), registry())
+
+    (found,) = find_contradicting_limits(evaluation)
+
+    assert "the limit of G(ccw), 12 µm, is above that of G(b), 10 µm" in say([found])
+
+
+def test_a_ballbar_of_calibrated_length_has_a_certificate(tmp_path: Path) -> None:
+    job = spoilt(
+        tmp_path,
+        CIRCLE,
+        certificate=("  certificate: EXAMPLE-K-2026-17\n", ""),
+        kind=("issued: 2026-11-20}", "issued: 2026-11-20, kind: report}"),
+    )
+
+    found = say(find_disagreements(job, pipeline.read(job, registry())))
+
+    assert found.startswith("The length of the instrument is said to be calibrated, and no calibration")
+    assert "\n" not in found
+
+
+def test_a_circle_that_slows_down_in_a_quadrant_is_marked() -> None:
+    job, measurements = measured(CIRCLE)
+    assert measurements.time is not None
+    angle = np.degrees(measurements.target_positions[measurements.target])
+    steps = np.diff(measurements.time, prepend=measurements.time[0])
+    slowed = np.cumsum(np.where((angle > 90) & (angle < 180), 4 * steps, steps))
+
+    found = say(find_disagreements(job, replace(measurements, time=slowed)))
+
+    assert "the path was run at 250 to 1000 mm/min, and its feed is stated as 1000 mm/min" in found
+
+
+def _drift() -> tuple[Job, MeasurementSet]:
+    job, measurements = measured(DRIFT)
+    name, line = next(iter(measurements.tests.items()))
+    return job.lines[name], line
+
+
+def test_a_drift_of_a_day_takes_more_than_the_day_it_is_dated() -> None:
+    job, line = _drift()
+    assert say(find_disagreements(job, line)) == ""
+    one_day = job.keys.measurement.model_copy(update={"end": None})
+
+    dated = replace(job, keys=job.keys.model_copy(update={"measurement": one_day}))
+
+    said = "The readings go over 24 h, and the measurement is dated 2026-11-18 only"
+    assert said in say(find_disagreements(dated, line))
+
+
+def test_a_thermometer_that_stands_for_a_day_is_marked() -> None:
+    job, line = _drift()
+    still = {**line.conditions, "air_temperature": np.full(len(line.deviation), 293.15)}
+
+    found = say(find_disagreements(job, replace(line, conditions=still)))
+
+    assert found == (
+        "Air temperature: the same in every digit over 24 h, at 289 readings: its sensor may have stood still"
+    )
+
+
+def test_a_drift_of_twenty_minutes_is_not_said_to_be_longer_and_has_no_uncertainty(tmp_path: Path) -> None:
+    job = spoilt(
+        tmp_path,
+        DRIFT,
+        hours=("hours: 24", "hours: 4"),
+        kind=("issued: 2026-11-20}", "issued: 2026-11-20, kind: report}"),
+    )
+    path = tmp_path / "configs/drift/drift.csv"
+    path.write_text("\n".join(path.read_text(encoding="utf-8").splitlines()[:7]), encoding="utf-8")
+
+    text = text_of(pipeline.compose(job, registry()))
+
+    assert "X1: 0.333 h of 4 h" in text
+    assert "The readings give no parameter, and so there is no uncertainty of one." in text
+    assert not re.search(r"U = k·u|Monte Carlo|0\.413", text)
+
+
+def test_a_straightness_says_what_it_was_held_against() -> None:
+    job, measurements = measured("machine/x-straightness.yaml")
+    asked = [Information.STRAIGHTNESS_REFERENCE]
+
+    def check(job: Job, measurements: MeasurementSet) -> bool | None:
+        budget = pipeline.make_budget_of_job(job, measurements, registry())
+        return next(check_information(asked, job, measurements, budget)).met
+
+    assert check(job, measurements) is None
+    assert check(job, replace(measurements, artefact_is_reversed=True))
+    assert job.keys.instrument is not None
+    beam = job.keys.instrument.model_copy(update={"name": "Laser interferometer, straightness optics"})
+    assert check(replace(job, keys=job.keys.model_copy(update={"instrument": beam})), measurements)

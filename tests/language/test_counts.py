@@ -29,6 +29,8 @@ _NEVER_OF_ONE = (
     "The model is held against {kept} of the {all}",
     "The {count} readings that are evaluated are not printed",
     "the ledger knows none of the certificates in {folder}",
+    "{name}: not logged at the",  # six at least
+    "{name}: the same in every digit over {hours} h, at {count} readings",
     "{column} stands still during the last {count} readings",
     "{gone} of {before} jobs are gone since the last night; look whether that is meant",
     "{missing} of {all} visits of the plan",

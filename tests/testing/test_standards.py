@@ -220,6 +220,16 @@ SINS = [
         "E moves by 7e-05 m",
     ),
     (
+        arithmetic.no_part_exceeds_its_whole,
+        {"quantities": (E, replace(R, never_below=("E",)))},
+        "R is said to be never below E, and was by",
+    ),
+    (
+        arithmetic.no_part_exceeds_its_whole,
+        {"quantities": (replace(E, never_below=("A",)), R)},
+        "E is said to be never below A, which is no parameter",
+    ),
+    (
         arithmetic.one_missing_reading_takes_nothing_away,
         {"arithmetic": with_e(lambda s: np.ptp(s.deviations, axis=(-3, -2, -1)))},
         "E is nan when one of 5 readings",

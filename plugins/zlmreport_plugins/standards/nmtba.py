@@ -78,6 +78,7 @@ PARAMETERS: tuple[Quantity, ...] = (
             "The largest error, systematic and random together, that positioning is expected to bring into a "
             "dimension of a part, whichever the direction of approach."
         ),
+        never_below=("Pa", "Ps_max"),
     ),
     Quantity(
         "Pa",
@@ -97,6 +98,7 @@ PARAMETERS: tuple[Quantity, ...] = (
             "The scatter to expect of a feature's place among like parts, the effect of the direction of "
             "approach included, at the position where it is largest."
         ),
+        never_below=("Ps_mean",),
     ),
     Quantity(
         "Ps_mean",
@@ -145,6 +147,17 @@ NOTES: tuple[Words, ...] = (
     ),
 )
 
+#: The same of a test in one direction, of which the formulas for both do not hold.
+NOTES_OF_ONE_DIRECTION: tuple[Words, ...] = (
+    Words(
+        "This test has readings of one direction only, and they alone are the sample: the mean deviation is "
+        "that of these z readings, the position spread six times their standard deviation (z − 1), without "
+        "any reversal. The formulas above are those for both directions."
+    ),
+    NOTES[0],
+    *NOTES[2:],
+)
+
 _MEAN_DEVIATION = Words("Mean deviation")
 
 
@@ -159,6 +172,7 @@ class Nmtba:
     quantities = PARAMETERS
     position_quantities = BY_POSITION
     notes = NOTES
+    notes_of_one_direction = NOTES_OF_ONE_DIRECTION
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold the requirements against the test."""

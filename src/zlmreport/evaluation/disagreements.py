@@ -7,10 +7,15 @@ from __future__ import annotations
 
 import datetime as dt
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 
+from zlmreport.evaluation.logged_conditions import (
+    find_gaps,
+    find_silent_sensors,
+    find_temperatures_apart,
+)
 from zlmreport.evaluation.uncertainty.reasons import is_reference, says_something
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
@@ -20,7 +25,7 @@ from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurement_set import CONDITION_NAMES, MeasurementSet
+from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MILLIMETRE, with_unit
 
 _LATE = Words("Issued on {issued}, {years} after the measurement of {measured}")
@@ -29,9 +34,6 @@ _LONG = Words("The measurement took from {first} to {last}: {days} days")
 _UNDATED = Words(
     "The date of the measurement is not stated: whether the calibrations were valid then cannot be told"
 )
-_TEMPERATURES = Words("{one}: {first} °C; {other}: {second} °C")
-_APART = Words("{temperatures}: they lie {difference} K apart")
-_RECKONED = Words("{temperatures}: the expansion is reckoned with {used} °C")
 _COEFFICIENTS = Words(
     "Corrected with {corrected} µm/(m·K), and {stated} µm/(m·K) is stated as the expansion coefficient of "
     "the machine"
@@ -52,12 +54,27 @@ _OTHER_DAYS = Words(
 _OTHER_FEED = Words(
     "By the times of the readings the path was run at {speed} {unit}, and its feed is stated as {feed} {unit}"
 )
+_OTHER_FEEDS = Words(
+    "By the times of the readings the path was run at {slowest} to {fastest} {unit}, and its feed is stated "
+    "as {feed} {unit}"
+)
+_LONGER_THAN_DAYS = Words("The readings go over {hours} h, and the measurement is dated {measured} only")
+_SHORTER_THAN_DWELL = Words(
+    "Readings follow each other after {seconds} s as a rule, and a dwell of {dwell} s at each target is "
+    "stated"
+)
+_BOTH_WAYS = Words("A unidirectional method is stated, and targets were approached from both directions")
+_SERIALS = Words("The measuring instrument and the machine are stated with one serial number, {serial}")
+_BARE_LENGTH = Words(
+    "The length of the instrument is said to be calibrated, and no calibration certificate is named for it"
+)
 #: Days after which issue is late, and that a measurement may take.
 _YEAR, _LONGEST = 365, 31
 _DAYS_OF_A_YEAR = 365.25
-#: Kelvins by which the scale and the workpiece may differ, and by which the air and the machine may.
-_ALIKE, _OF_AIR = 1.0, 5.0
 _ROUNDING = 1e-9
+#: Readings of a circle over which its feed is taken: their times are rounded.
+_OF_A_PIECE = 20
+_DAY = 24 * 3600.0
 #: Seconds without a reading that are a pause.
 _LONG_PAUSE = 3600.0
 #: A moving axis may exceed its feed by the rounding of its times, s, and by this factor.
@@ -69,11 +86,17 @@ def find_disagreements(job: Job, measurements: MeasurementSet) -> tuple[Words, .
     return (
         *_find_days_apart(job.keys),
         *_find_other_days(job.keys, measurements),
-        *_find_temperatures_apart(job),
+        *_find_more_than_days(job.keys, measurements),
+        *find_temperatures_apart(job, measurements),
+        *find_gaps(measurements),
+        *find_silent_sensors(measurements),
         *_find_other_coefficient(job.keys),
         *_find_certificates_of_two_dates(job.keys),
         *_find_exclusions_without_reason(job),
         *_find_odd_times(job, measurements),
+        *_find_other_method(job.keys, measurements),
+        *_find_one_serial(job.keys),
+        *_find_bare_length(job.keys),
     )
 
 
@@ -103,6 +126,39 @@ def _find_other_days(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Wo
         yield words.given(first=first_read, last=last_read, measured=_write_day(first))
 
 
+def _find_more_than_days(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield whether the readings go over more time than the days of the measurement have."""
+    first, last, times = keys.measurement.date, find_last_day(keys.measurement), measurements.time
+    if first is None or last is None or times is None or not np.isfinite(times).any():
+        return
+    seconds = float(np.nanmax(times) - np.nanmin(times))
+    if seconds >= ((last - first).days + 1) * _DAY - _OF_TIMES:
+        hours = float(f"{seconds / 3600:.3g}")
+        yield _LONGER_THAN_DAYS.given(hours=hours, measured=_write_day(first))
+
+
+def _find_other_method(keys: JobKeys, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield a method in one direction whose readings are in both."""
+    if keys.measurement.method == "unidirectional" and measurements.is_bidirectional:
+        yield _BOTH_WAYS
+
+
+def _find_one_serial(keys: JobKeys) -> Iterator[Words]:
+    """Yield a serial number that is stated of the machine and of what measured it."""
+    machine, instrument = keys.machine.serial, keys.instrument.serial if keys.instrument else None
+    if machine and instrument and machine.casefold() == instrument.casefold() and is_reference(machine):
+        yield _SERIALS.given(serial=same(machine))
+
+
+def _find_bare_length(keys: JobKeys) -> Iterator[Words]:
+    """Yield a ballbar of calibrated length without any certificate."""
+    if keys.circle is None or not keys.circle.calibrated_length:
+        return
+    of_instrument = keys.instrument.certificate if keys.instrument else None
+    if not any(is_reference(each or "") for each in (keys.circle.certificate, of_instrument)):
+        yield _BARE_LENGTH
+
+
 def _write_day(day: dt.date) -> Words:
     return same(day.isoformat())
 
@@ -111,26 +167,6 @@ def _list_calibrations(keys: JobKeys) -> Iterator[tuple[str, str | None, dt.date
     """Yield name, certificate and date of calibration of each instrument and sensor."""
     devices = (keys.instrument, *(keys.environment.thermometers if keys.environment else ()))
     yield from ((each.name, each.certificate, each.calibrated) for each in devices if each)
-
-
-def _find_temperatures_apart(job: Job) -> Iterator[Words]:
-    """Yield temperatures that are stated and so different that one of them hardly holds for the length."""
-    environment = job.keys.environment
-    if environment is None or not job.axis.has_length:
-        return
-    names = ("axis_temperature", "material_temperature", "air_temperature")
-    stated = [(name, value) for name in names if isinstance(value := getattr(environment, name), float)]
-    material = job.keys.corrections.material if job.keys.corrections else None
-    used = dict(stated).get(material.temperature if material else names[0], 0.0)
-    for (one, first), (other, second) in combinations(stated, 2):
-        of_air = other == "air_temperature"
-        if abs(first - second) > (_OF_AIR if of_air else _ALIKE):
-            both = _TEMPERATURES.given(
-                one=CONDITION_NAMES[one], first=first, other=CONDITION_NAMES[other], second=second
-            )
-            difference = float(f"{abs(first - second):.3g}")
-            apart = _APART.given(temperatures=both, difference=difference)
-            yield apart if of_air else _RECKONED.given(temperatures=both, used=used)
 
 
 def _find_other_coefficient(keys: JobKeys) -> Iterator[Words]:
@@ -185,6 +221,9 @@ def _find_odd_times(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
     if seconds[longest] > _LONG_PAUSE:
         run = int(measurements.run[there][longest + 1])
         yield _PAUSE.given(run=run, hours=float(f"{seconds[longest] / 3600:.2g}"))
+    dwell, usual = job.keys.measurement.dwell, float(np.median(seconds))
+    if dwell is not None and usual + _OF_TIMES < dwell:
+        yield _SHORTER_THAN_DWELL.given(seconds=float(f"{usual:.3g}"), dwell=dwell)
     feed = job.keys.measurement.feed
     if feed is not None:
         yield from _find_exceeded_feed(feed, measurements, there, seconds)
@@ -203,6 +242,28 @@ def _find_another_feed_of_circle(measurements: MeasurementSet, circle: NominalCi
     if not stated / _OF_FEED <= feed <= stated * _OF_FEED:
         found, said = (float(f"{60 * MILLIMETRE.from_si(each):.2g}") for each in (feed, stated))
         yield _OTHER_FEED.given(speed=found, feed=said, unit="mm/min")
+        return
+    pieces = [_measure_feed(way[at][known[at]], seconds[at][known[at]]) for at in _list_pieces(measurements)]
+    of_pieces = [each for each in pieces if each is not None]
+    if of_pieces and not stated / _OF_FEED <= min(of_pieces) <= max(of_pieces) <= stated * _OF_FEED:
+        slowest, fastest, said = (
+            float(f"{60 * MILLIMETRE.from_si(each):.2g}") for each in (min(of_pieces), max(of_pieces), stated)
+        )
+        yield _OTHER_FEEDS.given(slowest=slowest, fastest=fastest, feed=said, unit="mm/min")
+
+
+def _list_pieces(measurements: MeasurementSet) -> Iterator[slice]:
+    """Yield the steps between readings that follow each other in a turn, so many at a time."""
+    is_new = (np.diff(measurements.run) != 0) | (np.diff(measurements.approach) != 0)
+    bounds = [0, *(np.flatnonzero(is_new) + 1), len(measurements.run)]
+    for first, end in pairwise(bounds):
+        for begin in range(int(first), int(end) - _OF_A_PIECE, _OF_A_PIECE):
+            yield slice(begin, begin + _OF_A_PIECE)
+
+
+def _measure_feed(way: FloatArray, seconds: FloatArray) -> float | None:
+    """Return the feed over some steps, m/s; None where there are none."""
+    return float(way.sum() / seconds.sum()) if seconds.size else None
 
 
 def _find_exceeded_feed(

@@ -97,7 +97,7 @@ def evaluate(
             *undefined,
             *find_doubts(((each.quantity, each.value) for each in parameters), statistics, measurements.axis),
         ),
-        notes=_select_notes(standard, frozenset(each.quantity.symbol for each in parameters)),
+        notes=_select_notes(standard, measurements, frozenset(each.quantity.symbol for each in parameters)),
         is_method=getattr(standard, "is_method", False),
     )
 
@@ -114,10 +114,17 @@ def name_adoption(evaluation: Evaluation, adoption: str) -> Evaluation:
     return replace(evaluation, designation=designation, notes=(note, *evaluation.notes))
 
 
-def _select_notes(standard: EvaluatingStandard, reported: frozenset[str]) -> tuple[Words, ...]:
-    """Return the notes of a standard without those on parameters of which the test reports none."""
+def _select_notes(
+    standard: EvaluatingStandard, measurements: MeasurementSet, reported: frozenset[str]
+) -> tuple[Words, ...]:
+    """Return the notes of a standard without those on parameters of which the test reports none.
+
+    A standard whose formulas join both directions may have others of a test in one of them.
+    """
     idle = [note for symbols, note in getattr(standard, "notes_on", ()) if reported.isdisjoint(symbols)]
-    return tuple(each for each in standard.notes if each not in idle)
+    of_one = getattr(standard, "notes_of_one_direction", ())
+    notes = of_one if of_one and len(measurements.approaches) == 1 else standard.notes
+    return tuple(each for each in notes if each not in idle)
 
 
 def _report_undefined(quantity: Quantity) -> Finding:

@@ -124,6 +124,9 @@ class Quantity:
         −1 where the edition prints the value with the sign opposite to the results file; else 1.
     unit
         Its own, where it is not a deviation of what was measured, as a slope; None for the measurand's.
+    never_below
+        Symbols of parameters whose amount it is never smaller than, by its definition, as E of M: a larger
+        limit for one of them decides nothing.
     """
 
     symbol: str
@@ -135,6 +138,7 @@ class Quantity:
     can_be_limited: bool = True
     printed_sign: int = 1
     unit: Unit | None = None
+    never_below: tuple[str, ...] = ()
 
     def unit_or(self, usual: Unit) -> Unit:
         """Return its own unit, or the usual one where it has none."""

@@ -14,13 +14,18 @@ import numpy as np
 from zlmreport.evaluation.copies import are_nearly_copies, estimate_agreement_by_chance, group_copies
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.stray_targets import find_stray_target, join_found_in_both
-from zlmreport.evaluation.turned_runs import find_mirrored_run, find_run_of_another_reversal
+from zlmreport.evaluation.turned_runs import (
+    find_mirrored_run,
+    find_run_of_another_reversal,
+    measure_counter_directions,
+)
 from zlmreport.job.job import Job
 from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray, count_decimals_of
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.measurement.steps import find_last_digit, find_step
 from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, with_unit
 
 _DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")
@@ -75,6 +80,10 @@ _INTERCHANGED = Words(
     "be interchanged"
 )
 _ANOTHER_REVERSAL = Words("The reversal of run {run} is {reversal} in the mean, and {others} in the others")
+_COUNTER = Words(
+    "The two directions run counter to each other along the axis: the signs of one may be turned, its "
+    "readings may stand in reverse order, or the reversal changes by {change} along the axis"
+)
 _TWO_TEMPERATURES = Words("{name}: {stated} °C is stated, and {logged} °C was logged beside the readings")
 _SPAN, _SINGLE = Words("{low} … {high}"), Words("{low}")
 _COARSER = Words(
@@ -86,6 +95,8 @@ _BY_CHANCE = 5.0
 #: Correlation of run means with their order from which they are said to rise or fall.
 _STEADY = 0.9
 _FEWEST_RUNS = 3
+#: Readings that are all alike on no axis.
+_FEWEST_EQUAL = 10
 #: Readings of a record in which one may be told from all others; how many times as far from its neighbours as
 #: is usual, and as any other, it then lies.
 _FEWEST_OF_RECORD, _SPIKE_OF_USUAL, _SPIKE_OF_OTHERS = 30, 20.0, 4.0
@@ -108,8 +119,11 @@ _NORMAL_MAD = 1.4826
 def find_evidence(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     """Return a sentence for each thing that the readings show and the job does not say."""
     readings = measurements.deviations()
-    if not np.isfinite(readings).any():
+    there = np.isfinite(readings)
+    if not there.any():
         return ()
+    if there.sum() >= _FEWEST_EQUAL and not np.ptp(readings[there]):
+        return (_STANDS,)
     return (
         *_find_drift(job, measurements, readings),
         *_find_outliers(measurements, readings),
@@ -227,9 +241,6 @@ def _find_spike(measurements: MeasurementSet) -> Iterator[Words]:
     known = measurements.deviation[there]
     if not measurements.axis.measurand.is_continuous or known.size < _FEWEST_OF_RECORD:
         return
-    if not np.ptp(known):
-        yield _STANDS
-        return
     off = np.abs(known[1:-1] - (known[:-2] + known[2:]) / 2)
     at = int(off.argmax())
     others = np.delete(off, slice(max(at - 1, 0), at + 2))
@@ -312,6 +323,9 @@ def _find_turned_runs(measurements: MeasurementSet, readings: FloatArray) -> Ite
             reversal=_write_size(measurements, turned.reversal),
             others=_write_size(measurements, turned.of_others),
         )
+    change = measure_counter_directions(readings)
+    if change is not None:
+        yield _COUNTER.given(change=_write_size(measurements, change))
 
 
 def _list_run_numbers(measurements: MeasurementSet, runs: Sequence[int]) -> str:
@@ -332,8 +346,7 @@ def _find_stray_targets(measurements: MeasurementSet, readings: FloatArray) -> I
 
 def _step(measurements: MeasurementSet) -> float:
     """Return the step of the last digit of the readings, m or rad."""
-    unit = measurements.axis.deviation_unit
-    return unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    return measurements.axis.deviation_unit.to_si(find_last_digit(measurements))
 
 
 _RUN, _RUNS = Words("run {runs}"), Words("runs {runs}")
@@ -398,7 +411,7 @@ def _find_coarser_steps(job: Job, measurements: MeasurementSet) -> Iterator[Word
     unit = measurements.axis.deviation_unit
     if not stated or measurements.provenance.corrections:
         return
-    given = 10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS)
+    given = find_step(measurements)
     if given > stated * (1 + 1e-9):
         yield _COARSER.given(
             stated=_write_with_unit(stated, unit.symbol), given=_write_with_unit(given, unit.symbol)

@@ -5,17 +5,19 @@ Nothing is refused or changed for that: who knows the machine is told, with the 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
 from zlmreport.evaluation.evaluation import Evaluation, Parameter
+from zlmreport.evaluation.uncertainty.wording import name_contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
-from zlmreport.measurement.arrays import count_decimals_of
 from zlmreport.measurement.axis import AxisKind
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
+from zlmreport.measurement.steps import find_step
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")
@@ -44,6 +46,25 @@ _LARGE_ANGLES = Words(
     "Angles that span {span}{unit} are unusual; if the file has another unit, such as {meant}, state it "
     "under measurement.source.units"
 )
+_FAR_BELOW_STEP = Words(
+    "Expanded uncertainty of the instrument: {value} {unit}, and its readings were given in steps of {step} "
+    "{unit}: it is stated in {unit}"
+)
+#: Part of a step below which the uncertainty of no instrument lies that was read so.
+_OF_A_STEP = 0.05
+#: Full ranges of set-ups, in their units; others are in another unit, or no measurement.
+_RANGES: Mapping[str, tuple[float, float, str]] = MappingProxyType(
+    {
+        "misalignment": (0.001, 50.0, "mm"),
+        "machine_temperature": (0.001, 10.0, "K"),
+        "device_temperature": (0.001, 10.0, "K"),
+        "expansion_coefficient": (0.005, 20.0, "µm/(m·K)"),
+        "device_expansion_coefficient": (0.001, 20.0, "µm/(m·K)"),
+        "air_temperature": (0.001, 20.0, "K"),
+        "air_pressure": (0.02, 200.0, "hPa"),
+        "relative_humidity": (0.3, 100.0, "%"),
+    }
+)
 #: Of a machine tool's axis, rad: 1000 arc seconds.
 _LARGE_ANGLE = 1000 / 206264.80624709636
 #: Axes by their first letters (ISO 841), and the ranges that say that one of them turns.
@@ -61,7 +82,6 @@ _LEAST_EXPANSION = -1.5
 _OTHER_EXPANSIONS = ((1e3, "mm/(m·K)"), (1e6, "1/K"), (1e-3, "nm/(m·K)"))
 #: A limit as small as this, µm or ″, beside a value so many times as large, was meant in mm or °.
 _SMALL, _MANY_TIMES = 0.5, 50.0
-_MOST_DECIMALS = 3
 
 
 def find_doubts(
@@ -74,7 +94,9 @@ def find_doubts(
     return (
         *_find_unlikely_conditions(job, measurements),
         *_find_unlikely_expansion(job),
-        *(sentence for each in evaluations for sentence in _find_unlikely_limits(each)),
+        *_find_unlikely_ranges(job),
+        *_find_unlikely_instrument(job, measurements),
+        *(sentence for each in evaluations for sentence in find_unlikely_limits(each)),
         *_find_other_kind_of_axis(measurements),
         *_find_unlikely_angles(measurements),
     )
@@ -94,7 +116,7 @@ def _find_unlikely_conditions(job: Job, measurements: MeasurementSet) -> Iterato
             if far and low <= of_readings[0] <= high:
                 yield _LOGGED.given(name=CONDITION_NAMES[name], value=far[0], unit=kind.unit.symbol)
         if isinstance(value, float) and not low <= value <= high:
-            meant = kind.find_other_unit(value)
+            meant = kind.find_likely_unit(value)
             sentence = _UNLIKELY
             if meant:
                 sentence = _MEANT.given(
@@ -136,12 +158,17 @@ def _name_unit(unit: Scale) -> Words:
     return Words("of 1") if unit.symbol == "1" else same(unit.symbol)
 
 
-def _find_unlikely_limits(evaluation: Evaluation) -> Iterator[Words]:
-    """Yield what is said of the limits of a standard that do not fit the readings."""
+def find_unlikely_limits(evaluation: Evaluation) -> Iterator[Words]:
+    """Yield what is said of the limits of a standard that do not fit the readings.
+
+    Of what several lines give together, which has no readings of its own, they are held against the values.
+    """
     measurements = evaluation.measurements
     axis, targets = measurements.axis, measurements.target_positions
     unit = axis.deviation_unit
-    step = unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    has_own = targets.size > 0
+    step = unit.to_si(find_step(measurements)) if has_own else 0.0
+    length = float(targets[-1] - targets[0]) if has_own else 0.0
     small, large = [], []
     for each in evaluation.parameters:
         if each.limit is None or each.quantity.unit is not None:
@@ -149,7 +176,7 @@ def _find_unlikely_limits(evaluation: Evaluation) -> Iterator[Words]:
         is_tiny = each.limit < unit.to_si(_SMALL) and _MANY_TIMES * each.limit < abs(each.value)
         if is_tiny or each.limit < step:
             small.append(each)
-        elif axis.measurand.is_position and each.limit > float(targets[-1] - targets[0]) > 0:
+        elif axis.measurand.is_position and each.limit > length > 0:
             large.append(each)
     other = axis.position_unit
     for sentence, found in (
@@ -159,6 +186,25 @@ def _find_unlikely_limits(evaluation: Evaluation) -> Iterator[Words]:
         if found:
             limits = Words("{limits}").given(limits=_name_in_a_line(found, evaluation))
             yield sentence.given(designation=evaluation.designation, limits=limits, unit=unit.symbol)
+
+
+def _find_unlikely_ranges(job: Job) -> Iterator[Words]:
+    """Yield ranges of the set-up that seem to be in another unit, or not full ones."""
+    for name, (low, high, unit) in _RANGES.items():
+        value = getattr(job.keys.uncertainty, name)
+        if value and not low <= value <= high:
+            yield _UNLIKELY.given(name=name_contributor(name), value=value, unit=unit)
+
+
+def _find_unlikely_instrument(job: Job, measurements: MeasurementSet) -> Iterator[Words]:
+    """Yield an uncertainty of the instrument that is far below the steps in which it was read."""
+    stated = job.keys.instrument.stated_uncertainty if job.keys.instrument else None
+    if stated is None or stated[1] or not np.isfinite(measurements.deviation).any():
+        return
+    step = find_step(measurements)
+    if stated[0] < _OF_A_STEP * step:
+        unit = measurements.axis.deviation_unit.symbol
+        yield _FAR_BELOW_STEP.given(value=stated[0], step=float(f"{step:.6g}"), unit=unit)
 
 
 def _name_in_a_line(parameters: Sequence[Parameter], evaluation: Evaluation) -> Words:

@@ -87,6 +87,11 @@ def find_doubts(job: Job, measurements: MeasurementSet) -> tuple[Words, ...]:
     )
 
 
+def find_doubts_of_artefacts(job: Job) -> Iterator[Words]:
+    """Yield the artefacts of a job that are not shown to be traceable: those of all its lines together."""
+    yield from (each.words for each in _find_breaks_of_artefacts(job))
+
+
 @dataclass(frozen=True, slots=True)
 class Chain:
     """The calibration certificates through which results are traceable, each once."""
@@ -122,7 +127,8 @@ def _list_artefacts(job: Job) -> Iterator[str]:
     contribution that the job states with its certificate.
     """
     for _, group in _list_artefact_keys(job):
-        yield getattr(group, "certificate", None) or ""
+        certificate = getattr(group, "certificate", None) or ""
+        yield "" if _is_this_document(job, certificate) else certificate
     for line in job.lines.values():
         stated = line.keys.uncertainty.contributions if line.keys.uncertainty else ()
         yield from (each.certificate for each in stated if each.certificate)
@@ -148,7 +154,7 @@ def find_broken_chain(job: Job) -> Iterator[Problem]:
     """Yield what breaks the chain of a calibration certificate by the job's own words."""
     if job.keys.certificate.kind != "certificate":
         return
-    for each in _find_breaks_of_instruments(job.keys):
+    for each in (*_find_breaks_of_instruments(job.keys), *_find_breaks_of_artefacts(job)):
         if each.is_broken:
             yield Problem(
                 job.place_of(each.key),
@@ -169,12 +175,30 @@ def _find_breaks_of_instruments(keys: JobKeys) -> Iterator[_Break]:
 
 
 def _find_breaks_of_artefacts(job: Job) -> Iterator[_Break]:
-    """Yield the artefacts that no calibration certificate is named of, each once."""
+    """Yield the artefacts of which no calibration certificate is named, or this document, each once."""
     for key, group in dict(_list_artefact_keys(job)).items():
-        if not is_reference(getattr(group, "certificate", None) or ""):
-            name = getattr(group, "name", None)
-            what = same(name) if name else _ARTEFACT.given(key=key)
-            yield _Break(f"{key}.certificate", _NO_CERTIFICATE.given(what=what), is_broken=False)
+        certificate, name = getattr(group, "certificate", None) or "", getattr(group, "name", None)
+        what = same(name) if name else _ARTEFACT.given(key=key)
+        where = f"{_find_group(job, key)}.certificate"
+        if not is_reference(certificate):
+            yield _Break(where, _NO_CERTIFICATE.given(what=what), is_broken=False)
+        elif _is_this_document(job, certificate):
+            words = _THIS_DOCUMENT.given(what=what, number=job.keys.certificate.number)
+            yield _Break(where, words, is_broken=True)
+
+
+def _find_group(job: Job, key: str) -> str:
+    """Return the dotted name of a group of keys that a standard takes from the measurement."""
+    places = (
+        f"evaluate.{number}.{key}"
+        for number, choice in enumerate(job.standards)
+        if key in choice.options.of_the_measurement
+    )
+    return next(places, key)
+
+
+def _is_this_document(job: Job, certificate: str) -> bool:
+    return certificate.casefold() == job.keys.certificate.number.casefold()
 
 
 def _find_breaks_of_calibration(

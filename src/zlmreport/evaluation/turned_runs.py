@@ -1,7 +1,8 @@
 """Runs that were measured or written the wrong way round: their reversal, or their sign, is not the others'.
 
 Of a run whose directions were interchanged the reversal has the other sign; of one whose deviations have the
-wrong sign the curve mirrors that of the others.
+wrong sign the curve mirrors that of the others. Where that happened to a whole direction, the two run counter
+to each other along the axis.
 """
 
 from __future__ import annotations
@@ -24,6 +25,8 @@ _MOST = 0.7
 _TURNED = 0.25
 #: Correlation from which a run mirrors the others, and standard deviations that their curve then spans.
 _MIRRORED, _CURVED = -0.8, 6.0
+#: Part of how far the directions lie apart that is left when one of them is turned round.
+_LEFT = 0.2
 
 
 class Turned(NamedTuple):
@@ -90,3 +93,28 @@ def find_mirrored_run(readings: FloatArray) -> int | None:
         if np.corrcoef(curves[:, run], mean)[0, 1] < _MIRRORED:
             return run
     return None
+
+
+def measure_counter_directions(readings: FloatArray) -> float | None:
+    """Return by how much the reversal changes along an axis whose directions run counter to each other.
+
+    The means of one direction are then, apart from their level, those of the other with their signs turned,
+    or in reverse order; None where they are not, or where scatter may do it.
+
+    `readings`: as of `find_run_of_another_reversal`.
+    """
+    with np.errstate(all="ignore"):
+        there = np.isfinite(readings).all(axis=2).all(axis=0)
+    known = readings[:, there]
+    _, positions, runs = known.shape
+    if runs < 2 or positions < _FEWEST_POSITIONS:
+        return None
+    means = known.mean(axis=2)
+    scatter = float(np.sqrt(known.var(axis=2, ddof=1).mean() / runs))
+    up, down = means - means.mean(axis=1, keepdims=True)
+    apart = up - down
+    size = float(np.sqrt((apart**2).mean()))
+    left = min(float(np.sqrt((each**2).mean())) for each in (up + down, up - down[::-1]))
+    if size <= _CURVED * scatter or left >= _LEFT * size:
+        return None
+    return float(np.ptp(apart))

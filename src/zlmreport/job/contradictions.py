@@ -136,6 +136,7 @@ def _find_contradictions(keys: JobKeys) -> Iterator[Contradiction]:
     yield from _find_wrong_days(keys)
     yield from _find_wrong_amendment(keys)
     yield from _find_wrong_opinions(keys)
+    yield from _find_wrong_title(keys)
     due = keys.next_due
     if due and not due.agreed:
         yield (
@@ -249,6 +250,27 @@ def _find_wrong_opinions(keys: JobKeys) -> Iterator[Contradiction]:
                     "certificate.authorised_by"
                 ),
             )
+
+
+#: What a calibration certificate is called, in the languages of documents.
+_OF_CERTIFICATES = re.compile(
+    r"calibration certificate|certificate of calibration|kalibrier(?:schein|zertifikat)"
+    r"|certificat d.[ée]talonnage|certificato di taratura|certificado de calibraci[óo]n",
+    re.IGNORECASE,
+)
+
+
+def _find_wrong_title(keys: JobKeys) -> Iterator[Contradiction]:
+    """Yield a title that calls a measuring report a calibration certificate."""
+    title = keys.certificate.title
+    if title and keys.certificate.kind == "report" and _OF_CERTIFICATES.search(title):
+        yield (
+            ("certificate", "title"),
+            (
+                f"{quoted(title)} is the title of a calibration certificate, and this is a measuring report; "
+                "take the title out, or state certificate.kind: certificate"
+            ),
+        )
 
 
 #: The parts of a job in which others may supply a value; the laboratory answers for the rest itself.

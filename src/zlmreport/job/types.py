@@ -272,7 +272,7 @@ def _describe_condition(kind: ConditionKind) -> tuple[Any, AfterValidator]:
     def take(value: float) -> float:
         if kind.lowest <= value <= kind.highest:
             return value
-        unit, meant = kind.unit.symbol, kind.find_other_unit(value)
+        unit, meant = kind.unit.symbol, kind.find_likely_unit(value)
         likely = ""
         if meant:
             converted = float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")

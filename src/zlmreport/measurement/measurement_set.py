@@ -37,10 +37,12 @@ class ConditionKind:
     #: In that unit, the lowest and the highest that is usual where machines are measured.
     usual: tuple[float, float]
 
-    def find_other_unit(self, value: float) -> Scale | None:
-        """Return the unit in which a value would be a usual one, if there is one."""
+    def find_likely_unit(self, value: float) -> Scale | None:
+        """Return the unit in which an unusual value would be a usual one, if there is one."""
         low, high = self.usual
-        others = (unit for unit in self.units.values() if low <= self.unit.from_si(unit.to_si(value)) <= high)
+        if low <= value <= high:
+            return None
+        others = (each for each in self.units.values() if low <= self.unit.from_si(each.to_si(value)) <= high)
         return next(others, None)
 
 

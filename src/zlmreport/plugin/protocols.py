@@ -41,7 +41,8 @@ class Standard(Protocol):
     More attributes may stand beside these: ``measurands``, what it evaluates, positioning without it;
     ``information``, the `Information` that it wants reported of a test, which is held against the job;
     ``is_method``, true of a published method and nobody's standard; ``notes_on``, pairs of symbols and one of
-    the ``notes``, which is left out where none of these parameters is reported; ``of_error(error)``, the
+    the ``notes``, which is left out where none of these parameters is reported; ``notes_of_one_direction``,
+    what takes the place of ``notes`` of a test in one direction only; ``of_error(error)``, the
     standard as it evaluates that `ErrorSymbol`, whose quantities may bear the error's symbol; ``adoptions``,
     the names under which other bodies publish the identical text, by which jobs may call it, too; and
     ``contributions(measurements, options)``, what it knows of errors of single lines of several that it

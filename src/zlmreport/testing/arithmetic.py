@@ -19,6 +19,7 @@ from zlmreport.testing.expectations import check, expect, is_same_value
 from zlmreport.testing.measurements import is_of_circles, names_of_lines
 
 _POSITIONS, _RUNS = 7, 5
+_MANY = 200  # tests in a stack
 #: Where they stand, m: at no equal intervals.
 _PLACES = read_only_floats([0.0, 0.13, 0.29, 0.44, 0.62, 0.87, 1.0])
 #: Of a circle, from the first of them to the last, rad.
@@ -110,6 +111,19 @@ def moves_no_more_than_an_offset(standard: Standard, options: Options, *_: Any) 
             moved <= offset * (1 + _RELATIVE),
             f"{standard.identifier}: {symbol} moves by {moved:.3g} m when all readings move {offset:.3g} m",
         )
+
+
+@check
+def no_part_exceeds_its_whole(standard: Standard, options: Options, *_: Any) -> None:
+    """Check that no parameter is smaller than those of which its quantity says that it never is."""
+    values = _collect_values(_find_arithmetic(standard, options, _sample_readings(_MANY)))
+    for whole in standard.quantities:
+        for symbol in whole.never_below:
+            said = f"{standard.identifier}: {whole.symbol} is said to be never below {symbol}"
+            expect(symbol in values, f"{said}, which is no parameter")
+            short = np.abs(values[symbol]) - np.abs(values[whole.symbol])
+            most = np.max(short, initial=0.0, where=~np.isnan(short))
+            expect(most <= _ABSOLUTE, f"{said}, and was by {most:.3g} m")
 
 
 @check
@@ -314,6 +328,7 @@ ARITHMETIC_CHECKS = (
     order_of_runs_is_irrelevant,
     scales_with_the_readings,
     moves_no_more_than_an_offset,
+    no_part_exceeds_its_whole,
     one_missing_reading_takes_nothing_away,
     undefined_is_nan,
     nothing_gives_nothing,

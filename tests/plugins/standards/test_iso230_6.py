@@ -134,7 +134,7 @@ def test_a_diagonal_of_one_position_has_no_length_and_no_systematic_deviation() 
 
 def test_a_diagonal_longer_than_the_work_space_is_told() -> None:
     flat = {name: line(name, np.zeros((9, 5)), length=900.0) for name in BODY}
-    (room,) = (each for each in together(flat).findings if "work space" in each.requirement.en)
+    (room,) = (each for each in together(flat).findings if "within the work space" in each.requirement.en)
     assert room.met is False
     assert "900 mm" in room.found.in_language(Language.ENGLISH)
 

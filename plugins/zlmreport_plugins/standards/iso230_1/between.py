@@ -63,6 +63,8 @@ _COVERAGE_FACTOR = 2.0
 _SIGNS = {"C0Y": -1.0, "B0Z": 1.0, "A0Z": -1.0}
 #: A lean that is seen in a sketch, of its height.
 _LEAN = 0.06
+#: Beyond, an angle minus 90° is that of no square, arc seconds: 30″ are 45 µm on 300 mm.
+_NO_SQUARE = 30.0
 #: Of two places that are said to be one, m.
 _ALIKE = 1e-3
 
@@ -151,8 +153,17 @@ def check_requirements(
     yield Finding(_POSITIONS.given(number=_FEWEST), number, fewest >= _FEWEST)
     if not isinstance(what, Measurand):
         yield _check_meeting(lines)
-        stated = _SQUARE_STATED if square and square.expanded_uncertainty else _NOT_STATED
-        yield Finding(_SQUARE_IS_STATED, stated, True if stated is _SQUARE_STATED else None)
+        yield _check_square(square)
+
+
+def _check_square(square: SquareKeys | None) -> Finding:
+    """Return whether the angle of the square is stated, and is that of one."""
+    if square is None or not square.expanded_uncertainty:
+        return Finding(_SQUARE_IS_STATED, _NOT_STATED, None)
+    if abs(square.error) > _NO_SQUARE:
+        turned = _NO_SUCH_SQUARE.given(error=square.error, angle=float(f"{90 + square.error / 3600:.6g}"))
+        return Finding(_SQUARE_IS_STATED, turned, met=False)
+    return Finding(_SQUARE_IS_STATED, _SQUARE_STATED, met=True)
 
 
 def _check_meeting(lines: Sequence[MeasurementSet]) -> Finding:
@@ -283,6 +294,9 @@ _IN_ONE_PLANE = Words("they are", context="all are")
 _APART = Words("{distance} apart in {axis}")
 _NOT_STATED = Words("not stated")
 _SQUARE_IS_STATED = Words("The angle of the square with its uncertainty (square)")
+_NO_SUCH_SQUARE = Words(
+    "90° + {error}″ = {angle}° is the angle of no square; square.error is its angle minus 90°"
+)
 _SQUARE_STATED = Words("stated")
 _LEANS = {
     "C0Y": Words(

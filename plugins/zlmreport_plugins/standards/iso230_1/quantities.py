@@ -64,7 +64,15 @@ def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
     systematic = QuantityGroup.SYSTEMATIC
     formula = "max(d̄_{i}) − min(d̄_{i}), d̄_{i} = x̄_{i} − (y_{0} + m·P_{i})"
     return [
-        Quantity(symbol, notation, _STRAIGHTNESS, systematic, formula, _SPAN_OF_STRAIGHTNESS),
+        Quantity(
+            symbol,
+            notation,
+            _STRAIGHTNESS,
+            systematic,
+            formula,
+            _SPAN_OF_STRAIGHTNESS,
+            never_below=(f"{symbol}_local",),
+        ),
         *(
             Quantity(
                 f"{symbol}_{way}",
@@ -83,6 +91,7 @@ def _define_straightness(symbol: str, notation: str) -> list[Quantity]:
             QuantityGroup.COMPOSITE,
             "max_{j}[max(d_{ij}) − min(d_{ij})]",
             Words("The largest of the same of every run by itself: systematic and random together."),
+            never_below=(symbol, *(f"{symbol}_{way}" for way in _DIRECTIONS)),
         ),
         Quantity(
             f"{symbol}_local",
@@ -138,6 +147,7 @@ def _define_angles(symbol: str, notation: str) -> list[Quantity]:
                 "The largest turn between two positions if each is approached from its less favourable "
                 "direction: the reversal is part of it."
             ),
+            never_below=(symbol, *(f"{symbol}_{way}" for way in _DIRECTIONS)),
         ),
     ]
 

@@ -118,6 +118,17 @@ _NOTATIONS = {
 _SINCE_1997 = frozenset({"E", "E_fwd", "E_bwd", "M"})
 
 
+#: What follows from the formulas: the symbols of parameters that each is never smaller than.
+_NEVER_BELOW: dict[str, tuple[str, ...]] = {
+    "A": ("A_fwd", "A_bwd", "E", "R"),
+    "A_fwd": ("E_fwd", "R_fwd"),
+    "A_bwd": ("E_bwd", "R_bwd"),
+    "E": ("E_fwd", "E_bwd", "M", "B"),
+    "R": ("R_fwd", "R_bwd", "B"),
+    "B": ("B_mean",),
+}
+
+
 @dataclass(frozen=True, slots=True)
 class Edition:
     """One edition."""
@@ -184,6 +195,11 @@ def list_parameters(edition: Edition, *, of_angle: bool = False) -> tuple[Quanti
             formula=formula,
             meaning=_TURN if of_angle else MEANINGS[symbol],
             printed_sign=_find_printed_sign(edition, symbol),
+            never_below=tuple(
+                each
+                for each in _NEVER_BELOW.get(symbol, ())
+                if edition.defines_systematic_deviation or each not in _SINCE_1997
+            ),
         )
         for symbol, formula in _list_formulas(edition).items()
         if edition.defines_systematic_deviation or symbol not in _SINCE_1997

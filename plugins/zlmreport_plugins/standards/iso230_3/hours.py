@@ -42,17 +42,23 @@ class Hours:
         `times`: Of the readings, s, rising. Of stated hours one interval of readings may be lacking, as
         averages stand in the middles of theirs, but no more than a fiftieth.
         """
-        inside = times[self.hold(times)]
-        if inside.size < 2:
-            return 0.0
-        extent = float(inside[-1] - inside[0])
         if not self.are_stated:
-            return extent
-        return min(extent + min(find_usual_interval(times), _MAY_LACK * self.length), self.length)
+            return self.extent(times)
+        if self.are_covered(times):
+            return self.length
+        return self.extent(times)
+
+    def extent(self, times: FloatArray) -> float:
+        """Return the time from the first to the last reading in them, s."""
+        inside = times[self.hold(times)]
+        return float(inside[-1] - inside[0]) if inside.size > 1 else 0.0
 
     def are_covered(self, times: FloatArray) -> bool:
         """Return whether readings go over all of them; of the whole record they do."""
-        return not self.are_stated or self.covered(times) >= self.length * (1 - 1e-9)
+        if not self.are_stated:
+            return True
+        spare = min(find_usual_interval(times), _MAY_LACK * self.length)
+        return self.extent(times) + spare >= self.length * (1 - 1e-9)
 
 
 def find_usual_interval(times: FloatArray) -> float:

@@ -116,7 +116,7 @@ def _check_without_gaps(tests: Mapping[str, MeasurementSet], hours: Hours) -> Fi
     name = max(gaps, key=lambda each: gaps[each], default="")
     if not gaps or not gaps[name]:
         return Finding(_NO_GAP, _TOO_FEW, met=False)
-    most = _PART * _find_duration(tests, hours)
+    most = _PART * (hours.length if hours.are_stated else _find_duration(tests, hours))
     usual = find_usual_interval(tests[name].target_positions)
     found = _LONGEST.given(name=name, gap=float(f"{gaps[name] / 60:.3g}"), usual=float(f"{usual / 60:.3g}"))
     return Finding(_NO_GAP, found, gaps[name] <= most)

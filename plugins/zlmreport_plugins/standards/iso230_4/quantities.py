@@ -52,6 +52,7 @@ BOTH = Quantity(
     meaning=Words(
         "The radial distance of two circles about one centre that hold the paths of both senses between them."
     ),
+    never_below=tuple(f"G_{sense}" for sense in SENSES),
 )
 MEAN_RADIAL = Quantity(
     symbol="D",

@@ -61,6 +61,8 @@ _SIGNS = {"C0Y": -1.0, "B0Z": 1.0, "A0Z": -1.0}
 _HEIGHT = 60.0
 #: Of a diagonal that may seem longer than its axes let it be, as targets are rounded.
 _ROUNDING = 1e-3
+#: Of a diagonal, what must be measured at least: what lies outside is not in its parameters.
+_WHOLE = 0.9
 
 
 class SpaceKeys(JobPart):
@@ -138,6 +140,7 @@ class Iso230Part6:
             if tests:
                 yield worst_of_lines(tests, rule)
         yield from _check_within(tests, options.axes)
+        yield from _check_whole(tests, options.axes)
 
     def arithmetic(self, statistics: PositionStatistics, options: DiagonalOptions) -> Arithmetic:
         """Return the parameters of each diagonal that was measured, the largest, and what faces show."""
@@ -231,6 +234,29 @@ def _check_within(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Iter
     yield Finding(_IN_SPACE, _THEY_ARE, met=True)
 
 
+def _check_whole(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Iterator[Finding]:
+    """Yield whether each diagonal was measured over the work space, or over as much as others of its kind."""
+    lengths = {name: measured_length(line) for name, line in tests.items() if name in (*BODY, *FACE)}
+    if not lengths:
+        return
+    wholes = {
+        name: space.length(_name_axes_of(name))
+        or max(length for other, length in lengths.items() if _name_axes_of(other) == _name_axes_of(name))
+        for name in lengths
+    }
+    name = min(lengths, key=lambda each: lengths[each] / wholes[each] if wholes[each] else 1.0)
+    axis, whole = tests[name].axis, float(f"{wholes[name]:.6g}")
+    if lengths[name] >= _WHOLE * wholes[name]:
+        yield Finding(_OVER_WHOLE, _THEY_ARE, met=True)
+        return
+    said = _TOO_SHORT.given(
+        name=name,
+        measured=position_in_words(axis, lengths[name]),
+        whole=position_in_words(axis, whole),
+    )
+    yield Finding(_OVER_WHOLE, said, met=False)
+
+
 def _figures(evaluation: Evaluation) -> Iterator[Figure]:
     tests = evaluation.measurements.tests
     for key, names, title in (("body", BODY, _OF_BODY), ("faces", FACE, _OF_FACES)):
@@ -286,6 +312,8 @@ _ALL_FOUR = Words("all four")
 _LACKING = Words("{names} not measured; E_d and B_d are not reported")
 _ONE_DIRECTION = Words("E and B of both directions are not reported")
 _IN_SPACE = Words("Diagonals within the work space (axes)")
+_OVER_WHOLE = Words("Diagonals measured over nine tenths of their length in the work space at least")
+_TOO_SHORT = Words("{name} was measured over {measured} of {whole}")
 _NOT_STATED = Words("not stated")
 _THEY_ARE = Words("they are", context="all are")
 _TOO_LONG = Words("{name} was measured over {measured}, the work space has {whole}")

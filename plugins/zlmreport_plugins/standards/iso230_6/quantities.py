@@ -48,6 +48,7 @@ _WHOLE = (
         _SYSTEMATIC,
         "max(E_{PPP}; E_{NPP}; E_{PNP}; E_{NNP})",
         Words("The largest of the four body diagonals: an index of the volume, and no diagnosis."),
+        never_below=tuple(f"E_{name}" for name in BODY),
     ),
     Quantity(
         "B_d",
@@ -56,6 +57,7 @@ _WHOLE = (
         _SYSTEMATIC,
         "max(B_{PPP}; B_{NPP}; B_{PNP}; B_{NNP})",
         Words("The largest reversal value of the four body diagonals."),
+        never_below=tuple(f"B_{name}" for name in BODY),
     ),
 )
 
@@ -75,6 +77,7 @@ def _define_of_one(name: str) -> Iterator[Quantity]:
             _SYSTEMATIC,
             f"max({means}) − min({means})",
             Words("The largest error of a distance between two positions on this diagonal."),
+            never_below=() if way else (f"E_{name}_fwd", f"E_{name}_bwd", f"B_{name}"),
         )
     yield Quantity(
         f"B_{name}",

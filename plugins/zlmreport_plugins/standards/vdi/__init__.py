@@ -71,7 +71,13 @@ _NOT_ACCURACY = Words(
     "P averages the scatter of both directions and therefore differs from the A of ISO 230-2, even at the "
     "same number of standard deviations."
 )
+_ONE_DIRECTION = Words(
+    "This test has readings of one direction only: the mean deviation is that of this direction, the "
+    "position spread {times} times its standard deviation (n − 1), and the limits lie half of it to either "
+    "side of the mean, without any reversal span. The formulas above are those for both directions."
+)
 _INDEX = Words("The reversal span is an amount without sign. The index mit marks a mean over the positions.")
+_INDEX_OF_SPREAD = Words("The index mit marks a mean over the positions.")
 _SOURCE = Words("Formulas as in the manual of the program ZLM Position, G 1.3.")
 
 _MEAN = Words("Mean deviation")
@@ -80,6 +86,11 @@ _MEAN = Words("Mean deviation")
 def list_notes(guideline: Guideline) -> tuple[Words, ...]:
     """Return the notes of a guideline."""
     return (_WIDTHS.given(k=guideline.factor), _NOT_ACCURACY, _INDEX, _SOURCE)
+
+
+def list_notes_of_one_direction(guideline: Guideline) -> tuple[Words, ...]:
+    """Return the notes on a test in one direction, of which the formulas for both do not hold."""
+    return (_ONE_DIRECTION.given(times=2 * guideline.factor), _INDEX_OF_SPREAD, _SOURCE)
 
 
 #: Notes that speak of parameters, with the symbols of which one must be reported.
@@ -104,6 +115,7 @@ class VdiGuideline:
         self.title = guideline.title
         self.quantities = list_quantities(guideline)
         self.notes = list_notes(guideline)
+        self.notes_of_one_direction = list_notes_of_one_direction(guideline)
 
     def requirements(self, measurements: MeasurementSet, options: Options) -> Iterable[Finding]:  # noqa: ARG002 - no keys of its own
         """Hold the guideline's requirements against the test."""

@@ -89,6 +89,13 @@ GUIDELINES = (
 )
 
 
+#: What follows from the formulas: the symbols of parameters that each is never smaller than.
+_NEVER_BELOW: dict[str, tuple[str, ...]] = {
+    "P": ("Pa", "Ps_max", "U_max"),
+    "Ps_max": ("Ps_mean",),
+    "U_max": ("U_mean",),
+}
+
 _SPREAD = Words("Position spread")
 _REVERSAL = Words("Reversal span")
 
@@ -101,7 +108,15 @@ def list_quantities(guideline: Guideline) -> tuple[Quantity, ...]:
     reversal = "U_{j} = |x̄_{j}↑ − x̄_{j}↓|"
 
     def quantity(symbol: str, notation: str, name: Words, group: QuantityGroup, formula: str) -> Quantity:
-        return Quantity(symbol, notation, name, group, formula, guideline.meanings[symbol])
+        return Quantity(
+            symbol,
+            notation,
+            name,
+            group,
+            formula,
+            guideline.meanings[symbol],
+            never_below=_NEVER_BELOW.get(symbol, ()),
+        )
 
     return (
         quantity(

@@ -24,6 +24,7 @@ from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.disagreements import find_disagreements
 from zlmreport.evaluation.evidence import find_as_left_once_more, find_evidence, find_lines_read_twice
+from zlmreport.evaluation.limits import find_contradicting_limits
 from zlmreport.language import Words
 from zlmreport.version import __version__
 
@@ -75,9 +76,12 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     files = [file for each in read for file in each.provenance.files]
     made_from = list_sources(job, files, logo.file if logo else None)
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
+    of_lines = tuple(say_of_each((name, _collect_shown(line, of_line)) for name, line, of_line in lines))
     shown = (
-        *say_of_each((name, _collect_shown(line, of_line)) for name, line, of_line in lines),
+        *of_lines,
+        *(each for each in traceability.find_doubts_of_artefacts(job) if each not in of_lines),
         *find_lines_read_twice(measurements.tests),
+        *(words for each in evaluated for words in find_contradicting_limits(each.evaluation)),
         *_collect_shown_as_found(
             job,
             measurements,

@@ -6,17 +6,46 @@ method (f), the results (m), and the fixed statements (l).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from pydantic import BaseModel
+
 from zlmreport.document.certificate.cover import place_of_work
 from zlmreport.document.certificate.own_words import find_left_out
-from zlmreport.errors import InputError, Problem
+from zlmreport.errors import InputError, Problem, quoted
+from zlmreport.evaluation.uncertainty.reasons import is_placeholder, names_something
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
     from zlmreport.job.keys import JobKeys
+
+
+#: Groups of keys that a certificate prints.
+_PRINTED = frozenset(
+    {
+        "certificate",
+        "laboratory",
+        "customer",
+        "machine",
+        "location",
+        "procedure",
+        "sampling",
+        "measurement",
+        "as_found",
+        "instrument",
+        "environment",
+        "evaluate",
+        "external",
+        "opinions",
+        "agreement",
+        "uncertainty",
+    }
+)
+#: Parts of them in which a sign has a meaning, or that are asked about or marked where they are read.
+_TOLD_ELSEWHERE = frozenset({"source", "style", "excluded", "negligible", "thermometers"})
+_TOLD_OF_INSTRUMENTS = ("instrument.certificate", "instrument.compensation")
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +59,12 @@ class MandatoryItem:
 
 
 MANDATORY_ITEMS = (
-    MandatoryItem("7.8.2.1 b", "laboratory.name", "the laboratory's name", lambda job: job.laboratory),
+    MandatoryItem(
+        "7.8.2.1 b",
+        "laboratory.name",
+        "the laboratory's name",
+        lambda job: job.laboratory and job.laboratory.name,
+    ),
     MandatoryItem(
         "7.8.2.1 b",
         "laboratory.address",
@@ -38,7 +72,9 @@ MANDATORY_ITEMS = (
         lambda job: job.laboratory and job.laboratory.address,
     ),
     MandatoryItem("7.8.2.1 c", "location", "where the work was done", place_of_work),
-    MandatoryItem("7.8.2.1 e", "customer.name", "the customer's name", lambda job: job.customer),
+    MandatoryItem(
+        "7.8.2.1 e", "customer.name", "the customer's name", lambda job: job.customer and job.customer.name
+    ),
     MandatoryItem(
         "7.8.2.1 e",
         "customer.address",
@@ -71,7 +107,7 @@ MANDATORY_ITEMS = (
         "7.8.2.1 o",
         "certificate.authorised_by",
         "the person who authorises the certificate",
-        lambda job: job.certificate.authorised_by,
+        lambda job: job.certificate.authorised_by and job.certificate.authorised_by.name,
     ),
     MandatoryItem(
         "7.8.4.1 a",
@@ -108,13 +144,50 @@ def find_missing_items(job: Job) -> Iterator[Problem]:
     if job.keys.certificate.kind != "certificate":
         return
     yield from find_left_out(job)
+    told = set()
     for item in MANDATORY_ITEMS:
-        if not item.stated(job.keys):
+        stated = item.stated(job.keys)
+        empty = stated if isinstance(stated, str) and stated and not names_something(stated) else ""
+        if empty or not stated:
+            told.add(item.key)
+            found = f" ({quoted(empty)} states nothing)" if empty else ""
             yield Problem(
                 job.place_of(item.key),
                 f"a calibration certificate must state {item.what} (ISO/IEC 17025:2017, {item.clause}): "
-                f"add {item.key}, or make a measuring report by certificate.kind: report",
+                f"add {item.key}{found}, or make a measuring report by certificate.kind: report",
             )
+    yield from (each for key, each in _find_placeholders(job) if not told & {key, key.removesuffix(".name")})
+
+
+def _find_placeholders(job: Job) -> Iterator[tuple[str, Problem]]:
+    """Yield the keys that state nothing by a dash or the like, each with what is to be done."""
+    for key, text in _list_texts(job.keys, ""):
+        parts = key.split(".")
+        is_told = _TOLD_ELSEWHERE.intersection(parts) or key.endswith(_TOLD_OF_INSTRUMENTS)
+        if parts[0] in _PRINTED and not is_told and is_placeholder(text):
+            yield (
+                key,
+                Problem(
+                    job.place_of(key),
+                    f"{key}: {quoted(text)} states nothing, and a calibration certificate would print it; "
+                    "state what is so, or leave the key out",
+                ),
+            )
+
+
+def _list_texts(value: object, within: str) -> Iterator[tuple[str, str]]:
+    """Yield all texts of some keys with their dotted names."""
+    if isinstance(value, str):
+        yield within, value
+    elif isinstance(value, BaseModel):
+        for name, each in value:
+            yield from _list_texts(each, f"{within}.{name}" if within else name)
+    elif isinstance(value, Mapping):
+        for name, each in value.items():
+            yield from _list_texts(each, f"{within}.{name}" if within else str(name))
+    elif isinstance(value, list | tuple):
+        for number, each in enumerate(value):
+            yield from _list_texts(each, f"{within}.{number}")
 
 
 def demand_mandatory_items(job: Job) -> None:

@@ -21,6 +21,7 @@ from zlmreport.document.certificate.standard_layout import fit_on_a_page
 from zlmreport.document.certificate.statements import write_document_title, write_person, write_running_title
 from zlmreport.document.certificate.values import Values
 from zlmreport.document.writer import Marks, Writer
+from zlmreport.evaluation.evidence import find_lines_read_twice
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.language import Words
 
@@ -91,10 +92,20 @@ def collect_certificates(
         sources=made_from,
         look=read_look(job),
         doubts=tuple(say_of_each((name, part.doubts) for name, part in parts.items())),
-        evidence=tuple(say_of_each((name, part.evidence) for name, part in parts.items())),
+        evidence=(
+            *_find_read_twice(parts),
+            *say_of_each((name, part.evidence) for name, part in parts.items()),
+        ),
         tests=(),
         parts=dict(parts),
     )
+
+
+def _find_read_twice(parts: Mapping[str, Certificate]) -> Iterator[Words]:
+    """Yield which parts have the same readings, but for those of one error of one axis."""
+    readings = {name: each.measurements for name, each in parts.items()}
+    last = {(each.axis.name, each.axis.error): name for name, each in readings.items()}
+    yield from find_lines_read_twice({name: readings[name] for name in last.values()})
 
 
 def _cover(
@@ -114,6 +125,9 @@ def _cover(
     if budget.is_complete:
         yield from uncertainty.say_uncertainty(budget, (), writer)  # the summary has no interval of the axis
     yield from conformity.say_rule(keys.decision_rule, evaluations, writer)
+    read_twice = tuple(map(writer.say, _find_read_twice(parts)))
+    if read_twice:
+        yield Notice(writer.say(cover.EVIDENCE), read_twice)
     yield from _gather_said_by_parts(parts, writer)
     yield from cover.list_shortfalls_of_parts(
         {name: part.evaluations for name, part in parts.items()}, writer

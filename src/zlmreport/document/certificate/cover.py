@@ -128,14 +128,14 @@ def _lay_out_part(of: Material) -> Iterator[Block]:
 
 
 _UNUSUAL = Words("Values that are unusual in the unit in which they are stated")
-_EVIDENCE = Words("What readings, dates and calibrations show")
+EVIDENCE = Words("What readings, dates and calibrations show")
 
 
 def list_unlikely(
     of: Material | Certificate, writer: Writer, evaluations: Sequence[Evaluation] = ()
 ) -> Iterator[Notice]:
     """Yield what seems to be in another unit, and what readings or calibrations show to be doubtful."""
-    for heading, sentences in ((_UNUSUAL, of.doubts), (_EVIDENCE, of.evidence)):
+    for heading, sentences in ((_UNUSUAL, of.doubts), (EVIDENCE, of.evidence)):
         if sentences:
             told = tuple(map(writer.say, sentences))
             yield Notice(writer.say(heading), told, symbols=list_subscripted(evaluations))

@@ -5,6 +5,7 @@ Nothing is refused for it: what the job does not tell is an open finding of the 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from enum import Enum
 from types import MappingProxyType
@@ -13,8 +14,9 @@ from typing import TYPE_CHECKING
 from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
 from zlmreport.evaluation.evaluation import Finding
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
-from zlmreport.evaluation.uncertainty.reasons import is_reference
+from zlmreport.evaluation.uncertainty.reasons import is_placeholder, is_reference
 from zlmreport.language import Row, Words
+from zlmreport.measurement.measurand import STRAIGHTNESS
 from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN
 
 if TYPE_CHECKING:
@@ -32,6 +34,7 @@ class Information(Enum):
     TEMPERATURES = "temperatures"
     REFERENCE_TEMPERATURE = "reference temperature"
     INSTRUMENT = "instrument"
+    STRAIGHTNESS_REFERENCE = "straightness reference"
 
 
 _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
@@ -45,6 +48,9 @@ _REQUIREMENTS: Mapping[Information, Words] = MappingProxyType(
             "Results for 20 °C: measured there, corrected to it, or within 1 K of it with the expansion in U"
         ),
         Information.INSTRUMENT: Words("Measuring instrument, its calibration and its compensation reported"),
+        Information.STRAIGHTNESS_REFERENCE: Words(
+            "Reference of the straightness reported: a calibrated body, one that was turned over, or a beam"
+        ),
     }
 )
 _STATED = Words("stated")
@@ -54,6 +60,8 @@ _NOT_CORRECTED = Words("not at 20 °C, and not corrected")
 _IN_U = Words("not corrected; U holds the expansion whole")
 _FAR_IN_U = Words("{difference} K from 20 °C, and not corrected; U holds the expansion whole")
 _BY_INSTRUMENT = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)")
+#: Instruments that have a straight line of their own.
+_BEAM = re.compile(r"laser|interf\w*met|autoco?l+imat|telescop|fernrohr|lunette|cannocchiale", re.IGNORECASE)
 #: Distance from 20 °C up to which an expansion that is counted in U may stand for a correction, K.
 _NEAR = 1.0
 _AT_REFERENCE = Words("measured at 20 °C")
@@ -70,6 +78,8 @@ def check_information(
     """
     for each in asked:
         if each is Information.PATH and job.axis.circle is None:
+            continue
+        if each is Information.STRAIGHTNESS_REFERENCE and job.axis.measurand is not STRAIGHTNESS:
             continue
         if each is not Information.REFERENCE_TEMPERATURE:
             lacking = tuple(_list_lacking(each, job, measurements))
@@ -168,4 +178,20 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
             ),
         ),
     }
-    return (name for name, value in stated[asked] if not value)
+    if asked is Information.STRAIGHTNESS_REFERENCE:
+        if not _has_straightness_reference(job, measurements):
+            yield Words("reference of the straightness")
+        return
+    yield from (name for name, value in stated[asked] if not value or _is_unsaid(value))
+
+
+def _has_straightness_reference(job: Job, measurements: MeasurementSet) -> bool:
+    """Return whether the job says what a line was straight against: a body with a certificate, or a beam."""
+    named = any(is_reference(each.certificate or "") for each in job.keys.uncertainty.contributions)
+    instrument = job.keys.instrument
+    is_beam = instrument is not None and bool(_BEAM.search(instrument.name))
+    return named or is_beam or measurements.artefact_is_reversed
+
+
+def _is_unsaid(value: object) -> bool:
+    return isinstance(value, str) and is_placeholder(value)

@@ -96,7 +96,16 @@ _OF_KNOWN_SIZE = Words("known")
 _AT_THE_END = Words(" at the end of the measured length, where every contribution has its full effect")
 _COMBINED_OF = Words("A single reading at the end of the measured length")
 _SINGLE = Words("A single reading")
+_OF_NOTHING = Words("The readings give no parameter, and so there is no uncertainty of one.")
 _NO_BUDGET = Words("The uncertainty of the parameters is not evaluated: {reason}.")
+
+
+def _gives_nothing(evaluations: Sequence[Evaluation]) -> bool:
+    """Return whether no standard gives a parameter, nor one line of several any of its own."""
+    if not evaluations or any(each.parameters for each in evaluations):
+        return False
+    measurements = evaluations[0].measurements
+    return not measurements.tests or measurements.axis.measurand.is_continuous
 
 
 def say_uncertainty(
@@ -106,8 +115,12 @@ def say_uncertainty(
 
     `evaluations`: What it is of: where they have intervals of the axis, it is said what these are.
     """
+    evaluations = tuple(evaluations)
     if isinstance(budget, NoBudget):
         yield Paragraph(writer.say(_NO_BUDGET.given(reason=budget.reason)))
+    elif _gives_nothing(evaluations):
+        yield Paragraph(writer.say(_OF_NOTHING))
+        return
     elif budget.is_complete:
         parameters = [each for evaluation in evaluations for each in evaluation.parameters]
         has_interval = any(each.axis_interval is not None for each in parameters)
@@ -148,7 +161,7 @@ def _lay_out_blocks(
     measurements = evaluations[0].measurements
     axis = measurements.axis
     yield from say_uncertainty(budget, evaluations, writer)
-    if isinstance(budget, NoBudget):
+    if isinstance(budget, NoBudget) or _gives_nothing(evaluations):
         return
     method, stops = _METHOD.given(trials=TRIALS), not axis.measurand.is_continuous
     said = [_METHOD_BY_POSITION.given(method=method) if stops else method]

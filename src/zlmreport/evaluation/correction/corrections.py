@@ -24,7 +24,7 @@ from zlmreport.language import Words
 from zlmreport.language.formatting import write_general_number
 from zlmreport.language.numbers import number_words
 from zlmreport.measurement.approach import Approach
-from zlmreport.measurement.arrays import FloatArray, count_decimals_of, read_only_floats
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet
 from zlmreport.measurement.provenance import Correction, Exclusion
@@ -33,6 +33,7 @@ from zlmreport.measurement.refractive_index import (
     STANDARD_PRESSURE,
     refractive_index,
 )
+from zlmreport.measurement.steps import find_step
 from zlmreport.measurement.units import (
     MICROMETRE_PER_METRE_KELVIN,
     REFERENCE_TEMPERATURE,
@@ -42,7 +43,6 @@ from zlmreport.measurement.units import (
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6
 #: Decimals that readings may show, µm or ″.
-_MOST_DECIMALS = 3
 _KEY = "measurement.excluded"
 
 
@@ -125,8 +125,7 @@ def correct(measurements: MeasurementSet, corrections: Corrections) -> Measureme
         displacement, found = _correct_to_20_degrees(displacement, corrections.expansion)
         applied.append(found)
     deviation = read_only_floats(displacement + corrections.datum - target)
-    unit = measurements.axis.deviation_unit
-    step = unit.to_si(10.0 ** -count_decimals_of(unit.from_si(measurements.deviation), _MOST_DECIMALS))
+    step = measurements.axis.deviation_unit.to_si(find_step(measurements))
     provenance = replace(measurements.provenance, corrections=tuple(applied), step=step)
     return replace(measurements, deviation=deviation, provenance=provenance)
 

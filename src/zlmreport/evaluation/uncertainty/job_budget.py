@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from zlmreport.errors import InputError, Problem, quoted
+from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument, is_blind_to_air
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.uncertainty import wording
@@ -32,13 +32,14 @@ from zlmreport.evaluation.uncertainty.budget import (
     write_of_the_reading,
 )
 from zlmreport.evaluation.uncertainty.reasons import says_something
-from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS, list_circle_contributions
+from zlmreport.evaluation.uncertainty.round_the_circle import OF_A_RADIUS, list_circle_contributions
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
-from zlmreport.measurement.arrays import FloatArray, count_decimals_of, read_only_floats
+from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.measurand import Coordinate
 from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
+from zlmreport.measurement.steps import find_last_digit, find_step
 from zlmreport.measurement.units import (
     MICROMETRE,
     MICROMETRE_PER_METRE_KELVIN,
@@ -50,16 +51,10 @@ from zlmreport.measurement.units import (
 #: Of the uncertainties that a job states as expanded.
 _COVERAGE_FACTOR = 2.0
 _OF_THE_READING = Unit("%", "%", 100.0)
-#: A step that readings may show is no smaller, µm or ″.
-_MOST_DECIMALS = 3
 #: The temperature that the scale, and with it the measured length, has: the first that is known counts.
 _TEMPERATURES = ("axis_temperature", "material_temperature")
 #: What is printed as 20.0 °C is 20 °C, K.
 _AT_REFERENCE = 0.05
-#: Distance from 20 °C from which an expansion that decides the uncertainty must be corrected, K.
-_FAR_FROM_REFERENCE = 1.0
-#: Distance from 20 °C that no machine has, K: the temperature is in another unit, and the first page says so.
-_IN_NO_HALL = 60.0
 
 
 def make_budget_of(
@@ -271,7 +266,8 @@ def _list_fluctuations(job: Job, measurements: MeasurementSet) -> Iterator[Contr
     given = _step_given(measurements, unit)
     is_asked = not measurements.provenance.corrections or "resolution" in keys.negligible or step is not None
     if is_asked and given is not None and given > (step or 0.0):
-        step, source = given, wording.LAST_DIGIT
+        is_digit = given == find_last_digit(measurements) or bool(measurements.provenance.corrections)
+        step, source = given, wording.LAST_DIGIT if is_digit else wording.STEPS
     for key, full_range, origin, acts in (
         ("environmental_variation", keys.environmental_variation, wording.DRIFT_AT_REST, Acts.IN_TIME),
         ("resolution", step, source, Acts.AT_EACH_READING),
@@ -286,12 +282,7 @@ def _step_given(measurements: MeasurementSet, unit: Unit) -> float | None:
     provenance = measurements.provenance
     if provenance.corrections:
         return None if provenance.step is None else unit.from_si(provenance.step)
-    return _find_last_digit(unit.from_si(measurements.deviation))
-
-
-def _find_last_digit(readings: FloatArray) -> float:
-    """Return the step of the last decimal in which readings were given; that of the third one at least."""
-    return float(10.0 ** -count_decimals_of(readings, _MOST_DECIMALS))
+    return find_step(measurements)
 
 
 def _make_contribution(  # noqa: PLR0913 - a usual contribution, but for what usually holds
@@ -486,33 +477,6 @@ _OF_LENGTHS = (
     "expansion_coefficient",
     "device_expansion_coefficient",
 )
-_HOW: dict[str, str] = {
-    **HOW,
-    INSTRUMENT: "state instrument.expanded_uncertainty as a number (µm or ″, k = 2)",
-    "misalignment": "state how far the measuring line departs from the axis over its length, mm",
-    "machine_temperature": "state the range of error of the machine's measured temperature, K, and "
-    "environment.expansion_coefficient",
-    "device_temperature": "state the range of error of the measuring device's temperature, K, and "
-    "instrument.expansion_coefficient",
-    "expansion_coefficient": "state the range of the machine's coefficient, µm/(m·K), and "
-    "environment.axis_temperature",
-    "device_expansion_coefficient": "state the range of the measuring device's coefficient, µm/(m·K), and "
-    "environment.axis_temperature",
-    "air_temperature": "state the range of error of the measured air temperature, K",
-    "air_pressure": "state the range of error of the measured air pressure, hPa",
-    "relative_humidity": "state the range of error of the measured humidity, %",
-    "square": "state the expanded uncertainty (k = 2) of the angle of the square, arc seconds",
-    "foot_spacing": "state the expanded uncertainty (k = 2) of the distance of the carriage's feet, mm",
-    "environmental_variation": "state the range of the readings of the axis at rest over the time of a test",
-    "resolution": "state the smallest step of the readings: corrected ones do not show it",
-}
-
-#: What a job states elsewhere than under `uncertainty`.
-_KEYS = {
-    INSTRUMENT: "instrument.expanded_uncertainty",
-    "square": "square.expanded_uncertainty",
-    "foot_spacing": "carriage.expanded_uncertainty",
-}
 
 
 def has_radius(job: Job) -> bool:
@@ -536,68 +500,3 @@ def list_demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]
     is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
     of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
     return (INSTRUMENT, *_name_contributors_of_length(job), *of_air, *of_all)
-
-
-def find_unstated(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
-    """Yield what a calibration certificate must state of its uncertainty and does not.
-
-    `job`: The job; a report may leave out what it says that it leaves out.
-    """
-    if job.keys.certificate.kind != "certificate":
-        return
-    for name in budget.missing:
-        key = _KEYS.get(name, f"uncertainty.{name}")
-        yield Problem(
-            job.place_of(
-                f"uncertainty.negligible.{name}" if name in job.keys.uncertainty.negligible else key
-            ),
-            f"a calibration certificate needs {key}{_say_found(name, job)}: "
-            f"{_HOW[name]}{_say_silence(name, job)}; "
-            f"or say why it is negligible: uncertainty.negligible: {{{name}: reason}}",
-        )
-    instrument = job.keys.instrument
-    has_compensated = bool(instrument and instrument.compensates and instrument.compensates.material)
-    if isinstance(budget, Budget) and job.axis.has_length and _is_deciding(budget) and not has_compensated:
-        longer = MICROMETRE.from_si(budget.uncorrected_expansion or 0.0)
-        yield Problem(
-            job.place_of("corrections"),
-            f"the measured length was {abs(longer):.3g} µm {'longer' if longer > 0 else 'shorter'} than at "
-            f"20 °C ({budget.difference:+.3g} K), more than all other uncertainty together: correct the "
-            "readings by corrections: {material: {temperature: axis_temperature}}; or state "
-            "instrument.compensates: {material: …} if the instrument has corrected them",
-        )
-    if budget.uncorrected_expansion is None:
-        correct = ", or correct the readings to 20 °C by corrections.material" if job.axis.has_length else ""
-        yield Problem(
-            job.place_of("environment"),
-            "a calibration certificate needs the temperature of the measured length: state environment."
-            f"axis_temperature and environment.expansion_coefficient (the expansion then enters U){correct}",
-        )
-
-
-def _say_silence(name: str, job: Job) -> str:
-    """Return what is to be said first of an instrument of which nobody says in which air it counted."""
-    is_told = job.keys.corrections is not None and job.keys.corrections.air is not None
-    if name not in STATE_OF_AIR or is_told or is_blind_to_air(job):
-        return ""
-    said = (job.keys.instrument.compensation if job.keys.instrument else None) or ""
-    unclear = f" (instrument.compensation, {quoted(said)}, does not say)" if says_something(said) else ""
-    return (
-        ", and instrument.compensates: {air: false}; if the instrument knew the refractive index of the air"
-        f"{unclear}, instrument.compensates: {{air: true}} is enough"
-    )
-
-
-def _say_found(name: str, job: Job) -> str:
-    """Return what stands in the place of a statement and is none."""
-    reason = {str(key): said for key, said in job.keys.uncertainty.negligible.items()}.get(name)
-    if reason is not None:
-        return f" ({reason!r} is no reason why it should be negligible)"
-    return " (0 states nothing)" if getattr(job.keys.uncertainty, name, None) == 0 else ""
-
-
-def _is_deciding(budget: Budget) -> bool:
-    """Return whether an expansion that nobody took out of the readings is most of what U states."""
-    expansion = abs(budget.uncorrected_expansion or 0.0)
-    is_far = _FAR_FROM_REFERENCE < abs(budget.difference) < _IN_NO_HALL
-    return is_far and expansion > 2 * budget.standard_uncertainty

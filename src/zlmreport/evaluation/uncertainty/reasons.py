@@ -190,3 +190,65 @@ def is_reference(text: str) -> bool:
     """
     words = (word.lower() for word in _WORD.findall(text))
     return any(character.isdigit() for character in text) or any(one not in _OF_NO_DOCUMENT for one in words)
+
+
+#: What stands where nobody has written anything yet, without its spaces and signs.
+_PLACEHOLDERS = frozenset(
+    {
+        "",
+        "ka",
+        "na",
+        "nb",
+        "nn",
+        "tba",
+        "tbc",
+        "tbd",
+        "todo",
+        "xx",
+        "xxx",
+        "xxxx",
+        "unknown",
+        "notapplicable",
+        "notavailable",
+        "notknown",
+        "notspecified",
+        "notstated",
+        "unbekannt",
+        "keineangabe",
+        "keineangaben",
+        "nichtangegeben",
+        "nichtbekannt",
+        "inconnu",
+        "inconnue",
+        "nonprécisé",
+        "sconosciuto",
+        "sconosciuta",
+        "nonspecificato",
+        "desconocido",
+        "desconocida",
+        "noespecificado",
+    }
+)
+#: Words by which something is said not to be there: no name, address or number.
+_NONE = frozenset({"no", "nil", "none", "nothing", "kein", "keine", "ohne", "aucun", "nessuno", "ninguno"})
+
+
+def is_placeholder(text: str) -> bool:
+    """Return whether a text only fills a place: a dash, or that nothing is known or stated.
+
+    >>> is_placeholder("-"), is_placeholder("n/a"), is_placeholder("T.B.D."), is_placeholder("k. A.")
+    (True, True, True, True)
+    >>> is_placeholder("none"), is_placeholder("A"), is_placeholder("0"), is_placeholder("unknown to us")
+    (False, False, False, False)
+    """
+    return "".join(filter(str.isalnum, text.casefold())) in _PLACEHOLDERS
+
+
+def names_something(text: str) -> bool:
+    """Return whether a text can be a name, an address or a number: no placeholder, and not none.
+
+    >>> names_something("Lane 2"), names_something("S-1"), names_something("none"), names_something("?")
+    (True, True, False, False)
+    """
+    bare = "".join(filter(str.isalnum, text.casefold()))
+    return bare not in _PLACEHOLDERS and bare not in _NONE

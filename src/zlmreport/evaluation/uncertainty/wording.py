@@ -67,6 +67,7 @@ EXPANSION_THAT_MOVES = Words("L·ΔT·R(α), ΔT from {low} to {high} K reading 
 DRIFT_AT_REST = Words("readings of the axis at rest over the time of the test")
 SECOND_ORDER = Words("e²/(2R), the centre found lies {offset} µm off")
 LAST_DIGIT = Words("last digit of the readings")
+STEPS = Words("steps of the readings, coarser than their last digit")
 
 ACTS: Mapping[Acts, Words] = MappingProxyType(
     {
