@@ -34,8 +34,9 @@ from zlmreport.evaluation.evaluate import evaluate, name_adoption
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.likely_units import find_doubts
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+from zlmreport.evaluation.uncertainty.demanded import find_unstated
 from zlmreport.evaluation.uncertainty.expanded import add_uncertainty
-from zlmreport.evaluation.uncertainty.job_budget import find_unstated, make_budget_of
+from zlmreport.evaluation.uncertainty.job_budget import make_budget_of
 from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.files import Document

@@ -45,16 +45,8 @@ from zlmreport.job.quantity import (
 )
 from zlmreport.job.sources import choose_source, choose_sources_of_tests
 from zlmreport.job.standards import choose_standards, convert_tolerances_to_si, list_files_named
-from zlmreport.job.tree import (
-    Items,
-    Keys,
-    Scalar,
-    find_at,
-    place_of,
-)
-from zlmreport.measurement.error_symbol import (
-    evaluate_for_error,
-)
+from zlmreport.job.tree import Items, Keys, Scalar, find_at, place_of
+from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import POSITIONING
 
 _SOURCE = ("measurement", "source")
