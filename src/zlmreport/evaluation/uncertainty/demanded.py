@@ -1,0 +1,150 @@
+"""What a job must state of its uncertainty, by axis and set-up, and what a certificate is refused for.
+
+A report with an incomplete budget says so wherever it states U; a calibration certificate is refused, with
+what is to be stated and how. So is one of a length whose temperature nobody knows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from zlmreport.errors import Problem, quoted
+from zlmreport.evaluation.correction.compensated import is_blind_to_air
+from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
+from zlmreport.evaluation.uncertainty.reasons import says_something
+from zlmreport.evaluation.uncertainty.round_the_circle import HOW, OF_A_RADIUS
+from zlmreport.job.job import Job
+from zlmreport.measurement.measurand import Coordinate
+from zlmreport.measurement.measurement_set import STATE_OF_AIR
+from zlmreport.measurement.units import MICROMETRE
+
+#: Distance from 20 °C from which an expansion that decides the uncertainty must be corrected, K.
+_FAR_FROM_REFERENCE = 1.0
+#: Distance from 20 °C that no machine has, K: the temperature is in another unit, and the first page says so.
+_IN_NO_HALL = 60.0
+
+INSTRUMENT = "instrument"
+_RESOLUTION = "resolution"
+_OF_EVERY_AXIS = ("environmental_variation", _RESOLUTION)
+_OF_LENGTHS = (
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+)
+_HOW: dict[str, str] = {
+    **HOW,
+    INSTRUMENT: "state instrument.expanded_uncertainty as a number (µm or ″, k = 2)",
+    "misalignment": "state how far the measuring line departs from the axis over its length, mm",
+    "machine_temperature": "state the range of error of the machine's measured temperature, K, and "
+    "environment.expansion_coefficient",
+    "device_temperature": "state the range of error of the measuring device's temperature, K, and "
+    "instrument.expansion_coefficient",
+    "expansion_coefficient": "state the range of the machine's coefficient, µm/(m·K), and "
+    "environment.axis_temperature",
+    "device_expansion_coefficient": "state the range of the measuring device's coefficient, µm/(m·K), and "
+    "environment.axis_temperature",
+    "air_temperature": "state the range of error of the measured air temperature, K",
+    "air_pressure": "state the range of error of the measured air pressure, hPa",
+    "relative_humidity": "state the range of error of the measured humidity, %",
+    "square": "state the expanded uncertainty (k = 2) of the angle of the square, arc seconds",
+    "foot_spacing": "state the expanded uncertainty (k = 2) of the distance of the carriage's feet, mm",
+    "environmental_variation": "state the range of the readings of the axis at rest over the time of a test",
+    "resolution": "state the smallest step of the readings: corrected ones do not show it",
+}
+
+#: What a job states elsewhere than under `uncertainty`.
+_KEYS = {
+    INSTRUMENT: "instrument.expanded_uncertainty",
+    "square": "square.expanded_uncertainty",
+    "foot_spacing": "carriage.expanded_uncertainty",
+}
+
+
+def has_radius(job: Job) -> bool:
+    """Return whether the radius of a circle counts, as its instrument's length is known."""
+    return job.axis.circle is not None and job.axis.circle.is_calibrated
+
+
+def name_contributors_of_length(job: Job) -> tuple[str, ...]:
+    """Return the contributors of the length that was measured; none where it was none."""
+    return _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
+
+
+def list_demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the contributors that a job must state, by axis and set-up.
+
+    `of_silence`: Those that may act, for all that the job says of its instrument.
+    """
+    corrections = job.keys.corrections
+    corrects_air = corrections is not None and corrections.air is not None
+    of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else of_silence
+    is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
+    of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
+    return (INSTRUMENT, *name_contributors_of_length(job), *of_air, *of_all)
+
+
+def find_unstated(job: Job, budget: Budget | NoBudget) -> Iterator[Problem]:
+    """Yield what a calibration certificate must state of its uncertainty and does not.
+
+    `job`: The job; a report may leave out what it says that it leaves out.
+    """
+    if job.keys.certificate.kind != "certificate":
+        return
+    for name in budget.missing:
+        key = _KEYS.get(name, f"uncertainty.{name}")
+        yield Problem(
+            job.place_of(
+                f"uncertainty.negligible.{name}" if name in job.keys.uncertainty.negligible else key
+            ),
+            f"a calibration certificate needs {key}{_say_found(name, job)}: "
+            f"{_HOW[name]}{_say_silence(name, job)}; "
+            f"or say why it is negligible: uncertainty.negligible: {{{name}: reason}}",
+        )
+    instrument = job.keys.instrument
+    has_compensated = bool(instrument and instrument.compensates and instrument.compensates.material)
+    if isinstance(budget, Budget) and job.axis.has_length and _is_deciding(budget) and not has_compensated:
+        longer = MICROMETRE.from_si(budget.uncorrected_expansion or 0.0)
+        yield Problem(
+            job.place_of("corrections"),
+            f"the measured length was {abs(longer):.3g} µm {'longer' if longer > 0 else 'shorter'} than at "
+            f"20 °C ({budget.difference:+.3g} K), more than all other uncertainty together: correct the "
+            "readings by corrections: {material: {temperature: axis_temperature}}; or state "
+            "instrument.compensates: {material: …} if the instrument has corrected them",
+        )
+    if budget.uncorrected_expansion is None:
+        correct = ", or correct the readings to 20 °C by corrections.material" if job.axis.has_length else ""
+        yield Problem(
+            job.place_of("environment"),
+            "a calibration certificate needs the temperature of the measured length: state environment."
+            f"axis_temperature and environment.expansion_coefficient (the expansion then enters U){correct}",
+        )
+
+
+def _say_silence(name: str, job: Job) -> str:
+    """Return what is to be said first of an instrument of which nobody says in which air it counted."""
+    is_told = job.keys.corrections is not None and job.keys.corrections.air is not None
+    if name not in STATE_OF_AIR or is_told or is_blind_to_air(job):
+        return ""
+    said = (job.keys.instrument.compensation if job.keys.instrument else None) or ""
+    unclear = f" (instrument.compensation, {quoted(said)}, does not say)" if says_something(said) else ""
+    return (
+        ", and instrument.compensates: {air: false}; if the instrument knew the refractive index of the air"
+        f"{unclear}, instrument.compensates: {{air: true}} is enough"
+    )
+
+
+def _say_found(name: str, job: Job) -> str:
+    """Return what stands in the place of a statement and is none."""
+    reason = {str(key): said for key, said in job.keys.uncertainty.negligible.items()}.get(name)
+    if reason is not None:
+        return f" ({reason!r} is no reason why it should be negligible)"
+    return " (0 states nothing)" if getattr(job.keys.uncertainty, name, None) == 0 else ""
+
+
+def _is_deciding(budget: Budget) -> bool:
+    """Return whether an expansion that nobody took out of the readings is most of what U states."""
+    expansion = abs(budget.uncorrected_expansion or 0.0)
+    is_far = _FAR_FROM_REFERENCE < abs(budget.difference) < _IN_NO_HALL
+    return is_far and expansion > 2 * budget.standard_uncertainty
