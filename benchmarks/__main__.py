@@ -44,6 +44,7 @@ OTHERS = {
     "thousand": ("fleet_thousand", "main"),
     "trends": ("fleet_trends", "main"),
     "unchanged": ("fleet_unchanged", "main"),
+    "hops": ("hops", "main"),
 }
 
 

@@ -54,6 +54,7 @@ from zlmreport.plugin.protocols import (
     find_contributions_of,
     find_information_asked_by,
     find_relationship_of,
+    needs_layout,
 )
 
 if TYPE_CHECKING:
@@ -127,15 +128,16 @@ def compose(  # noqa: PLR0913 - what a document is made of
     trials: int = TRIALS,
     *,
     is_part: bool = False,
+    is_laid_out: bool = True,
 ) -> Certificate:
     """Read, evaluate by every standard that the job names, and compose the document; nothing is rendered.
 
     `made_by` are the programs that the document names; those that make it if they are left out. `trials` are
     the tests that are simulated for its uncertainties. `is_part`: Whether it is one of several measurements
-    that make one document.
+    that make one document. `is_laid_out`: Whether its pages and graphs are wanted, and not its data alone.
     """
     if job.measurements:
-        return _compose_parts(job, registry, made_by, showing, trials)
+        return _compose_parts(job, registry, made_by, showing, trials, is_laid_out=is_laid_out)
     missing = [
         *find_missing_items(job),
         *(
@@ -169,9 +171,15 @@ def compose(  # noqa: PLR0913 - what a document is made of
         return [each for each in said if each]
 
     generator, plugins = made_by or find_programs(job, registry)
-    tests = evaluate_tests(job, measurements, evaluations[0].budget, registry, trials)
+    tests = evaluate_tests(job, measurements, evaluations[0].budget, registry, trials) if job.tests else ()
     lines = [(each.name, each.job, each.measurements, each.evaluated) for each in tests]
     _demand_results(job, [*evaluations, *(each for test in tests for each in test.evaluated)])
+    if is_laid_out:
+        evaluations = draw_graphs(job, evaluations, registry)
+        as_found = draw_graphs(found, as_found, registry) if found else ()
+        tests = tuple(
+            replace(each, evaluated=draw_graphs(each.job, each.evaluated, registry)) for each in tests
+        )
     of_lines = tuple(
         say_of_each(
             (
@@ -188,25 +196,43 @@ def compose(  # noqa: PLR0913 - what a document is made of
     joint = (words for each in evaluations for words in find_unlikely_limits(each.evaluation))
     doubtful = (*of_lines, *(joint if tests else ()))
     return build(
-        job, evaluations, plugins, doubtful, studied, as_found, describe, generator, tests, is_part=is_part
+        job,
+        evaluations,
+        plugins,
+        doubtful,
+        studied,
+        as_found,
+        describe,
+        generator,
+        tests,
+        is_part=is_part,
+        is_laid_out=is_laid_out,
     )
 
 
-def _compose_parts(
-    job: Job, registry: Registry, made_by: Programs | None, showing: Showing, trials: int
+def _compose_parts(  # noqa: PLR0913 - what documents are made of
+    job: Job,
+    registry: Registry,
+    made_by: Programs | None,
+    showing: Showing,
+    trials: int,
+    *,
+    is_laid_out: bool,
 ) -> Certificate:
     """Compose one document of several measurements; whatever is wrong with any of them is told at once."""
     parts: dict[str, Certificate] = {}
     problems: list[Problem] = []
     for name, part in job.measurements.items():
         try:
-            parts[name] = compose(part, registry, made_by, showing, trials, is_part=True)
+            parts[name] = compose(
+                part, registry, made_by, showing, trials, is_part=True, is_laid_out=is_laid_out
+            )
         except InputError as error:
             problems.extend(error.problems)
     if problems:
         raise InputError(dict.fromkeys(problems))
     generator, plugins = made_by or find_programs(job, registry)
-    return collect_certificates(job, parts, plugins, generator)
+    return collect_certificates(job, parts, plugins, generator, is_laid_out=is_laid_out)
 
 
 def _demand_results(job: Job, evaluations: Sequence[Evaluated]) -> None:
@@ -303,7 +329,7 @@ def evaluate_all(
     trials: int = TRIALS,
     budget: Budget | NoBudget | None = None,
 ) -> tuple[Evaluated, ...]:
-    """Evaluate readings by every standard that the job names, with uncertainties and decisions.
+    """Evaluate readings by every standard that the job names, with uncertainties and decisions; no graphs.
 
     `budget`: Of the set-up; without it the job's own.
     """
@@ -318,12 +344,19 @@ def evaluate_all(
         )
     ]
     complete: list[Evaluated] = []
-    for (standard, options), evaluation in zip(chosen, add_uncertainty(bare, budget, trials), strict=True):
+    for (standard, _), evaluation in zip(chosen, add_uncertainty(bare, budget, trials), strict=True):
         reported = check_information(find_information_asked_by(standard), job, measurements, budget)
         with_verdicts = decided(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
-        figures = tuple(standard.figures(with_verdicts, options))
-        complete.append(Evaluated(with_verdicts, figures, budget))
+        complete.append(Evaluated(with_verdicts, (), budget))
     return tuple(complete)
+
+
+def draw_graphs(job: Job, evaluated: Sequence[Evaluated], registry: Registry) -> tuple[Evaluated, ...]:
+    """Return evaluations by the standards of a job with the graphs that these prescribe."""
+    return tuple(
+        replace(each, figures=tuple(standard.figures(each.evaluation, options)))
+        for (standard, options), each in zip(choose_standards(job, registry), evaluated, strict=True)
+    )
 
 
 def fit_model(
@@ -367,7 +400,8 @@ def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Sho
     demand_days_past(job)
     renderers = [registry.renderer(identifier) for identifier in job.formats]
     with _collect_garbage_once():
-        certificate = compose(job, registry, showing=showing)
+        is_laid_out = any(map(needs_layout, renderers))
+        certificate = compose(job, registry, showing=showing, is_laid_out=is_laid_out)
         contents = render(certificate, renderers, registry)
         if signer:
             signature, called = job.keys.certificate.signature, _SIGNATURE.in_language(certificate.language)

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.job.axis import convert_axis_to_si
 from zlmreport.job.choices import (
+    Choice,
+    ControllerChoice,
+    EffectChoice,
+    ExtensionChoice,
     choose_candidates,
     choose_controller_of,
     choose_effects_of,
@@ -41,16 +45,8 @@ from zlmreport.job.quantity import (
 )
 from zlmreport.job.sources import choose_source, choose_sources_of_tests
 from zlmreport.job.standards import choose_standards, convert_tolerances_to_si, list_files_named
-from zlmreport.job.tree import (
-    Items,
-    Keys,
-    Scalar,
-    find_at,
-    place_of,
-)
-from zlmreport.measurement.error_symbol import (
-    evaluate_for_error,
-)
+from zlmreport.job.tree import Items, Keys, Scalar, find_at, place_of
+from zlmreport.measurement.error_symbol import evaluate_for_error
 from zlmreport.measurement.measurand import POSITIONING
 
 _SOURCE = ("measurement", "source")
@@ -58,7 +54,17 @@ _SOURCE_AS_FOUND = ("as_found", "measurement", "source")
 _EFFECTS = ("model", "effects")
 _CANDIDATES = ("model", "candidates")
 _PROGRAMS = ("plan", "programs")
-_COMPENSATION = ("compensation",)
+
+
+@dataclass(frozen=True)
+class _Chosen:
+    """The plugins that groups of keys name which a job may lack."""
+
+    effects: tuple[EffectChoice, ...] = ()
+    candidates: tuple[EffectChoice, ...] = ()
+    programs: tuple[Choice, ...] = ()
+    extensions: tuple[ExtensionChoice, ...] = ()
+    controller: ControllerChoice | None = None
 
 
 def load(
@@ -125,6 +131,8 @@ def _collect_jobs(composition: Composition, path: Path, registry: Installed, for
 
 def _add_sessions(job: Job, path: Path, registry: Installed) -> Job:
     """Return a job with the further tests that its model names, and what earlier ones taught."""
+    if job.keys.model is None:
+        return job
     sessions, priors = _read_sessions(job, path, registry), _read_priors(job)
     files = [file for each in sessions for file in each.files]
     if priors:
@@ -147,22 +155,15 @@ def _check_job(
     source_as_found = choose_source(tree, _SOURCE_AS_FOUND, registry, problems)
     error = find_stated_in(tree)
     standards = list(choose_standards(tree, registry, problems, error))
-    effects = choose_effects_of(find_at(tree, _EFFECTS), registry, problems, within=".".join(_EFFECTS))
-    candidates = choose_candidates(
-        find_at(tree, _CANDIDATES), registry, problems, within=".".join(_CANDIDATES)
-    )
-    programs = choose_programs_of(
-        find_at(tree, _PROGRAMS), registry.part_program, problems, within=".".join(_PROGRAMS)
-    )
-    extensions = tuple(choose_extensions(tree, registry, problems))
-    controller = choose_controller_of(find_at(tree, _COMPENSATION), registry, problems)
-    tests = choose_sources_of_tests(keys, tree, registry, problems) if keys else {}
+    chosen = _choose_where_stated(tree, registry, problems)
+    has_tests = keys is not None and keys.measurement.tests
+    tests = choose_sources_of_tests(keys, tree, registry, problems) if keys and has_tests else {}
     measurand = find_measurand_of(keys, tree, registry, problems) if keys else POSITIONING
     formats = formats or _choose_formats(tree, keys, registry, problems)
     if keys:
         found = [
             each
-            for choice in extensions
+            for choice in chosen.extensions
             for each in registry.extension(choice.identifier).contradictions(keys, choice.options)
         ]
         found += [
@@ -170,14 +171,14 @@ def _check_job(
             *find_tests_contradictions(keys, measurand),
             *find_circle_contradictions(keys, measurand, has_axis="axis" in composition.keys.entries),
             *find_circle_plan_contradictions(keys),
-            *find_effect_contradictions(effects, measurand, registry),
+            *find_effect_contradictions(chosen.effects, measurand, registry),
         ]
         problems.extend(find_all_contradictions(keys, tree, found))
     if source is None and tests:
         source = next(iter(tests.values()))
     if problems or keys is None or source is None:
         raise InputError(sorted(_drop_said_twice(problems)))
-    for choice in extensions:
+    for choice in chosen.extensions:
         keys = registry.extension(choice.identifier).completed(keys, choice.options)
     axis = convert_axis_to_si(keys.axis, measurand, find_stated_error(keys), keys.measurement.at, keys.circle)
     job = Job(
@@ -195,11 +196,7 @@ def _check_job(
             )
             for choice, each in zip(standards, keys.evaluate, strict=True)
         ),
-        effects=effects,
-        candidates=candidates,
-        programs=programs,
-        extensions=extensions,
-        controller=controller,
+        **vars(chosen),
         formats=formats,
         directory=keys.output.directory or folder,
         files=(*composition.files, *axis.files, *list_files_named(standards)),
@@ -210,6 +207,27 @@ def _check_job(
     parts = {name: make_job_of_test(job, name, chosen, registry) for name, chosen in tests.items()}
     files = [file for each in parts.values() for file in each.axis.files]
     return replace(job, tests=parts, files=(*job.files, *files))
+
+
+def _choose_where_stated(tree: Keys, registry: Installed, problems: list[Problem]) -> _Chosen:
+    """Return the plugins that a job's model, plan, compensation and extensions name, where it has these."""
+    chosen = _Chosen(extensions=tuple(choose_extensions(tree, registry, problems)))
+    if "model" in tree.entries:
+        stated, within = find_at(tree, _EFFECTS), ".".join(_EFFECTS)
+        tried, among = find_at(tree, _CANDIDATES), ".".join(_CANDIDATES)
+        chosen = replace(
+            chosen,
+            effects=choose_effects_of(stated, registry, problems, within=within),
+            candidates=choose_candidates(tried, registry, problems, within=among),
+        )
+    if "plan" in tree.entries:
+        listed, within = find_at(tree, _PROGRAMS), ".".join(_PROGRAMS)
+        programs = choose_programs_of(listed, registry.part_program, problems, within=within)
+        chosen = replace(chosen, programs=programs)
+    if compensation := tree.entries.get("compensation"):
+        controller = choose_controller_of(compensation.value, registry, problems)
+        chosen = replace(chosen, controller=controller)
+    return chosen
 
 
 def _drop_said_twice(problems: Iterable[Problem]) -> set[Problem]:

@@ -247,10 +247,11 @@ def find_tests_contradictions(keys: JobKeys, measurand: Measurand) -> Iterator[t
             ("measurement", "tests"),
             f"{stated} follows from several measured lines; name them: {{x: {{error: …, source: …}}, …}}",
         )
-    yield from _find_missing_lines(keys, measurand)
-    if measurement.tests and keys.as_found is not None:
-        yield ("as_found",), "a job with several tests has no state as found; write a job for each state"
-    yield from _find_mismatches_of_each_test(keys, measurand)
+    if measurement.tests:
+        yield from _find_missing_lines(keys, measurand)
+        if keys.as_found is not None:
+            yield ("as_found",), "a job with several tests has no state as found; write a job for each state"
+        yield from _find_mismatches_of_each_test(keys, measurand)
 
 
 def _find_mismatches_of_each_test(
@@ -283,7 +284,7 @@ def _find_mismatches_of_each_test(
 def _find_missing_lines(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield which of the two lines of a squareness error is lacking, where its tests are straight lines."""
     error, tests = find_stated_error(keys), keys.measurement.tests
-    if error is None or not error.lines or not tests or not measurand.joins_tests:
+    if error is None or not error.lines or not measurand.joins_tests:
         return
     named = [(each.error or "").strip().upper() for each in tests.values()]
     lacking = [each for each in error.lines if each not in named]

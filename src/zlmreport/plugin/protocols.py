@@ -193,6 +193,8 @@ class Renderer(Protocol):
     ``certificate.attachments``. A renderer of PDF whose files do not name this program as their creator says
     in ``creator`` what that entry begins with: a certificate is verified by the renderer that made it.
     ``needs_job`` is true of one that writes what a job states, and no document on a whole machine.
+    ``needs_layout`` is false of one that writes data alone: where all formats of a job do, no page is laid
+    out and no graph drawn, and the certificate has neither ``cover`` nor ``sections``.
 
     Attributes
     ----------
@@ -225,6 +227,11 @@ def carries_attachments(renderer: Renderer) -> bool:
 def needs_job(renderer: Renderer) -> bool:
     """Return whether a renderer writes what a job states, and so no document on a whole machine."""
     return getattr(renderer, "needs_job", False)
+
+
+def needs_layout(renderer: Renderer) -> bool:
+    """Return whether a renderer writes what is laid out: blocks and graphs, not the data alone."""
+    return getattr(renderer, "needs_layout", True)
 
 
 def is_made_by(renderer: Renderer, creator: str) -> bool:

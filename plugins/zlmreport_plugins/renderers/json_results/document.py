@@ -51,6 +51,7 @@ class JsonResultsRenderer:
     title = Words("Results file (JSON)")
     suffix = ".json"
     relationship = Relationship.DATA
+    needs_layout = False
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the file, UTF-8."""

@@ -111,6 +111,7 @@ class CsvRenderer:
     identifier = "csv"
     title = Words("Results, one value a row (CSV)")
     suffix = ".csv"
+    needs_layout = False
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the table."""
@@ -198,6 +199,7 @@ class XlsxRenderer:
     identifier = "xlsx"
     title = Words("Workbook of results (XLSX)")
     suffix = ".xlsx"
+    needs_layout = False
 
     def render(self, certificate: Certificate) -> bytes:
         """Return the workbook."""

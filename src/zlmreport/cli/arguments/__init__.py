@@ -90,7 +90,9 @@ def make_parsers() -> tuple[CommandParser, ...]:
 
 def make_parser_for(command: str) -> CommandParser:
     """Return the parser of a command; of the main job, which has no word of its own, for an empty one."""
-    return COMMANDS[command][1](command) if command else _make_main_parser()
+    if command:
+        return COMMANDS[command][1](command)
+    return main_job({command: summary for command, (summary, _) in COMMANDS.items()})
 
 
 def parse(arguments: Sequence[str]) -> tuple[str, argparse.Namespace]:
@@ -139,10 +141,6 @@ def _is_perhaps_of_an_extension(arguments: Sequence[str]) -> bool:
         return bool(rest[0]) and not rest[0].startswith("-")
     word = Path(first)
     return bool(first) and first not in COMMANDS and first.isidentifier() and not word.exists()
-
-
-def _make_main_parser() -> CommandParser:
-    return main_job({command: summary for command, (summary, _) in COMMANDS.items()})
 
 
 def _refuse_mistaken_command(job: Path) -> None:

@@ -53,6 +53,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     tests: tuple[Tested, ...] = (),
     *,
     is_part: bool = False,
+    is_laid_out: bool = True,
 ) -> Certificate:
     """Build the document.
 
@@ -62,13 +63,11 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     `as_found`: Evaluations of the axis before it was adjusted, by the same standards; empty where it was not.
     `tests`: Of several measured lines that are evaluated together, each by itself; empty of most documents.
     `is_part`: Whether it is one of several that make one document: what all share stands there.
+    `is_laid_out`: Whether it has pages; its data alone otherwise, which need no figures of the evaluations.
     """
     certificate = job.keys.certificate
     measurements = evaluated[0].evaluation.measurements
     writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
-    if not certificate.readings_on_graphs:
-        evaluated, as_found = map(_drop_readings, (evaluated, as_found))
-        tests = tuple(replace(each, evaluated=_drop_readings(each.evaluated)) for each in tests)
     designations = tuple(each.evaluation.designation for each in evaluated)
     logo = _read_logo(job)
     sessions = interpretation.sessions if interpretation else ()
@@ -76,19 +75,17 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     files = [file for each in read for file in each.provenance.files]
     made_from = list_sources(job, files, logo.file if logo else None)
     lines = [(each.name, each.job, each.measurements) for each in tests] or [("", job, measurements)]
-    of_lines = tuple(say_of_each((name, _collect_shown(line, of_line)) for name, line, of_line in lines))
+    of_lines = [(name, _collect_shown(line, of_line)) for name, line, of_line in lines]
+    said = say_of_each(of_lines)
     shown = (
-        *of_lines,
-        *(each for each in traceability.find_doubts_of_artefacts(job) if each not in of_lines),
+        *said,
+        *(each for each in traceability.find_doubts_of_artefacts(job) if each not in said),
         *find_lines_read_twice(measurements.tests),
         *(words for each in evaluated for words in find_contradicting_limits(each.evaluation)),
-        *_collect_shown_as_found(
-            job,
-            measurements,
-            as_found,
-            [one for _, line, of_line in lines for one in _collect_shown(line, of_line)],
-        ),
     )
+    if as_found:
+        of_all = [one for _, of_line in of_lines for one in of_line]
+        shown += tuple(_collect_shown_as_found(job, measurements, as_found, of_all))
     letterhead, title = (
         make_letterhead(job.keys.laboratory, logo),
         writer.say(write_document_title(certificate)),
@@ -96,27 +93,29 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     results = tuple(each.evaluation for each in evaluated)
     results_as_found = tuple(each.evaluation for each in as_found)
     digest = digest_of(certificate.number, (*results, *results_as_found))
-    material = Material(
-        job,
-        evaluated,
-        as_found,
-        doubtful,
-        shown,
-        interpretation,
-        describe(writer),
-        made_from,
-        generator,
-        plugins,
-        letterhead,
-        title,
-        digest,
-        writer,
-        tests,
-        is_part,
-    )
-    laid_out, style = _lay_out(material), certificate.style
+    laid_out, linked, style = LaidOut((), ()), None, certificate.style
+    if is_laid_out:
+        material = Material(
+            job,
+            evaluated,
+            as_found,
+            doubtful,
+            shown,
+            interpretation,
+            describe(writer),
+            made_from,
+            generator,
+            plugins,
+            letterhead,
+            title,
+            digest,
+            writer,
+            tests,
+            is_part,
+        )
+        laid_out = _lay_out(material if certificate.readings_on_graphs else _drop_readings(material))
+        linked = _link_readings(job, interpretation, writer) if interpretation else None
     sections = arrange_sections(laid_out.sections, job)
-    linked = _link_readings(job, interpretation, writer)
     return Certificate(
         number=certificate.number,
         title=title,
@@ -194,22 +193,30 @@ def _lay_out(material: Material) -> LaidOut:
     return lay_out(material)
 
 
-def _link_readings(job: Job, interpretation: Interpretation | None, writer: Writer) -> Linked | None:
+def _link_readings(job: Job, interpretation: Interpretation, writer: Writer) -> Linked | None:
     """Return the readings beside the model, one by one; nothing where single readings are not to be shown."""
     keys = job.keys
     is_shown = keys.certificate.readings_on_graphs and keys.certificate.layout != "sheet"
-    if interpretation is None or keys.agreement.simplified or not is_shown:
+    if keys.agreement.simplified or not is_shown:
         return None
     return interpretation.linked(writer)
 
 
-def _drop_readings(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
-    """Return evaluations whose figures lack the single readings behind their curves."""
+def _drop_readings(material: Material) -> Material:
+    """Return what a document is made of, with figures that lack the single readings behind their curves."""
 
     def bare(figure: Figure) -> Figure:
         return replace(figure, panels=tuple(replace(panel, readings=()) for panel in figure.panels))
 
-    return tuple(replace(each, figures=tuple(map(bare, each.figures))) for each in evaluated)
+    def drop(evaluated: tuple[Evaluated, ...]) -> tuple[Evaluated, ...]:
+        return tuple(replace(each, figures=tuple(map(bare, each.figures))) for each in evaluated)
+
+    return replace(
+        material,
+        evaluated=drop(material.evaluated),
+        as_found=drop(material.as_found),
+        tests=tuple(replace(each, evaluated=drop(each.evaluated)) for each in material.tests),
+    )
 
 
 def _read_logo(job: Job) -> Logo | None:

@@ -44,9 +44,17 @@ _NAMED = Words("{names}: {heading}")
 
 
 def collect_certificates(
-    job: Job, parts: Mapping[str, Certificate], plugins: Mapping[str, str], generator: str
+    job: Job,
+    parts: Mapping[str, Certificate],
+    plugins: Mapping[str, str],
+    generator: str,
+    *,
+    is_laid_out: bool = True,
 ) -> Certificate:
-    """Return one document of the certificates of several measurements, by what they are called."""
+    """Return one document of the certificates of several measurements, by what they are called.
+
+    `is_laid_out`: Whether it and its parts have pages; their data alone otherwise.
+    """
     keys, certificate = job.keys, job.keys.certificate
     first = next(iter(parts.values()))
     writer = Writer.of(first.measurements, certificate.language, Marks.of(keys))
@@ -61,17 +69,22 @@ def collect_certificates(
     subject = writer.say(
         (_SUBJECT if len(parts) > 1 else _SUBJECT_OF_ONE).given(count=len(parts), machine=machine)
     )
-    sections = [each for name, part in parts.items() for each in _lay_out_sections(name, part, writer)]
-    if certificate.layout != "sheet":  # no sheet has it
-        sections.append(origin.lay_out_origin_of_several(made_from, parts, generator, plugins, writer))
+    cover_blocks: tuple[Block, ...] = ()
+    sections: list[Section] = []
+    if is_laid_out:
+        cover_blocks = tuple(_cover(job, parts, budget, digest, writer))
+        sections += (each for name, part in parts.items() for each in _lay_out_sections(name, part, writer))
+        if certificate.layout != "sheet":  # no sheet has it
+            sections.append(origin.lay_out_origin_of_several(made_from, parts, generator, plugins, writer))
+        sections += statements.lay_out_opinions(keys, writer)
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
     style = certificate.style
     return replace(
         first,
         title=writer.say(write_document_title(certificate)),
         subtitle=subject,
-        cover=tuple(_cover(job, parts, budget, digest, writer)),
-        sections=arrange_sections([*sections, *statements.lay_out_opinions(keys, writer)], job),
+        cover=cover_blocks,
+        sections=arrange_sections(sections, job),
         page_words=replace(
             first.page_words,
             number=writer.say(write_running_title(certificate)),

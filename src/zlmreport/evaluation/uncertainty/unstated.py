@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from zlmreport.errors import Problem, quoted
 from zlmreport.evaluation.correction.compensated import is_blind_to_air
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
-from zlmreport.evaluation.uncertainty.job_budget import INSTRUMENT
+from zlmreport.evaluation.uncertainty.demanded import INSTRUMENT
 from zlmreport.evaluation.uncertainty.reasons import says_something
 from zlmreport.evaluation.uncertainty.round_the_circle import HOW
 from zlmreport.job.job import Job

@@ -101,6 +101,36 @@ class JumpWatch:
         return Jump(None) if is_sudden and step > self._settings.motion else None
 
 
+class FreezeWatch:
+    """Notices a display that shows the same to its last digit for longer than an axis rests.
+
+    `longest`: That an axis rests, s.
+    """
+
+    def __init__(self, longest: float) -> None:
+        self._longest = longest
+        self._since: float | None = None
+        self._is_told = False
+
+    def add(self, before: LiveReading | None, reading: LiveReading, *, is_followed: bool) -> float | None:
+        """Take the next reading in; return for how long the display has been frozen, s, once.
+
+        `before`: The one before; None where there is none.
+        `is_followed`: Whether the axis should move: it need not before its first visit.
+        """
+        if before is None or before.value != reading.value or self._since is None:
+            self._since, self._is_told = reading.time, False
+        seconds = reading.time - self._since
+        if not is_followed or seconds < self._longest or self._is_told:
+            return None
+        self._is_told = True
+        return seconds
+
+    def forget(self) -> None:
+        """Forget since when: nobody saw."""
+        self._since = None
+
+
 def _bound_elapsed(before: LiveReading, reading: LiveReading) -> float:
     """Return how long ago a reading was taken at most, s: on a busy computer its answer may have waited."""
     return reading.time - before.time + before.within

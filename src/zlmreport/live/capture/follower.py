@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from bisect import bisect
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from zlmreport.live.capture.display import UNITS, JumpWatch, Offsets, find_misread_factor
+from zlmreport.live.capture.ahead import WayAhead
+from zlmreport.live.capture.display import FreezeWatch, JumpWatch, Offsets
 from zlmreport.live.capture.events import (
     HALTING,
     BeamHeld,
     Closed,
     Commented,
-    DatumHolds,
-    DatumMoved,
     DatumTaken,
-    Elsewhere,
     Event,
     Finished,
     Frozen,
@@ -23,8 +20,6 @@ from zlmreport.live.capture.events import (
     Missed,
     MovedBeforeDatum,
     Moving,
-    NotChecked,
-    NotNext,
     Order,
     Passed,
     Placed,
@@ -33,7 +28,6 @@ from zlmreport.live.capture.events import (
     Repeated,
     Retake,
     ScaleChanged,
-    Settling,
     TooSlow,
     TrackLost,
     Unclear,
@@ -43,55 +37,26 @@ from zlmreport.live.capture.events import (
 from zlmreport.live.capture.motion import Programme, Route
 from zlmreport.live.capture.place import WORTH_SAYING, PlaceInProgram, TargetStandstill
 from zlmreport.live.capture.progress import Progress
-from zlmreport.live.capture.standstill import FROM_RUN, Pace, Track, Window, expect_deviation
-from zlmreport.live.capture.visits import FASTEST, ListedVisit, Settings
+from zlmreport.live.capture.standstill import Pace, Track, Window, expect_deviation
+from zlmreport.live.capture.stay import Stay
+from zlmreport.live.capture.stops import (
+    check_datum,
+    find_target_around,
+    is_plausible,
+    is_worse,
+    name_elsewhere,
+    name_out_of_turn,
+)
+from zlmreport.live.capture.visits import ListedVisit, Settings
 from zlmreport.live.ports.reading import Fault, LiveReading
 from zlmreport.measurement.approach import Approach
 
-#: Faster than any axis, m/s or rad/s: who is elsewhere sooner was not seen to go there.
-_RAPID = 1.0
-
-
 #: Of a standstill, the share after which an axis is at rest.
 _AT_REST = 4
-_SHIFTED = "what the display shows is off by the same at two stops in a row: counts are lost, or a zero moved"
 _LEAPED = "what the display shows jumped while the axis stood still: it lost counts, or was set anew"
 #: A later standstill takes the place of an earlier one of the same visit if it differs by so much of the
 #: stability range: 0.1 µm for 1 µm. By less, it is the same.
 _FINEST = 0.1
-
-
-@dataclass(slots=True)
-class Stay:
-    """How the axis stays where a reading was taken: until it leaves, a later one may replace that."""
-
-    index: int  #: Of the visit.
-    since: float | None  #: When it came there, s; None if nobody saw.
-    taken: float  #: When the first reading was, s.
-    position: float  #: Which reading stands, m or rad.
-    middle: float  #: Between the smallest and the largest of what it was made of, m or rad.
-    looked: float  #: When the standstill was looked at last, s.
-    #: last, ahead: The latest standstill after which the axis still stood, and after which it may have gone.
-    last: Mean | None = None
-    ahead: Mean | None = None
-
-    @classmethod
-    def at(cls, index: int, since: float | None, window: Window, stop: TargetStandstill) -> Stay:
-        """Begin with the reading that was taken."""
-        stay = cls(index, since, stop.mean.time, 0.0, 0.0, 0.0)
-        stay.stand(window, stop.mean, stop.position - stop.mean.value)
-        return stay
-
-    def stand(self, window: Window, mean: Mean, zero: float) -> None:
-        """Take note of the reading that stands now."""
-        lowest, highest = window.bounds
-        self.position, self.middle = mean.value + zero, (lowest + highest) / 2 + zero
-        self.looked, self.last, self.ahead = mean.time, None, None
-
-    def keep(self, window: Window, time: float, every: float) -> None:
-        """Keep the mean of a standstill that goes on; of the last one the axis may have begun to leave."""
-        if time - self.looked >= every:
-            self.looked, self.last, self.ahead = time, self.ahead, window.mean()
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,22 +98,17 @@ class Follower:
         self._settings = settings
         self._window = Window(settings.stability, settings.still, settings.averaged)
         self._track = Track(settings.motion)
-        by_position = {visit.position: visit.target for visit in progress.visits}
-        self._positions = sorted(by_position)
-        self._targets = [by_position[position] for position in self._positions]
+        self._targets = sorted({(visit.position, visit.target) for visit in progress.visits})
         self._latest: LiveReading | None = None
         self._lost = 0
-        self._unchanged_since: float | None = None
-        self._is_frozen = False
+        self._unchanging = FreezeWatch(2 * settings.stay)
         self._doubted: tuple[TargetStandstill, int] | None = None
-        self._crept: tuple[float, float] | None = None
-        self._crept_last = (0.0, 0.0)
         self._pace = Pace()
         self._stood_at: float | None = None
         self._stay: Stay | None = None
         self._standing: Mean | None = None
         self._broken: LiveReading | None = None
-        self._inside_since: float | None = None
+        self._ahead = WayAhead(settings)
         self._jumps = JumpWatch(settings)
         self._offsets = Offsets(progress.visits, settings.motion)
         self._begin_here(last)
@@ -196,8 +156,7 @@ class Follower:
         self._route = Route(self._settings.tolerance)
         self._place = PlaceInProgram(self._programme, self._settings, self.progress.taken, last)
         self._place.left_out = self.progress.skipped
-        self._passed = 0
-        self._look_ahead()
+        self._ahead.begin()
 
     def _lived_through(self, happening: Iterable[Event]) -> list[Event]:
         events: list[Event] = []
@@ -230,7 +189,8 @@ class Follower:
             yield from self._at_the_datum(reading)
             return
         self._track.add(reading.value + zero)
-        self._follow_route(before, reading, zero)
+        if before is not None and self._track.position is not None:
+            self._route.follow(before, reading, zero, self._track.position, self._settings)
         yield from self._on_the_way(reading.time)
         yield from self._unchanged(before, reading)
         yield from self._at_the_end(reading, zero)
@@ -251,27 +211,10 @@ class Follower:
         if failed is not None:
             yield failed
 
-    def _follow_route(self, before: LiveReading | None, reading: LiveReading, zero: float) -> None:
-        """Follow where the axis turns round: of readings that come seldom each counts that can be true."""
-        if before is None or self._track.position is None:
-            return
-        elapsed = reading.time - before.time
-        reach = FASTEST * self._settings.feed * elapsed + self._settings.motion
-        can_be = abs(reading.value - before.value) <= reach
-        position = reading.value + zero if can_be else self._track.position
-        if self._route.last is not None:
-            furthest = _RAPID * (elapsed + self._settings.largest_gap) + self._settings.tolerance
-            if abs(position - self._route.last) > furthest:
-                self._route.lose()
-        self._route.add(position)
-
     def _unchanged(self, before: LiveReading | None, reading: LiveReading) -> Iterator[Event]:
         """Notice a display that shows the same to its last digit for longer than an axis rests."""
-        if before is None or before.value != reading.value or self._unchanged_since is None:
-            self._unchanged_since, self._is_frozen = reading.time, False
-        seconds = reading.time - self._unchanged_since
-        if self.progress.taken and seconds >= 2 * self._settings.stay and not self._is_frozen:
-            self._is_frozen = True
+        seconds = self._unchanging.add(before, reading, is_followed=self.progress.taken > 0)
+        if seconds is not None:
             self._route.lose(seconds)
             yield Frozen(seconds)
 
@@ -315,18 +258,18 @@ class Follower:
         has_stayed = self._has_stayed(latest, reading)
         if not (has_stayed and gap < self._settings.still and self._window.holds(reading.value)):
             self._window.clear()
-        self._unchanged_since = None
+        self._unchanging.forget()
         if gap >= self._settings.stay:
             yield TrackLost(gap)
         if self.progress.zero is not None and not has_stayed:
             self._stay = None
             self._track.forget()
             self._route.lose(gap)
-            self._look_ahead()
+            self._ahead.forget()
 
     def _has_stayed(self, latest: LiveReading, reading: LiveReading) -> bool:
         """Tell whether the axis, seen to arrive, cannot have left and come back from elsewhere since."""
-        since = self._inside_since if self._stay is None else self._stay.since
+        since = self._ahead.inside_since if self._stay is None else self._stay.since
         return (
             since is not None
             and reading.time - since < self._settings.stay
@@ -357,63 +300,7 @@ class Follower:
             yield Moving(self.progress.next)
         if self._stay is not None and self._has_left(self._stay, position):
             self._stay = None
-        while (visit := self._ahead) is not None:
-            if self._inside_since is None:
-                self._comes_from_its_side |= self._is_before(visit, position)
-                if not (self._comes_from_its_side and self._is_at_or_beyond(visit, position)):
-                    return
-                self._inside_since = time
-                self._crept = None
-                yield Settling(visit)
-            if abs(position - visit.position) <= self._settings.tolerance + self._settings.motion:
-                self._watch_creeping(time, position)
-                return
-            yield Passed(visit, time - self._inside_since, self._drift)
-            self._passed += 1
-            self._look_ahead()
-
-    def _watch_creeping(self, time: float, position: float) -> None:
-        """Note where the axis is that nearly stands, first and last."""
-        if self._window.duration < self._settings.still / 4:
-            return
-        if self._crept is None:
-            self._crept = self._crept_last = (time, position)
-        self._crept_last = (time, position)
-
-    @property
-    def _drift(self) -> float | None:
-        """How fast the readings went on at a target, too slow for a motion; None if they did not."""
-        if self._crept is None:
-            return None
-        (begin, first), (end, last) = self._crept, self._crept_last
-        is_long = end - begin >= self._settings.still / 2
-        return (
-            (last - first) / (end - begin)
-            if is_long and abs(last - first) >= 3 * self._settings.stability
-            else None
-        )
-
-    @property
-    def _ahead(self) -> ListedVisit | None:
-        """The first visit that is neither taken nor passed."""
-        index = self.progress.taken + self._passed
-        return self.progress.visits[index] if index < len(self.progress.visits) else None
-
-    def _look_ahead(self) -> None:
-        """Forget how the axis came to the visit ahead: it is another one now, or nobody saw."""
-        self._comes_from_its_side = False
-        self._inside_since = None
-
-    def _is_before(self, visit: ListedVisit, position: float) -> bool:
-        """Tell whether the axis is, or just was, on the side of a target from which it is to come."""
-        seen = (position, position if self._track.before is None else self._track.before)
-        way_to_go = max((visit.position - each) * visit.approach for each in seen)
-        return way_to_go > self._settings.tolerance and not self.progress.must_check
-
-    def _is_at_or_beyond(self, visit: ListedVisit, position: float) -> bool:
-        """Tell whether the axis goes towards a target and is inside its tolerance, or has run over it."""
-        is_there = (visit.position - position) * visit.approach <= self._settings.tolerance
-        return is_there and self._track.direction is visit.approach
+        yield from self._ahead.follow(time, self._track, self.progress, self._window.duration)
 
     def _stands_anew(self, zero: float) -> bool:
         """Tell whether the axis, where it stays after a reading, has come to stand a little elsewhere."""
@@ -443,7 +330,9 @@ class Follower:
         stay.stand(self._window, mean, zero)
 
     def _at_a_standstill(self, zero: float) -> Iterator[Event]:
-        target, approach = self._target_around(zero), self._track.direction
+        lowest, highest = (bound + zero for bound in self._window.bounds)
+        target = find_target_around(lowest, highest, self._targets, self._settings.tolerance)
+        approach = self._track.direction
         if target is None and approach is None:  # it waits for its program
             return
         mean = self._standing = self._window.mean()
@@ -451,29 +340,9 @@ class Follower:
         if self._stay is not None and target == self.progress.visits[self._stay.index].target:
             yield from self._stood_later(self._stay, mean, zero)
         elif target is None:
-            yield self._elsewhere(mean, zero)
+            yield name_elsewhere(mean, zero, self.progress, self._settings, self._offsets)
         else:
             yield from self._at_target(target, approach, mean, zero)
-
-    def _elsewhere(self, mean: Mean, zero: float) -> Event:
-        """Say what a standstill at no target is: a display that was switched, or lost counts; or neither."""
-        progress, position = self.progress, mean.value + zero
-        following = progress.visits[progress.taken :]
-        near = self._settings.tolerance
-        right = zero if progress.datum is None else progress.datum
-        unit = find_misread_factor(mean.value, zero, right, following, near, UNITS)
-        if unit is not None and progress.read:
-            return ScaleChanged(unit, self._by_either_unit(zero))
-        if self._offsets.is_lost(position, progress.taken):
-            return ZeroLost(_SHIFTED, progress.rest_of_part)
-        return Elsewhere(position, find_misread_factor(mean.value, zero, right, following, near))
-
-    def _by_either_unit(self, zero: float) -> ListedVisit | None:
-        """Return the visit before, if its reading would be at its target by another unit, too."""
-        last = max(self.progress.read.values(), key=lambda each: each.mean.time, default=None)
-        if last is None or abs(last.position - zero) > self._settings.tolerance:
-            return None
-        return last.visit
 
     def _display_failed(self, latest: LiveReading, reading: LiveReading) -> Event | None:
         """Return what a jump of the display is; None without one."""
@@ -484,17 +353,6 @@ class Follower:
         if jump.factor is None:
             return ZeroLost(_LEAPED, self.progress.rest_of_part)
         return ScaleChanged(jump.factor, None)
-
-    def _target_around(self, zero: float) -> int | None:
-        """Return the target inside whose tolerance all readings are."""
-        lowest, highest = (bound + zero for bound in self._window.bounds)
-        after = bisect(self._positions, lowest)
-        for index in (after - 1, after):
-            if 0 <= index < len(self._positions):
-                position = self._positions[index]
-                if max(highest - position, position - lowest) <= self._settings.tolerance:
-                    return self._targets[index]
-        return None
 
     def _at_target(self, target: int, approach: Approach | None, mean: Mean, zero: float) -> Iterator[Event]:
         """Say what a standstill at a target is, and take the reading if it is clear which visit that is."""
@@ -508,8 +366,9 @@ class Follower:
         if progress.must_check:
             if approach is None:
                 return
-            yield self._checked(target, approach, stop.position)
-            if self.progress.must_check or not self._is_next(target, approach):
+            yield check_datum(target, approach, stop.position, progress, self._settings)
+            following = self.progress.next
+            if self.progress.must_check or (following.target, following.approach) != (target, approach):
                 return
         self._place.add(stop, self._route)
         yield from self._decided()
@@ -527,12 +386,12 @@ class Follower:
 
     def _filed(self, stop: TargetStandstill, index: int | None, late: float | None = None) -> Iterator[Event]:
         if index is None:
-            yield self._out_of_turn(stop)
+            yield name_out_of_turn(stop, self.progress)
         elif self.progress.visits[index].number in self.progress.skipped:
             yield Passed(self.progress.visits[index], stop.mean.duration)
         elif stop.approach is not self.progress.visits[index].approach:
             yield WrongDirection(self.progress.visits[index], stop.approach)
-        elif late is None and not self._is_worse(index, stop) and not self._is_plausible(index, stop):
+        elif late is None and not self._may_be_taken(stop, index):
             yield from self._not_taken()
             self._doubted = (stop, index)
         else:
@@ -540,11 +399,10 @@ class Follower:
                 yield from self._not_taken()
             yield from self._taken(index, stop, late)
 
-    def _is_plausible(self, index: int, stop: TargetStandstill) -> bool:
-        """Tell whether a reading is near enough to those before, and to the plan."""
-        visit = self.progress.visits[index]
-        expected, limit = expect_deviation(visit, self.progress.read, self._settings)
-        return abs(stop.position - visit.position - expected) <= limit
+    def _may_be_taken(self, stop: TargetStandstill, index: int) -> bool:
+        """Tell whether no question is to be asked of a reading: it is near enough, or another stands."""
+        of = (stop, index, self.progress, self._settings)
+        return is_plausible(*of) or is_worse(*of)
 
     def _not_taken(self) -> Iterator[Event]:
         """Let a doubted reading go: another stop takes its place."""
@@ -596,27 +454,12 @@ class Follower:
         candidates = tuple((None if index is None else visits[index], share) for index, share in odds)
         return Unclear(stop.target, stop.heading or visits[0].approach, candidates, stop.position, stop.mean)
 
-    def _is_next(self, target: int, approach: Approach) -> bool:
-        visit = self.progress.next
-        return (visit.target, visit.approach) == (target, approach)
-
-    def _checked(self, target: int, approach: Approach, position: float) -> Event:
-        """Hold the datum against an earlier reading of the same target from the same side."""
-        earlier = self.progress.read.get((target, approach))
-        if earlier is None:
-            return NotChecked(target, approach)
-        difference = position - earlier.position
-        if abs(difference) > self._settings.motion:
-            return DatumMoved(earlier.visit, difference, self.progress.rest_of_part)
-        return DatumHolds(earlier.visit, difference)
-
     def _taken(self, index: int, stop: TargetStandstill, late: float | None) -> Iterator[Event]:
         progress = self.progress
-        self._passed = 0
-        since = self._inside_since
-        self._look_ahead()
+        since = self._ahead.inside_since
+        self._ahead.begin()
         visit = progress.visits[index]
-        if self._is_worse(index, stop):
+        if is_worse(stop, index, progress, self._settings):
             yield Repeated(visit, stop.position, stop.mean)
             return
         for missed in progress.visits[progress.taken : index]:
@@ -653,25 +496,3 @@ class Follower:
             if abs(difference) <= settings.tolerance:
                 yield Closed(difference, abs(difference) <= settings.motion)
             yield Finished()
-
-    def _is_worse(self, index: int, stop: TargetStandstill) -> bool:
-        """Tell whether a visit has a reading that is better than a later one.
-
-        A control that corrects its position goes less far, in either direction. Who goes further has left: a
-        feed hold beyond the target.
-        """
-        visit = self.progress.visits[index]
-        earlier = self.progress.read.get((visit.target, visit.approach))
-        is_ordered = self.progress.again is not None and index >= self.progress.taken
-        if earlier is None or visit.number not in self.progress.filed or is_ordered:
-            return False
-        expected, _ = expect_deviation(visit, self.progress.read, self._settings)
-        further = abs(stop.position - visit.position - expected) - abs(earlier.deviation - expected)
-        return further > 0 and abs(stop.position - earlier.position) > FROM_RUN * self._settings.stability
-
-    def _out_of_turn(self, stop: TargetStandstill) -> Event:
-        """Name a standstill at which nothing may be taken."""
-        following = self.progress.next
-        if stop.target == following.target or stop.heading is None:
-            return WrongDirection(following, stop.approach)
-        return NotNext(stop.target, stop.heading, following)

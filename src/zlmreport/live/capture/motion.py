@@ -8,8 +8,12 @@ from itertools import accumulate
 from math import inf
 from typing import NamedTuple
 
-from zlmreport.live.capture.visits import ListedVisit, Settings
+from zlmreport.live.capture.visits import FASTEST, ListedVisit, Settings
+from zlmreport.live.ports.reading import LiveReading
 from zlmreport.measurement.approach import Approach
+
+#: Faster than any axis, m/s or rad/s: who is elsewhere sooner was not seen to go there.
+_RAPID = 1.0
 
 
 class Route:
@@ -50,6 +54,24 @@ class Route:
             self._lowest = self._highest
         elif self.heading is Approach.NEGATIVE:
             self._highest = self._lowest
+
+    def follow(
+        self, before: LiveReading, reading: LiveReading, zero: float, seen: float, settings: Settings
+    ) -> None:
+        """Follow where the axis turns round: of readings that come seldom each counts that can be true.
+
+        `zero`: The position at which the display shows 0, m or rad.
+        `seen`: Where the axis was last seen by several readings, m or rad.
+        """
+        elapsed = reading.time - before.time
+        reach = FASTEST * settings.feed * elapsed + settings.motion
+        can_be = abs(reading.value - before.value) <= reach
+        position = reading.value + zero if can_be else seen
+        if self.last is not None:
+            furthest = _RAPID * (elapsed + settings.largest_gap) + settings.tolerance
+            if abs(position - self.last) > furthest:
+                self.lose()
+        self.add(position)
 
     def _turn(self, heading: Approach, at: float) -> None:
         if self.heading is not None:

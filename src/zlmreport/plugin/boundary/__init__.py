@@ -12,6 +12,7 @@ import sys
 import traceback
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Self
@@ -101,22 +102,20 @@ class Guarded:
         `accept`: Takes this object, the answer and what was asked, and returns what is handed on; raises
             `Unacceptable` for what no plugin must answer.
         """
+        if accept is None:
+            return partial(self._asked, name, method)
 
-        def call(*arguments: Any, **keywords: Any) -> Any:
-            def answer() -> Any:
-                found = method(*arguments, **keywords)
-                return accept(self, found, *arguments, **keywords) if accept else found
+        def answer(*arguments: Any, **keywords: Any) -> Any:
+            return accept(self, method(*arguments, **keywords), *arguments, **keywords)
 
-            return self._asked(name, answer)
+        return partial(self._asked, name, answer)
 
-        return call
-
-    def _asked(self, name: str, question: Callable[[], Any]) -> Any:
+    def _asked(self, name: str, question: Callable[..., Any], /, *arguments: Any, **keywords: Any) -> Any:
         """Return an answer; whatever is raised instead becomes one message."""
         before, wrong = PRESENCE.begin(f"{self._who}: {name}"), ""
         try:
             try:
-                return question()
+                return question(*arguments, **keywords)
             finally:
                 wrong = PRESENCE.end(before)
                 if wrong:
@@ -143,12 +142,12 @@ class _GuardedConnection(Guarded):
 
     def __exit__(self, *raised: object) -> None:
         """Close the port."""
-        self._asked("open", lambda: self._offered.__exit__(*raised))
+        self._asked("open", self._offered.__exit__, *raised)
 
     def readings(self) -> Iterator[Any]:
         """Yield what the instrument yields."""
         readings = self._asked("readings", lambda: iter(self._offered.readings()))
-        while (reading := self._asked("readings", lambda: next(readings, _NOTHING))) is not _NOTHING:
+        while (reading := self._asked("readings", next, readings, _NOTHING)) is not _NOTHING:
             yield reading
 
 
