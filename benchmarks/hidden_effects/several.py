@@ -67,7 +67,7 @@ class Outcome:
 
     drawn: Drawn
     built: tuple[str, ...]  #: Effects of the model at the end, but for the constant.
-    equals: Mapping[str, frozenset[str]]  #: Effects that were named as equals of each that was added.
+    equals: Mapping[str, frozenset[str]]  #: Effects that the build names as equals of each that it added.
     left: float  #: Error at the end, over σ.
     remainder: bool  #: Whether something is told to be left without a name.
     is_placed: bool  #: Whether the stranger is larger where it is told to lie than elsewhere.
@@ -156,17 +156,15 @@ def followed(drawn: Drawn) -> Outcome:
     """Return what comes of following the advice from an empty model."""
     seconds: list[float] = []
 
-    equals: dict[str, frozenset[str]] = {}
-
     def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)
-        equals.update({each.identifier: frozenset(each.equals) for each in found.candidates})
         return found
 
     built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
     names = tuple(each for each in built.model.identifiers if each != "offset")
+    equals = {each.identifier: frozenset(each.equals) for each in built.steps if not each.is_removed}
     left, remainder = built.last.error.rms / drawn.sigma, built.last.remainder
     is_placed = remainder is not None and _is_placed(remainder, drawn)
     return Outcome(drawn, names, equals, left, remainder is not None, is_placed, max(seconds))
