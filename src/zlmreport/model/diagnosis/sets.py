@@ -70,9 +70,10 @@ class SetSearch:
         self._ends: dict[tuple[bool, _State], EffectSet] = {}
         # Of all sets that were looked at the best ones, by the effects and the forms that are in it.
         self._best: dict[tuple[frozenset[str], frozenset[str]], EffectSet] = {}
-        # What was tried already: best amplitudes near others, and sets with one effect more.
+        # What was tried already: best amplitudes near others, sets with one effect more, and with one less.
         self._near: dict[tuple[Amplitudes, Amplitudes, frozenset[bytes]], Amplitudes] = {}
         self._more: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
+        self._fewer: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
         self._costs = SetCosts(contest)
         self._with_forms = True  # whether forms without a name are thought of
 
@@ -173,9 +174,18 @@ class SetSearch:
         return [self.without(found, number).score - found.score for number in range(len(found.members))]
 
     def without(self, found: EffectSet, number: int) -> EffectSet:
-        """Return a set without one of its members, what has no name as it then is."""
+        """Return a set without one of its members, all else at its best values then."""
         members = (*found.members[:number], *found.members[number + 1 :])
-        return self._with(members, found.amplitudes)
+        key = self._levels, found.amplitudes, tuple(each.key for each in members)
+        if key not in self._fewer:
+            self._fewer[key] = self._find_best_values(self._with(members, found.amplitudes))
+        return self._fewer[key]
+
+    def _find_best_values(self, found: EffectSet) -> EffectSet:
+        """Return the best of a set as it is, as it becomes once it is settled, and as it was met before."""
+        near = (found, self._settled(found)) if any(each.theta.size for each in found.members) else (found,)
+        known = self._best[list_names(found.named), list_unnamed(found)]
+        return min((*near, known), key=find_score)
 
     def as_noise(self, members: Sequence[SetMember]) -> EffectSet:
         """Return a set beside which there is nothing but noise."""
