@@ -202,3 +202,16 @@ def test_an_effect_for_the_second_time_is_no_rival_of_itself() -> None:
     search, (first, _) = _with_two_joints(0.5)
     found = search.as_noise(search.members_of([(first, np.array([0.5]))]))
     assert search.rivals(found, search.without(found, 0), 40.0) == []
+
+
+@pytest.mark.long
+def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
+    names = ("worn-zone", "backlash", "backlash-bow", "backlash-gradient", "one-way-step")
+    step, wave = EFFECTS["lost-motion-step"], EFFECTS["lost-motion-wave"]
+    design = linear_test(21, 3, seed=7)
+    readings = step.columns(design, np.array([0.083])) @ np.array([6.5e-6]) + noise(design, 7)
+    readings = readings + wave.columns(design, np.array([0.718])) @ np.array([-2.18e-6, 1.47e-6])
+    few = (*(EFFECTS[name] for name in names), step, wave)
+    found = SetSearch(_contest(readings, design, few)).found()
+    assert {"lost-motion-step", "lost-motion-wave"} <= _names(found)
+    assert "worn-zone" not in _names(found)
