@@ -89,12 +89,12 @@ class SetSearch:
         released = self._with(named.members, named.amplitudes)
         if not self._loud(released):
             released = self._climb(released)
-            is_whole = 0 < len(released.named) <= _FEW and not any(released.amplitudes)
+            is_whole = 0 < len(released.named) <= _FEW and not self._is_coloured(released)
             if is_whole and min(self.own_evidence(released)) > _SURE:
                 return released
         told(0.4)
         begun = [self._with(start, self.contest.quiet)]
-        if any(released.amplitudes):  # else there is nothing but white noise
+        if self._is_coloured(released):
             begun += self._ahead(self.alone(), _LISTED, _LISTED_FOR_ANOTHER, lambda family: family.is_named)
         beside = min((self._climb(each, is_thorough=False) for each in begun), key=find_score)
         told(0.6)
@@ -140,6 +140,11 @@ class SetSearch:
         """Return the parts without a name that are more than noise in a set."""
         quiet = self.contest.as_noise(found.amplitudes)
         return [number for number, level in enumerate(found.amplitudes) if level != quiet[number]]
+
+    def _is_coloured(self, found: EffectSet) -> bool:
+        """Return whether more than white noise is left beside a set, beyond doubt."""
+        white = self.contest.criterion(self.contest.quiet, found.columns)
+        return white - self.contest.criterion(found.amplitudes, found.columns) > _SURE
 
     def alone(self) -> EffectSet:
         """Return what there is without any effect."""
@@ -369,7 +374,7 @@ class SetSearch:
             other = self._exchanged(now)
             if other is None and is_thorough:
                 other = self._parted(now)
-            if other is None and is_thorough and any(now.amplitudes):
+            if other is None and is_thorough and self._is_coloured(now):
                 other = self._paired(now)
             if other is None:
                 break
