@@ -2,8 +2,10 @@
 
 Two to four causes of the catalogue act together, each of 1.5 to 4 σ beyond a constant, on half of the axes a
 stranger beside them; linear and rotary axes, three or five runs, σ from 0.05 to 3 µm. What is found is told
-axis by axis: a cause counts as found if it stands in the model at the end, a name that no cause has as wrong,
-and a stranger as placed if it is larger where what is left without a name is told to lie than elsewhere.
+axis by axis: a cause counts as found if it stands in the model at the end. What is said is wrong where
+neither a name nor one of those that are named as its equals has a cause of its own; where a stranger changes
+the gap between the directions, lost motion is the mean of that gap. A stranger counts as placed if it is
+larger where what is left without a name is told to lie than elsewhere.
 """
 
 from __future__ import annotations
@@ -43,6 +45,8 @@ _ROTARY_SHARE = 0.2
 _SEED = 20_261_126
 #: The constant is in the model, and a cosine error is a scale error.
 _NOT_DRAWN = OF_A_GAUGE | {"offset", "cosine-error"}
+#: What the mean of a gap between the directions is called, and σ² of readings from which on it is seen.
+_MEAN_GAP, _SEEN = "backlash", 16.0
 #: Error over σ up to which nothing but noise is left.
 DOWN_TO_NOISE = 1.15
 
@@ -60,6 +64,11 @@ class Drawn:
         None  #: (N,): What the stranger adds to each reading, less its mean, m or rad.
     )
 
+    @property
+    def in_stranger(self) -> tuple[str, ...]:
+        """Effects that the stranger has by their definition."""
+        return (_MEAN_GAP,) if self.beside is not None and _has_mean_gap(self) else ()
+
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
@@ -67,7 +76,7 @@ class Outcome:
 
     drawn: Drawn
     built: tuple[str, ...]  #: Effects of the model at the end, but for the constant.
-    equals: Mapping[str, frozenset[str]]  #: Effects that were named as equals of each that was added.
+    equals: Mapping[str, frozenset[str]]  #: Effects that the build names as equals of each that it added.
     left: float  #: Error at the end, over σ.
     remainder: bool  #: Whether something is told to be left without a name.
     is_placed: bool  #: Whether the stranger is larger where it is told to lie than elsewhere.
@@ -90,16 +99,33 @@ class Outcome:
         return tuple(each for each in self.drawn.causes if each in named)
 
     @property
-    def wrong(self) -> tuple[str, ...]:
+    def others(self) -> tuple[str, ...]:
         """Names that no cause has."""
         return tuple(each for each in self.built if each not in self.drawn.causes)
 
     @property
-    def wrong_beyond_equals(self) -> tuple[str, ...]:
-        """Those with which no cause was named as an equal."""
-        return tuple(
-            each for each in self.wrong if not self.equals.get(each, frozenset()) & {*self.drawn.causes}
-        )
+    def wrong(self) -> tuple[str, ...]:
+        """Those where what is said is wrong: no cause that has no name yet is among their equals."""
+        unnamed = [each for each in self.drawn.causes if each not in self.built]
+        found = []
+        for each in self.others:
+            own = next((other for other in unnamed if other in self.equals.get(each, frozenset())), None)
+            if own is not None:
+                unnamed.remove(own)
+            elif each not in self.drawn.in_stranger:
+                found.append(each)
+        return tuple(found)
+
+
+def _has_mean_gap(drawn: Drawn) -> bool:
+    """Return whether the stranger has a gap between the directions whose mean is seen."""
+    assert drawn.beside is not None
+    up = drawn.observed.design.direction > 0
+    if up.all() or not up.any():
+        return False
+    gap = float(drawn.beside[up].mean() - drawn.beside[~up].mean())
+    uncertainty = drawn.sigma * (1.0 / np.count_nonzero(up) + 1.0 / np.count_nonzero(~up)) ** 0.5
+    return gap**2 > _SEEN * uncertainty**2
 
 
 def drawn_axis(number: int, *, with_stranger: bool) -> Drawn:
@@ -156,23 +182,21 @@ def followed(drawn: Drawn) -> Outcome:
     """Return what comes of following the advice from an empty model."""
     seconds: list[float] = []
 
-    equals: dict[str, frozenset[str]] = {}
-
     def diagnosing(model: AxisModel, may_go: frozenset[str], told: Told) -> Diagnosis:
         started = time.process_time()
         found = diagnose(model, drawn.observed, INSTALLED, may_go=may_go, told=told)
         seconds.append(time.process_time() - started)
-        equals.update({each.identifier: frozenset(each.equals) for each in found.candidates})
         return found
 
     built = build(AxisModel((Term(EFFECTS["offset"]),)), diagnosing)
     names = tuple(each for each in built.model.identifiers if each != "offset")
+    equals = {each.identifier: frozenset(each.equals) for each in built.steps if not each.is_removed}
     left, remainder = built.last.error.rms / drawn.sigma, built.last.remainder
-    is_placed = remainder is not None and _is_placed(remainder, drawn)
+    is_placed = remainder is not None and is_where_told(remainder, drawn)
     return Outcome(drawn, names, equals, left, remainder is not None, is_placed, max(seconds))
 
 
-def _is_placed(remainder: Remainder, drawn: Drawn) -> bool:
+def is_where_told(remainder: Remainder, drawn: Drawn) -> bool:
     """Return whether the stranger is larger between the ends of a remainder than beyond them."""
     if drawn.beside is None:
         return False
@@ -196,9 +220,15 @@ def _table(outcomes: Sequence[Outcome]) -> Iterator[str]:
         place = "–" if of.stranger is None else "yes" if each.is_placed else "no"
         yield (
             f"| {MICROMETRE.from_si(of.sigma):.2g} | {_marked(of)} | {of.stranger or '–'} | "
-            f"{len(each.found)} of {len(of.causes)} | {', '.join(each.wrong) or '–'} | {each.left:.2f} | "
+            f"{len(each.found)} of {len(of.causes)} | {_list_others(each)} | {each.left:.2f} | "
             f"{'yes' if each.remainder else 'no'} | {place} |"
         )
+
+
+def _list_others(outcome: Outcome) -> str:
+    """Return the names that no cause has, those in brackets with which what is said is right."""
+    names = [each if each in outcome.wrong else f"({each})" for each in outcome.others]
+    return ", ".join(names) or "–"
 
 
 def _marked(drawn: Drawn) -> str:
@@ -216,16 +246,16 @@ def _sums(outcomes: Sequence[Outcome]) -> str:
     strangers = sum(each.drawn.stranger is not None for each in outcomes)
     placed = sum(each.is_placed for each in outcomes)
     seconds = np.median([each.seconds for each in outcomes])
+    others, wrong = summed(lambda each: each.others), summed(lambda each: each.wrong)
     return (
         f"{len(outcomes)} axes: {summed(lambda each: each.found)} of "
-        f"{summed(lambda each: each.drawn.causes)} causes found, {summed(lambda each: each.wrong)} wrong, "
-        f"the whole set in {whole}, down to {DOWN_TO_NOISE} σ in {down}, something left without a name in "
-        f"{named}, where the stranger is in {placed} of {strangers}; the dearest diagnosis of an axis takes "
-        f"{seconds:.1f} s of CPU in the median.\n"
+        f"{summed(lambda each: each.drawn.causes)} causes found, other names: {others}, of them wrong: "
+        f"{wrong}, the whole set in {whole}, down to {DOWN_TO_NOISE} σ in {down}, something left without a "
+        f"name in {named}, where the stranger is in {placed} of {strangers}; the dearest diagnosis of an "
+        f"axis takes {seconds:.1f} s of CPU in the median.\n"
         f"Of the causes that an ideal observer tells from all else {summed(lambda each: each.told)} of "
-        f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} "
-        f"stand in the model or are named as equals of what stands there, and "
-        f"{summed(lambda each: each.wrong_beyond_equals)} names have no cause among their equals."
+        f"{summed(lambda each: each.drawn.told_apart)} are found; {summed(lambda each: each.as_equals)} of "
+        f"all stand in the model or are named as equals of what stands there."
     )
 
 

@@ -2,10 +2,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
+
 import numpy as np
 import pytest
 
-from hidden_effects.several import Outcome, drawn_axis, report
+from hidden_effects.several import Drawn, Outcome, drawn_axis, is_where_told, report
+from zlmreport.language import Words
+from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.units import MILLIMETRE, Unit
+from zlmreport.model.diagnosis.nameless import Course
+from zlmreport.model.diagnosis.remainder import Remainder
+
+
+@cache
+def _draw_alone() -> Drawn:
+    return drawn_axis(1, with_stranger=False)
+
+
+@cache
+def _draw_beside() -> Drawn:
+    return drawn_axis(2, with_stranger=True)
 
 
 @pytest.mark.long
@@ -25,36 +43,77 @@ def test_an_axis_has_two_to_four_causes_of_the_size_that_is_stated() -> None:
 
 
 def test_a_stranger_stands_beside_the_causes() -> None:
-    assert drawn_axis(2, with_stranger=True).stranger is not None
+    assert _draw_beside().stranger is not None
 
 
 def test_names_that_no_cause_has_are_wrong_and_the_whole_set_is_counted() -> None:
-    drawn = drawn_axis(1, with_stranger=False)
+    drawn = _draw_alone()
     whole = Outcome(drawn, drawn.causes, {}, 1.0, remainder=False, is_placed=False, seconds=2.0)
     first, *_ = drawn.causes
     half = Outcome(drawn, (first, "no such effect"), {}, 3.0, remainder=True, is_placed=False, seconds=4.0)
     assert (half.found, half.wrong) == ((first,), ("no such effect",))
     causes = len(drawn.causes)
     last = report([whole, half]).splitlines()[-2]
-    assert last.startswith(f"2 axes: {causes + 1} of {2 * causes} causes found, 1 wrong, the whole set in 1,")
+    assert last.startswith(f"2 axes: {causes + 1} of {2 * causes} causes found, other names: 1, of them ")
+    assert "wrong: 1, the whole set in 1," in last
     assert "down to 1.15 σ in 1, something left without a name in 1" in last
     assert "3.0 s of CPU" in last
 
 
-def test_a_cause_that_is_named_as_an_equal_of_what_was_added_is_no_wrong_name_beyond_equals() -> None:
-    drawn = drawn_axis(1, with_stranger=False)
+def test_a_cause_that_is_named_as_an_equal_of_what_was_added_makes_one_name_right() -> None:
+    drawn = _draw_alone()
     first, *others = drawn.causes
-    equals = {"its twin": frozenset({first})}
-    outcome = Outcome(
-        drawn, ("its twin", *others), equals, 1.0, remainder=False, is_placed=False, seconds=2.0
-    )
-    assert outcome.wrong == ("its twin",)
-    assert outcome.wrong_beyond_equals == ()
+    equals = {"its twin": frozenset({first}), "another": frozenset({first})}
+    built = ("its twin", "another", *others)
+    outcome = Outcome(drawn, built, equals, 1.0, remainder=False, is_placed=False, seconds=2.0)
+    assert outcome.others == ("its twin", "another")
+    assert outcome.wrong == ("another",)
     assert outcome.as_equals == drawn.causes
+    assert "(its twin), another |" in report([outcome])
+
+
+@pytest.mark.parametrize(("mean", "names"), [(2.0, ("backlash",)), (0.0, ())])
+def test_lost_motion_is_the_mean_of_a_gap_that_changes(mean: float, names: tuple[str, ...]) -> None:
+    drawn = _draw_beside()
+    design = drawn.observed.design
+    gap = design.direction * (mean * drawn.sigma + drawn.sigma * np.sin(20 * design.position))
+    even = gap - design.direction * (np.mean(design.direction * gap) - mean * drawn.sigma)
+    assert replace(drawn, beside=even).in_stranger == names
+
+
+def _left(low: float, high: float, unit: Unit = MILLIMETRE) -> Remainder:
+    """Return what is told to be left between two places, or moments."""
+    nowhere = Words("anywhere")
+    return Remainder(1e-6, 0.5, nowhere, low, high, unit, nowhere, 1e-6, None, Course.PLACE)
+
+
+def _with_stranger(drawn: Drawn, values: FloatArray) -> Drawn:
+    return replace(drawn, beside=values - values.mean())
+
+
+def test_a_stranger_is_placed_where_it_is_larger_than_elsewhere() -> None:
+    drawn = _draw_alone()
+    where = drawn.observed.design.position
+    bump = _with_stranger(drawn, np.exp(-0.5 * ((where - 0.4) / 0.05) ** 2))
+    assert is_where_told(_left(0.3, 0.5), bump)
+    assert not is_where_told(_left(0.6, 0.9), bump)
+    assert not is_where_told(_left(2.0, 3.0), bump)  # no reading lies there
+    assert is_where_told(_left(*drawn.observed.design.span), bump)
+    assert not is_where_told(_left(0.3, 0.5), drawn)
+
+
+def test_a_stranger_in_time_is_placed_by_the_moment() -> None:
+    drawn = _draw_alone()
+    moment = drawn.observed.design.time
+    end = float(moment.max())
+    late = _with_stranger(drawn, 1.0 * (moment > 0.7 * end))
+    seconds = Unit("s", "s", 1.0)
+    assert is_where_told(_left(0.75 * end, end, seconds), late)
+    assert not is_where_told(_left(0.0, 0.5 * end, seconds), late)
 
 
 def test_what_is_left_is_placed_where_the_stranger_is_largest() -> None:
-    drawn = drawn_axis(2, with_stranger=True)
+    drawn = _draw_beside()
     assert drawn.beside is not None
     assert abs(drawn.beside.mean()) < 1e-9 * np.abs(drawn.beside).max()
     last = report([Outcome(drawn, (), {}, 2.0, remainder=True, is_placed=True, seconds=1.0)])

@@ -8,11 +8,30 @@ import pytest
 
 from model.axis_tests import EFFECTS, model_of
 from model.hidden_effect import example_diagnosis
-from zlmreport.model.diagnosis.building import build
+from zlmreport.model.diagnosis.building import build, name_steps
 from zlmreport.model.diagnosis.contest import Told
-from zlmreport.model.diagnosis.diagnosis import Diagnosis
+from zlmreport.model.diagnosis.diagnosis import Diagnosis, Verdict
 from zlmreport.model.effects.axis_model import AxisModel
 from zlmreport.model.fitting.fit import fit
+
+
+def test_a_step_is_named_with_what_the_readings_do_not_tell_from_it() -> None:
+    example = example_diagnosis()
+    first = replace(example.candidates[0], effect=EFFECTS["scale-kink"], equals=("first-run", "backlash"))
+    said = iter(
+        [
+            replace(example, together=(EFFECTS["scale-kink"],), candidates=(first,)),
+            replace(example, together=(EFFECTS["first-run"],), candidates=()),
+            replace(example, together=(), verdict=Verdict.ADEQUATE),
+        ]
+    )
+
+    def diagnosing(model: AxisModel, _may_go: frozenset[str], _told: Told) -> Diagnosis:
+        return replace(next(said), fit=fit(model, example.fit.design, example.fit.deviation))
+
+    found = build(model_of("offset"), diagnosing)
+    # What came in later is told from it.
+    assert name_steps(found.steps) == ("+ scale-kink or backlash", "+ first-run")
 
 
 @pytest.mark.long

@@ -326,3 +326,14 @@ def test_a_curve_without_a_name_varies_about_nothing() -> None:
     for each in curves:
         columns = contest.columns.values(each.columns)
         assert np.abs(gap @ columns).max() < 1e-9 * np.linalg.norm(gap) * np.linalg.norm(columns)
+
+
+def test_a_curve_of_the_reversal_without_a_name_has_no_lost_motion_in_it() -> None:
+    contest = _contest(EFFECTS["offset"].columns(DESIGN, np.empty(0)))
+    gap = contest.space.of(DESIGN.direction[:, np.newaxis] / len(DESIGN.direction) ** 0.5)
+    curves = [each for each in contest.parts if each.course in (Course.REVERSAL, Course.REVERSAL_IN_TIME)]
+    assert len(curves) == 4
+    for each in curves:
+        # Each has a mean square of one at the readings.
+        shared = gap.T @ contest.columns.values(each.columns)
+        assert np.abs(shared).max() < 0.01 * len(DESIGN.direction) ** 0.5

@@ -165,3 +165,16 @@ def test_the_formula_is_accepted_by_a_job_at_any_place_and_time() -> None:
     left = _left(4 * UM * np.exp(-4 * np.log(2) * ((late.time - 80_900) / 300) ** 2), late)
     assert left is not None
     assert FormulaKeys.model_validate(_formula(left).model_dump()) == left.formula
+
+
+def test_a_lever_that_comes_and_goes_is_placed_over_the_time_in_which_it_does() -> None:
+    moment = (DESIGN.time - DESIGN.time.min()) / DESIGN.duration
+    lever = 2.0 * (DESIGN.position - DESIGN.middle) / DESIGN.length
+    first, second = (
+        np.exp(-4 * np.log(2) * ((moment - at) / width) ** 2) for at, width in ((0.25, 0.17), (0.7, 0.33))
+    )
+    left = _left(6 * UM * lever * (first - 1.6 * second))
+    assert left is not None
+    # At the middle of the travel it is nothing, and there the stretch does not end.
+    assert left.low == pytest.approx(0.53 * DESIGN.duration, abs=0.06 * DESIGN.duration)
+    assert left.high == pytest.approx(0.87 * DESIGN.duration, abs=0.06 * DESIGN.duration)

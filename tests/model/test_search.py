@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
-from model.axis_tests import linear_test, model_of
+from model.axis_tests import EFFECTS, SIGMA, linear_test, model_of, noise
 from zlmreport.model.fitting.fit import Assumptions, fit
 
 
@@ -27,3 +28,17 @@ def _kinks(seeds: int) -> list[float]:
 def test_a_place_that_nothing_tells_from_its_neighbours_is_chosen_alike() -> None:
     kinks = _kinks(4)
     np.testing.assert_allclose(kinks, kinks[0], rtol=1e-6)
+
+
+def test_a_fit_is_as_good_in_whichever_order_the_effects_stand() -> None:
+    design = linear_test(9, 2)
+    step, wave = EFFECTS["lost-motion-step"], EFFECTS["lost-motion-wave"]
+    of_step, of_wave = step.columns(design, np.array([0.683])), wave.columns(design, np.array([0.2313]))
+    clean = 3 * of_step[:, 0] / of_step.std() + (of_wave / of_wave.std(axis=0)) @ np.array([-1.8, 1.2])
+    readings = SIGMA * clean + noise(design)
+    plain = Assumptions(parts=(), weights=np.ones(len(readings)))
+    errors = [
+        fit(model_of("offset", *both), design, readings, plain).rms for both in ((step, wave), (wave, step))
+    ]
+    assert errors[0] == pytest.approx(errors[1], rel=1e-6)
+    assert errors[0] < 1.2 * SIGMA

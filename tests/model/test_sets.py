@@ -106,7 +106,7 @@ def test_what_is_left_of_a_set_has_the_same_effects_and_no_others() -> None:
 def test_an_effect_that_is_not_needed_goes_out_again() -> None:
     contest = _contest(_hiding(("screw-pitch", [0.01]), ("backlash", [])))
     search = SetSearch(contest)
-    start = search.member_of(EFFECTS["first-run"], np.empty(0))
+    [start] = search.members_of([(EFFECTS["first-run"], np.empty(0))])
     assert _names(search.found([start])) == {"screw-pitch", "backlash"}
 
 
@@ -191,7 +191,7 @@ def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:
 
 def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None:
     search, (first, second) = _with_two_joints(0.5)
-    once, twice = search.member_of(first, np.array([0.3])), search.member_of(second, np.array([0.5]))
+    once, twice = search.members_of([(first, np.array([0.3])), (second, np.array([0.5]))])
     alone, both = (search.renumbered(search.as_noise(each)) for each in ((twice,), (once, twice)))
     assert [each.identifier for each in alone.members] == ["scale-joint"]
     assert alone.members[0].theta == pytest.approx([0.5])
@@ -200,5 +200,18 @@ def test_no_effect_stands_for_the_second_time_that_does_not_stand_once() -> None
 
 def test_an_effect_for_the_second_time_is_no_rival_of_itself() -> None:
     search, (first, _) = _with_two_joints(0.5)
-    found = search.as_noise([search.member_of(first, np.array([0.5]))])
+    found = search.as_noise(search.members_of([(first, np.array([0.5]))]))
     assert search.rivals(found, search.without(found, 0), 40.0) == []
+
+
+@pytest.mark.long
+def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
+    names = ("worn-zone", "backlash", "backlash-bow", "backlash-gradient", "one-way-step")
+    step, wave = EFFECTS["lost-motion-step"], EFFECTS["lost-motion-wave"]
+    design = linear_test(21, 3, seed=7)
+    readings = step.columns(design, np.array([0.083])) @ np.array([6.5e-6]) + noise(design, 7)
+    readings = readings + wave.columns(design, np.array([0.718])) @ np.array([-2.18e-6, 1.47e-6])
+    few = (*(EFFECTS[name] for name in names), step, wave)
+    found = SetSearch(_contest(readings, design, few)).found()
+    assert {"lost-motion-step", "lost-motion-wave"} <= _names(found)
+    assert "worn-zone" not in _names(found)

@@ -32,6 +32,13 @@ def test_each_step_says_how_far_the_error_falls(job: Path) -> None:
     assert (first["share"], second["share"], second["floor"]) == (0.25, 0.125, 0.125)
 
 
+def test_a_step_names_those_that_the_readings_do_not_tell_from_it(job: Path) -> None:
+    steps = [{**STEP, "indistinguishable_from": ["screw-pitch"]}]
+    effects = registry().effects
+    (step,) = make_stairs(steps, load(job, registry()), registry(), Naming.of(effects, Language.GERMAN))
+    assert step["name"] == "+ Umkehrspanne oder Periodischer Steigungsfehler der Spindel"
+
+
 def test_what_goes_out_again_has_a_minus_and_an_unknown_noise_no_mark(job: Path) -> None:
     (step,) = make_stairs(
         [{**STEP, "removed": True, "noise_rms": None}],

@@ -173,12 +173,15 @@ class BuildStep:
         The error without this step and with it, µm or ″.
     removed
         Whether it went out again.
+    equals
+        Effects that the readings do not tell from it.
     """
 
     effect: str
     rms_before: float
     rms_after: float
     removed: bool
+    equals: tuple[str, ...] = ()
 
 
 class Build:
@@ -195,7 +198,13 @@ class Build:
     def steps(self) -> tuple[BuildStep, ...]:
         """What came in and went out, in order."""
         return tuple(
-            BuildStep(each["effect"], each["rms_before"], each["rms_after"], bool(each.get("removed", False)))
+            BuildStep(
+                each["effect"],
+                each["rms_before"],
+                each["rms_after"],
+                bool(each.get("removed", False)),
+                tuple(each.get("indistinguishable_from", ())),
+            )
             for each in self._values["steps"]
         )
 

@@ -13,6 +13,7 @@ from zlmreport.document.subjects.fit import write_deviation
 from zlmreport.errors import ZlmreportError
 from zlmreport.job.job import Job
 from zlmreport.language import Language
+from zlmreport.model.diagnosis.report import list_alternatives
 from zlmreport.plugin.registry import Registry
 from zlmreport.web.naming import Naming
 
@@ -44,12 +45,18 @@ def _list_stairs(
             "effect": each["effect"],
             "argument": _write_argument(each["effect"], each["settings"], job, registry),
             "removed": removed,
-            "name": f"{'−' if removed else '+'} {names.text(each['effect'])}",
+            "name": f"{'−' if removed else '+'} {_name_one_of(each, names)}",
             "before": written(each["rms_before"]),
             "after": written(each["rms_after"]),
             "share": each["rms_after"] / largest,
             "floor": None if noise is None else min(1.0, noise / largest),
         }
+
+
+def _name_one_of(step: Mapping[str, Any], names: Naming) -> str:
+    """Return the effect of a step, with those that the readings do not tell from it."""
+    titles = [names.text(each) for each in (step["effect"], *step.get("indistinguishable_from", ()))]
+    return list_alternatives(titles).in_language(names.language)
 
 
 def _write_argument(effect: str, settings: Mapping[str, Any], job: Job, registry: Registry) -> str:

@@ -7,7 +7,7 @@ makeshift, and stop where nothing is left that has a name.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 from zlmreport.model.diagnosis.contest import Told, tell_nobody
@@ -31,6 +31,7 @@ class BuildStep:
     before: ErrorNumbers  #: How far the model is from the readings without this step.
     after: ErrorNumbers  #: The same with it.
     is_removed: bool = False  #: Whether the effect goes out again.
+    equals: tuple[str, ...] = ()  #: Effects that the readings did not tell from it when it came in.
 
     @property
     def identifier(self) -> str:
@@ -85,7 +86,16 @@ def build(model: AxisModel, diagnosing: Diagnosing, told: Told = tell_nobody) ->
         steps += taken
         may_go = frozenset(each.identifier for each in steps) - own
         found.append(diagnosing(model, may_go, _tell_part(told, len(found))))
-    return Built(found[0], tuple(steps), found[-1], model)
+    told_apart = frozenset(model.identifiers)  # what came in later is told from what was there
+    return Built(
+        found[0],
+        tuple(
+            replace(each, equals=tuple(other for other in each.equals if other not in told_apart))
+            for each in steps
+        ),
+        found[-1],
+        model,
+    )
 
 
 def _tell_part(told: Told, rounds: int) -> Told:
@@ -97,6 +107,7 @@ def _tell_part(told: Told, rounds: int) -> Told:
 def _extend_model(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, list[BuildStep]]:
     """Return the model with the set of a diagnosis, and the steps to it; what cannot be fitted ends it."""
     fitted, error = diagnosis.fit, diagnosis.error
+    equals = {each.identifier: each.equals for each in diagnosis.candidates}
     changes = [(each, False) for each in diagnosis.together]
     changes += [(term.effect, True) for term in model.terms if term.effect.identifier in diagnosis.makeshift]
     steps: list[BuildStep] = []
@@ -107,10 +118,14 @@ def _extend_model(model: AxisModel, diagnosis: Diagnosis) -> tuple[AxisModel, li
         except ModelError:
             break
         model, before, error = changed, error, compute_error_numbers(fitted)
-        steps.append(BuildStep(effect, before, error, is_removed))
+        beside = () if is_removed else equals.get(effect.identifier, ())
+        steps.append(BuildStep(effect, before, error, is_removed, beside))
     return model, steps
 
 
 def name_steps(steps: Sequence[BuildStep]) -> tuple[str, ...]:
-    """Return the effects of steps, those that go out with a minus."""
-    return tuple(f"− {each.identifier}" if each.is_removed else f"+ {each.identifier}" for each in steps)
+    """Return the effects of steps with those not told from them, what goes out with a minus."""
+    return tuple(
+        f"− {each.identifier}" if each.is_removed else f"+ {' or '.join((each.identifier, *each.equals))}"
+        for each in steps
+    )

@@ -44,6 +44,8 @@ _ZERO = 1e-14
 Told: TypeAlias = Callable[[float], object]
 #: For each part the number of its level.
 Amplitudes: TypeAlias = tuple[int, ...]
+#: Amplitudes, and the places of the columns of each member of a set, in their order.
+_Place: TypeAlias = tuple[Amplitudes, tuple[bytes, ...]]
 
 
 def tell_nobody(_share: float) -> None:
@@ -125,6 +127,10 @@ class Contest:
     least_visible: float
     expected: PriorExpectation = field(default_factory=PriorExpectation)
     _known: dict[Amplitudes, _Active] = field(default_factory=dict, repr=False)
+    # A search comes by the same set again and again, from other sets.
+    _reduced: dict[_Place, Reduced] = field(default_factory=dict, repr=False)
+    _criteria: dict[_Place, float] = field(default_factory=dict, repr=False)
+    _scans: dict[tuple[_Place, tuple[int, ...] | None], Scan] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(  # noqa: PLR0913 - a test, a model, what contends, and what is known
@@ -295,6 +301,12 @@ class Contest:
 
     def reduced(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
         """Return a set of columns under amplitudes."""
+        place = _place_of(amplitudes, members)
+        if place not in self._reduced:
+            self._reduced[place] = self._reduce(amplitudes, members)
+        return self._reduced[place]
+
+    def _reduce(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> Reduced:
         active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
         count, root = len(active.places), active.roots
         products = self.columns.products_among(active.ratios, active.places, own)
@@ -320,6 +332,12 @@ class Contest:
 
     def criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
         """Return −2·ln of the restricted likelihood times the prior odds of the amplitudes."""
+        place = _place_of(amplitudes, members)
+        if place not in self._criteria:
+            self._criteria[place] = self._compute_criterion(amplitudes, members)
+        return self._criteria[place]
+
+    def _compute_criterion(self, amplitudes: Amplitudes, members: Sequence[IntArray]) -> float:
         active, own = self._active(amplitudes), np.concatenate([self.response[:0], *members])
         count, key = len(active.places), active.ratios
         products = self.columns.products_among(key, np.concatenate([active.places, self.response]), own)
@@ -422,6 +440,12 @@ class Contest:
         self, amplitudes: Amplitudes, members: Sequence[IntArray], only: Sequence[int] | None = None
     ) -> Scan:
         """Return what every family would add to a set; or only some, by their numbers."""
+        place = _place_of(amplitudes, members), None if only is None else tuple(only)
+        if place not in self._scans:
+            self._scans[place] = self._scan(amplitudes, members, only)
+        return self._scans[place]
+
+    def _scan(self, amplitudes: Amplitudes, members: Sequence[IntArray], only: Sequence[int] | None) -> Scan:
         reduced = self.reduced(amplitudes, members)
         squares, taken = self.left(reduced)
         count = len(self.families)
@@ -570,6 +594,10 @@ def average_evidence(trials: Sequence[Trials]) -> tuple[FloatArray, FloatArray]:
         nothing
         - _average_likelihoods(criteria[:, np.newaxis] - np.array([each.nameless for each in trials]), 0),
     )
+
+
+def _place_of(amplitudes: Amplitudes, members: Sequence[IntArray]) -> _Place:
+    return amplitudes, tuple(each.tobytes() for each in members)
 
 
 def _root_of(gram: FloatArray) -> FloatArray:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from zlmreport.job.choices import part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.model.diagnosis.contest import Amplitudes
 from zlmreport.model.diagnosis.families import Family
 from zlmreport.model.effects.effect import Effect
+
+#: By what members of a contest are told apart: family, columns, what the search cost, tangents.
+MemberKey: TypeAlias = tuple[int, bytes, float, bytes]
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +26,12 @@ class SetMember:
     rank: int  #: How many of them are not zero.
     spread: float = 0.0  #: What it costs that θ had to be found.
     tangents: IntArray | None = None  #: Place of what a shift of θ would change.
+
+    @property
+    def key(self) -> MemberKey:
+        """By what it is told from other members."""
+        tangents = b"" if self.tangents is None else self.tangents.tobytes()
+        return id(self.family), self.columns.tobytes(), self.spread, tangents
 
     @property
     def identifier(self) -> str:

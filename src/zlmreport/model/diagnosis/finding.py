@@ -41,8 +41,9 @@ from zlmreport.model.fitting.search import Thetas
 
 #: Evidence that anything must have to be worth a mention.
 MENTION = 2.0
-#: Evidence of its own, prior odds counted, that an effect needs to be named.
-NAMED = 1.4
+#: Evidence of its own, prior odds counted, that an effect needs to be named; and beside others, where without
+#: it there is nothing but noise: chance is asked about the first, of those beside it nobody asks (9 to 1).
+NAMED, NAMED_BESIDE = 1.4, 4.4
 #: Evidence within which two effects are not told apart: odds of 20 to 1.
 TOLD_APART = 6.0
 #: What a rival may lack that is told of.
@@ -224,7 +225,9 @@ def _contest_effects(stated: _Stated, memory: float, told: Told) -> _Contested:
     search = SetSearch(contest)
     pairs = zip(fitted.model.terms, fitted.solution.thetas, strict=True)
     start = search.as_noise(
-        [search.member_of(term.effect, at) for term, at in pairs if term.effect.identifier in stated.may_go]
+        search.members_of(
+            [(term.effect, at) for term, at in pairs if term.effect.identifier in stated.may_go]
+        )
     )
     null = simulate_null(contest, start.amplitudes, start.columns)
     deviations = fitted.open_deviation[:, np.newaxis]
@@ -279,18 +282,29 @@ def _believe_set(search: SetSearch, found: EffectSet) -> EffectSet:
     """
     while found.members:
         without = [search.without(found, number) for number in range(len(found.members))]
-        number = min(range(len(without)), key=lambda each: without[each].score)
-        lost = without[number].score - found.score
-        if 0.0 < lost < NAMED and found.members[number].family.is_named:
-            # Each must be better than nothing by itself: many that are not make no cause together.
-            rivals = search.rivals(found, without[number], lost)
-            lost += 2.0 * float(
-                np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
-            )
-        if lost >= NAMED:
+        order = sorted(range(len(without)), key=lambda each: without[each].score)
+        needless = next((each for each in order if not _is_needed(search, found, each, without[each])), None)
+        if needless is None:
             break
-        found = without[number]
+        found = without[needless]
     return _keep_sure(search, found) if search.has_nameless(found) else found
+
+
+def _is_needed(search: SetSearch, found: EffectSet, number: int, rest: EffectSet) -> bool:
+    """Return whether the readings ask for a member of a set, or for another in its place.
+
+    `rest`: The set without it.
+    """
+    lost, is_named = rest.score - found.score, found.members[number].family.is_named
+    is_noise = len(found.members) > 1 and not search.has_nameless(rest)
+    needed = NAMED_BESIDE if is_named and is_noise else NAMED
+    if 0.0 < lost < needed and is_named:
+        # Each must be better than nothing by itself: many that are not make no cause together.
+        rivals = search.rivals(found, rest, lost)
+        lost += 2.0 * float(
+            np.log(sum(np.exp(-0.5 * (each.score - found.score)) for each in (found, *rivals)))
+        )
+    return lost >= needed
 
 
 def _keep_sure(search: SetSearch, found: EffectSet) -> EffectSet:

@@ -256,12 +256,27 @@ def _place(main: _Share, whole: FloatArray, design: Design) -> tuple[Words, floa
         return _RUN.given(run=run), float(own.min()), float(own.max()), unit
     labels = design.time if is_time else design.position
     along, group = np.unique(labels, return_inverse=True)
-    means = np.sqrt(np.bincount(group, weights=whole**2) / np.bincount(group))
+    squares = np.bincount(group, weights=whole**2) / np.bincount(group)
+    if is_time:
+        squares = _average_over_passes(squares, len(design.target_positions))
+    means = np.sqrt(squares)
     peak = int(np.argmax(means))
     low, high = _find_ends_about(along, means >= _HALF * means[peak], peak)
     if low <= along[0] and high >= along[-1]:
         return _BETWEEN.given(first=say(low), last=say(high)), low, high, unit
     return _ABOUT.given(place=say(float(along[peak]))), low, high, unit
+
+
+def _average_over_passes(squares: FloatArray, targets: int) -> FloatArray:
+    """Return squares, averaged over as many readings as there are targets about each.
+
+    What changes in time and acts by a lever, or in the reversal, is nothing at some targets: over a pass
+    along the axis that averages out.
+    """
+    window = np.ones(min(targets, len(squares)))
+    return np.asarray(
+        np.convolve(squares, window, "same") / np.convolve(np.ones(len(squares)), window, "same")
+    )
 
 
 def _find_ends_about(along: FloatArray, is_large: BoolArray, peak: int) -> tuple[float, float]:

@@ -301,7 +301,7 @@ def write_verdict_statement(diagnosis: Diagnosis) -> Words:
         return _say_unexplained(diagnosis)
     by_name = {each.identifier: each for each in diagnosis.candidates}
     groups = [
-        list_in_words([each.identifier, *by_name[each.identifier].equals], _OR) for each in diagnosis.together
+        list_alternatives([each.identifier, *by_name[each.identifier].equals]) for each in diagnosis.together
     ]
     is_many = len(groups) > 1
     missing = (_MISSING_TOGETHER if is_many else _MISSING).given(effects=list_in_words(groups, _AND))
@@ -362,6 +362,11 @@ def select_serious_candidates(diagnosis: Diagnosis) -> tuple[Candidate, ...]:
         for each in diagnosis.candidates
         if each.identifier in named or each.equals or each.probability >= _SERIOUS
     )
+
+
+def list_alternatives(names: Sequence[str | Words]) -> Words:
+    """Return names of which one is meant: the last after an "or"."""
+    return list_in_words(names, _OR)
 
 
 def list_in_words(names: Sequence[str | Words], last: Words = _AND) -> Words:

@@ -3,8 +3,10 @@
 A set is scored by its evidence, the coefficients of its effects, their searched parameters and σ averaged
 over (`set_costs`), the amplitudes of all nameless parts chosen anew for each set. Effects come in, go out and
 take each other's places as long as the evidence grows; also in pairs where something without a name is left.
-The search begins twice, with effects alone and beside all that has no name: beside random curves of any size
-a cause may look needless, and without them one may look needed that is a makeshift.
+The search begins several times: with effects alone, beside white noise and beside any that noise may be, and
+beside all that has no name, there with each of the leading effects as the first. Beside random curves of any
+size a cause may look needless, without them one may look needed that is a makeshift, and what explains most
+by itself may stand for two.
 """
 
 from __future__ import annotations
@@ -17,9 +19,10 @@ import numpy as np
 
 from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, tell_nobody
+from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Scan, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
+    MemberKey,
     SetMember,
     find_installed_name,
     find_score,
@@ -49,10 +52,9 @@ _ROUNDS_OF_AMPLITUDES, _SETTLED, _NOTHING = 8, 0.02, 1e-3
 _SURE, _FEW = 6.0, 2
 #: To how many digits searched parameters are the same.
 _AS_FAR = ".3g"
-_NONE: frozenset[int] = frozenset()
-#: Parts that may be more than noise, whether forms are thought of, families with their searched parameters,
+#: How many levels of each part are thought of, whether forms are, families with their searched parameters,
 #: amplitudes.
-_State: TypeAlias = tuple[frozenset[int], bool, frozenset[tuple[int, tuple[str, ...]]], Amplitudes]
+_State: TypeAlias = tuple[Amplitudes, bool, frozenset[tuple[int, tuple[str, ...]]], Amplitudes]
 
 
 class SetSearch:
@@ -60,12 +62,18 @@ class SetSearch:
 
     def __init__(self, contest: Contest) -> None:
         self.contest = contest
-        self._all = frozenset(range(len(contest.parts)))
-        self._free = self._all  # the parts that may be more than noise
+        # Of each part how many levels are thought of: all of them, those that are noise, or nothing.
+        self._whole = tuple(len(part.levels) for part in contest.parts)
+        self._noise = tuple(part.noise_levels for part in contest.parts)
+        self._levels = self._whole
         # Where a climb ends that comes by a set, and whether it was thorough.
         self._ends: dict[tuple[bool, _State], EffectSet] = {}
         # Of all sets that were looked at the best ones, by the effects and the forms that are in it.
         self._best: dict[tuple[frozenset[str], frozenset[str]], EffectSet] = {}
+        # What was tried already: best amplitudes near others, sets with one effect more, and with one less.
+        self._near: dict[tuple[Amplitudes, Amplitudes, frozenset[bytes]], Amplitudes] = {}
+        self._more: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
+        self._fewer: dict[tuple[Amplitudes, Amplitudes, tuple[MemberKey, ...]], EffectSet] = {}
         self._costs = SetCosts(contest)
         self._with_forms = True  # whether forms without a name are thought of
 
@@ -74,16 +82,21 @@ class SetSearch:
 
         `start`: Effects that are in it at first, and may go out.
         """
-        named = self._named_alone(start, is_thorough=False)
+        bare = self._named_alone(start, tuple(1 for _ in self._whole), is_thorough=False)
+        ends = [self._named_alone(each, self._noise, is_thorough=False) for each in (start, bare.members)]
+        named = min(ends, key=find_score)
         told(0.3)
         released = self._with(named.members, named.amplitudes)
         if not self._loud(released):
             released = self._climb(released)
-            is_whole = 0 < len(released.named) <= _FEW and not self.has_nameless(released)
+            is_whole = 0 < len(released.named) <= _FEW and not self._is_coloured(released)
             if is_whole and min(self.own_evidence(released)) > _SURE:
                 return released
         told(0.4)
-        beside = self._climb(self._with(start, self.contest.quiet), is_thorough=False)
+        begun = [self._with(start, self.contest.quiet)]
+        if self._is_coloured(released):
+            begun += self._ahead(self.alone(), _LISTED, _LISTED_FOR_ANOTHER, lambda family: family.is_named)
+        beside = min((self._climb(each, is_thorough=False) for each in begun), key=find_score)
         told(0.6)
         together = self._climb(self._united(beside, named), is_thorough=False)
         best = self._climb(min((released, beside, together), key=find_score))
@@ -91,16 +104,19 @@ class SetSearch:
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
             for near in (named, *self._named_near(best)):
-                whole = self._named_alone(near.members, is_thorough=True)
+                whole = self._named_alone(near.members, self._noise, is_thorough=True)
                 best = min(best, self._climb(self._with(whole.members, whole.amplitudes)), key=find_score)
         told(1.0)
         return best
 
-    def _named_alone(self, start: Sequence[SetMember], *, is_thorough: bool) -> EffectSet:
-        """Return where a climb ends beside which nothing is without a name."""
-        self._free, self._with_forms = _NONE, False
+    def _named_alone(self, start: Sequence[SetMember], levels: Amplitudes, *, is_thorough: bool) -> EffectSet:
+        """Return where a climb ends beside which nothing is without a name.
+
+        `levels`: Of each part, those that are thought of.
+        """
+        self._levels, self._with_forms = levels, False
         found = self._climb(self._with(start, self.contest.quiet), is_thorough=is_thorough)
-        self._free, self._with_forms = self._all, True
+        self._levels, self._with_forms = self._whole, True
         return found
 
     def _named_near(self, found: EffectSet) -> list[EffectSet]:
@@ -123,7 +139,12 @@ class SetSearch:
     def _loud(self, found: EffectSet) -> list[int]:
         """Return the parts without a name that are more than noise in a set."""
         quiet = self.contest.as_noise(found.amplitudes)
-        return [number for number in self._all if quiet[number] != found.amplitudes[number]]
+        return [number for number, level in enumerate(found.amplitudes) if level != quiet[number]]
+
+    def _is_coloured(self, found: EffectSet) -> bool:
+        """Return whether more than white noise is left beside a set, beyond doubt."""
+        white = self.contest.criterion(self.contest.quiet, found.columns)
+        return white - self.contest.criterion(found.amplitudes, found.columns) > _SURE
 
     def alone(self) -> EffectSet:
         """Return what there is without any effect."""
@@ -158,19 +179,40 @@ class SetSearch:
         return [self.without(found, number).score - found.score for number in range(len(found.members))]
 
     def without(self, found: EffectSet, number: int) -> EffectSet:
-        """Return a set without one of its members, what has no name as it then is."""
+        """Return a set without one of its members, all else at its best values then."""
         members = (*found.members[:number], *found.members[number + 1 :])
-        return self._with(members, found.amplitudes)
+        key = self._levels, found.amplitudes, tuple(each.key for each in members)
+        if key not in self._fewer:
+            self._fewer[key] = self._find_best_values(self._with(members, found.amplitudes))
+        return self._fewer[key]
+
+    def _find_best_values(self, found: EffectSet) -> EffectSet:
+        """Return the best of a set as it is, as it becomes once it is settled, and as it was met before."""
+        near = (found, self._settled(found)) if any(each.theta.size for each in found.members) else (found,)
+        known = self._best[list_names(found.named), list_unnamed(found)]
+        return min((*near, known), key=find_score)
 
     def as_noise(self, members: Sequence[SetMember]) -> EffectSet:
         """Return a set beside which there is nothing but noise."""
-        self._free = _NONE
+        self._levels = self._noise
         found = self._with(members, self.contest.quiet)
-        self._free = self._all
+        self._levels = self._whole
         return found
 
-    def member_of(self, effect: Effect, theta: FloatArray) -> SetMember:
-        """Return an effect of the contest at values of its searched parameters as a member of a set."""
+    def members_of(self, effects: Sequence[tuple[Effect, FloatArray]]) -> list[SetMember]:
+        """Return effects of the contest at values of their searched parameters as members of a set.
+
+        Each costs what had to be searched for, as if it had been found.
+        """
+        members = [self._make_member_at(effect, theta) for effect, theta in effects]
+        for number, each in enumerate(members):
+            rest = [other.columns for place, other in enumerate(members) if place != number]
+            own = next(place for place, other in enumerate(self.contest.families) if other is each.family)
+            spread = self.contest.scan(self.contest.quiet, rest, [own]).spread[own]
+            members[number] = replace(each, spread=float(spread))
+        return members
+
+    def _make_member_at(self, effect: Effect, theta: FloatArray) -> SetMember:
         family = next(
             each
             for each in self.contest.families
@@ -263,20 +305,25 @@ class SetSearch:
 
     def _amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
         """Return the best amplitudes of all parts near others, one after another."""
+        key = self._levels, start, frozenset(each.tobytes() for each in columns)
+        if key not in self._near:
+            self._near[key] = self._find_amplitudes(columns, start)
+        return self._near[key]
+
+    def _find_amplitudes(self, columns: Sequence[IntArray], start: Amplitudes) -> Amplitudes:
         contest = self.contest
-        quiet = contest.as_noise(start)
-        now = tuple(level if number in self._free else quiet[number] for number, level in enumerate(start))
+        now = tuple(min(level, most - 1) for level, most in zip(start, self._levels, strict=True))
         best = contest.criterion(now, columns)
         irregular = [number for number, part in enumerate(contest.parts) if part.irregular is not None]
         smooth = [number for number in range(len(contest.parts)) if number not in irregular]
         for turn in range(_ROUNDS_OF_AMPLITUDES):
             before = best
-            silent = [number for number in smooth if not now[number] and self._levels(number) > 1]
+            silent = [number for number in smooth if not now[number] and self._levels[number] > 1]
             for numbers in [silent, *self._alike(now, smooth)]:
                 if not numbers:
                     continue
                 tried = [
-                    each[: self._levels(number)]
+                    each[: self._levels[number]]
                     for number, each in zip(numbers, contest.by_level(now, columns, numbers), strict=True)
                 ]
                 leading = min(range(len(numbers)), key=lambda place: float(tried[place].min()))
@@ -287,7 +334,7 @@ class SetSearch:
                 level, noise = now[number], contest.parts[number].noise_levels
                 others = {0, level - 1, level + 1} if level or turn else {1, noise - 1, noise, noise + 2}
                 for other in sorted(others - {level}):
-                    if 0 <= other < self._levels(number):
+                    if 0 <= other < self._levels[number]:
                         criterion = contest.criterion(_move_amplitude(now, number, other), columns)
                         if criterion < best - _NOTHING:
                             best, now = criterion, _move_amplitude(now, number, other)
@@ -308,11 +355,6 @@ class SetSearch:
                 if len(alike) > 1:
                     yield alike
 
-    def _levels(self, number: int) -> int:
-        """Return how many levels of a part are thought of."""
-        part = self.contest.parts[number]
-        return len(part.levels) if number in self._free else part.noise_levels
-
     def _climb(self, start: EffectSet, *, is_thorough: bool = True) -> EffectSet:
         """Return the best set that moves lead to, one after another.
 
@@ -332,7 +374,7 @@ class SetSearch:
             other = self._exchanged(now)
             if other is None and is_thorough:
                 other = self._parted(now)
-            if other is None and is_thorough and self.has_nameless(now):
+            if other is None and is_thorough and self._is_coloured(now):
                 other = self._paired(now)
             if other is None:
                 break
@@ -345,7 +387,7 @@ class SetSearch:
         members = frozenset(
             (id(each.family), tuple(f"{value:{_AS_FAR}}" for value in each.theta)) for each in now.members
         )
-        return self._free, self._with_forms, members, now.amplitudes
+        return self._levels, self._with_forms, members, now.amplitudes
 
     def _shrunk(self, now: EffectSet) -> EffectSet:
         """Return a set without the members that the others make needless."""
@@ -410,7 +452,56 @@ class SetSearch:
             larger = self._larger(each, _TRIED, _TRIED_FOR_ANOTHER)
             if larger is not None and larger.score < now.score - _CLEAR_GAIN:
                 return larger
+        for each in self._list_pairs(now):
+            larger = self._settled(self._tried(each))
+            if larger.score < now.score - _CLEAR_GAIN:
+                return larger
         return None
+
+    def _list_pairs(self, now: EffectSet) -> list[EffectSet]:
+        """Return the most promising sets with two more installed effects, the best first.
+
+        Two may explain much together of which neither explains anything alone: a lever of the guide's angle
+        and the slope that it brings with it.
+        """
+        contest, found = self.contest, dict[frozenset[str], tuple[float, EffectSet]]()
+        for amplitudes in dict.fromkeys((contest.as_noise(now.amplitudes), contest.quiet)):
+            first = contest.scan(amplitudes, now.columns)
+            for number, family in enumerate(contest.families):
+                if not family.is_named or not np.isfinite(first.criterion[number]):
+                    continue
+                member = self._make_member(first, number)
+                members = (*list_beside(now.members, member.effect), member)
+                second = contest.scan(amplitudes, [each.columns for each in members])
+                other = min(self._others(family), key=lambda each: float(second.criterion[each]))
+                gain = float(first.criterion[number] + second.criterion[other])
+                last = self._make_member(second, other)
+                pair = frozenset((member.identifier, last.identifier))
+                if np.isfinite(gain) and gain < found.get(pair, (np.inf,))[0]:
+                    together = (*list_beside(members, last.effect), last)
+                    found[pair] = gain, EffectSet(together, amplitudes, np.inf)
+        best = sorted(found.values(), key=lambda each: each[0])[:_LISTED]
+        glanced = [self._glanced(each.members, each.amplitudes) for _, each in best]
+        return sorted(glanced, key=find_score)[:_TRIED]
+
+    def _others(self, family: Family) -> list[int]:
+        """Return the places of the families of other installed effects."""
+        return [
+            number
+            for number, each in enumerate(self.contest.families)
+            if each.is_named and each.identifier != family.identifier
+        ]
+
+    def _make_member(self, scan: Scan, number: int) -> SetMember:
+        """Return a family at its best values in a scan."""
+        family, block = self.contest.families[number], int(scan.best[number])
+        return SetMember(
+            family,
+            family.thetas[block],
+            family.blocks[block],
+            int(family.ranks[block]),
+            float(scan.spread[number]),
+        )
 
     def _ahead(
         self,
@@ -481,6 +572,12 @@ class SetSearch:
 
     def _tried(self, glanced: EffectSet) -> EffectSet:
         """Return a set with one effect more, its parameters between those of the grid."""
+        key = self._levels, glanced.amplitudes, tuple(each.key for each in glanced.members)
+        if key not in self._more:
+            self._more[key] = self._refine_last(glanced)
+        return self._more[key]
+
+    def _refine_last(self, glanced: EffectSet) -> EffectSet:
         members = list(glanced.members)
         amplitudes = self._amplitudes(glanced.columns, glanced.amplitudes)
         members, has_moved = jump_along_grids(self.contest, members, amplitudes)

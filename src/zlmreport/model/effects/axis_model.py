@@ -140,15 +140,22 @@ class AxisModel:
 
         A column whose coefficient equals another is added to that.
         """
-        found = [term.columns(design, theta) for term, theta in zip(self.terms, thetas, strict=True)]
+        own = [term.columns(design, theta) for term, theta in zip(self.terms, thetas, strict=True)]
+        return self.add_linked(design, thetas, own)
+
+    def add_linked(
+        self, design: Design, thetas: Sequence[FloatArray], own: Sequence[tuple[FloatArray, FloatArray]]
+    ) -> list[tuple[FloatArray, FloatArray]]:
+        """Return what `columns` does, from the columns of each term by itself."""
+        found = list(own)
         for index, column, other, place in self._links(lambda effect: effect.linear):
-            own = self.terms[index].effect.columns(design, thetas[index])[:, column]
+            linked = self.terms[index].effect.columns(design, thetas[index])[:, column]
             target, (solved, given) = self.terms[other], found[other]
             if target.is_solved[place]:
                 solved = solved.copy()
-                solved[:, int(np.count_nonzero(target.is_solved[:place]))] += own
+                solved[:, int(np.count_nonzero(target.is_solved[:place]))] += linked
             else:
-                given = given + own * target.fixed[target.effect.linear[place].name]
+                given = given + linked * target.fixed[target.effect.linear[place].name]
             found[other] = solved, given
         return found
 

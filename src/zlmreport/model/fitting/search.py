@@ -8,7 +8,7 @@ whole grid first, then between its values, then by Gauss-Newton steps.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
@@ -82,16 +82,29 @@ class FitProblem:
     design: Design
     deviation: FloatArray
     whiten: Callable[[FloatArray], FloatArray]  #: Makes readings independent.
+    # Of each term its last θ and what it comes to: from one solution to the next one term changes.
+    _last: dict[int, tuple[bytes, tuple[FloatArray, FloatArray]]] = field(
+        default_factory=dict, repr=False, compare=False
+    )
 
     def solution(self, thetas: Thetas) -> Solution:
         """Return the linear parameters for one θ."""
         thetas = self.model.linked(thetas)
-        pairs = self.model.columns(self.design, thetas)
+        own = [self._columns(index, theta) for index, theta in enumerate(thetas)]
+        pairs = self.model.add_linked(self.design, thetas, own)
         empty = np.empty((len(self.deviation), 0))
         columns = self.whiten(np.concatenate([empty, *(each for each, _ in pairs)], axis=1))
         left = self.whiten(self.deviation - np.sum([given for _, given in pairs], axis=0))
         solved = solve(columns, left)
         return Solution(thetas, self.model.coefficients(solved), columns, left - columns @ solved)
+
+    def _columns(self, index: int, theta: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the columns of a term whose coefficients are solved, and what the given ones make."""
+        key, known = theta.tobytes(), self._last.get(index)
+        if known is None or known[0] != key:
+            known = key, self.model.terms[index].columns(self.design, theta)
+            self._last[index] = known
+        return known[1]
 
     def places(self, thetas: Thetas) -> tuple[ContinuousParameter, ...]:
         """Return the searched parameters that vary continuously."""
@@ -116,8 +129,16 @@ def solve(columns: FloatArray, values: FloatArray) -> FloatArray:
 def search(problem: FitProblem) -> Solution:
     """Return the best fit over the whole grid of every term, refined."""
     grids = [term.grid(problem.design) for term in problem.model.terms]
-    best = problem.solution(tuple(grid[0] for grid in grids))
     searched = [index for index, grid in enumerate(grids) if len(grid) > 1]
+    best = _sweep(problem, grids, searched)
+    if len(searched) > 1:  # where the search ends hangs on whose value is searched beside a wrong one
+        best = _choose_better(best, _sweep(problem, grids, searched[::-1]))
+    return refine(problem, best)
+
+
+def _sweep(problem: FitProblem, grids: Sequence[FloatArray], searched: Sequence[int]) -> Solution:
+    """Return the best fit that is found grid after grid, in an order of the terms."""
+    best = problem.solution(tuple(grid[0] for grid in grids))
     for _ in range(_SWEEPS if len(searched) > 1 else len(searched)):
         before = best
         for index in searched:
@@ -126,7 +147,7 @@ def search(problem: FitProblem) -> Solution:
                 best = _choose_better(best, tried)
         if best is before:
             break
-    return refine(problem, best)
+    return best
 
 
 def refine(problem: FitProblem, start: Solution) -> Solution:
