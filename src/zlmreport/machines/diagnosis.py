@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.machines.choosing import add_effect, add_form, refine_form
+from zlmreport.machines.choosing import add_effect, add_form, measure_sharpness, refine_form
 from zlmreport.machines.contest import (
     SIZES,
     CircleContest,
@@ -26,7 +26,7 @@ from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue
-from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.model.effects.circle_effect import CircleEffect, Parity
 
 #: Evidence that a cause after the first must bring more than that, that is worth a mention, and by which a
 #: name must surpass a shape without one.
@@ -107,7 +107,9 @@ class _Stage:
     shown: tuple[CircleCandidate, ...]
     hidden: tuple[str, ...]
     gathered: float  #: Evidence of all effects that came in, less what each further one must bring.
-    curve: float  #: Evidence of the best curve without a name; 0 where nothing is left.
+    #: Evidence of the best curve without a name, less what it must bring as a cause more; 0 where nothing is
+    #: left.
+    curve: float
 
     @property
     def is_something_left(self) -> bool:
@@ -122,8 +124,7 @@ class _Stage:
     @property
     def worth(self) -> float:
         """Evidence of the model so far, with a curve without a name beside it where something is left."""
-        price = FURTHER if self.gathered and self.curve else 0.0
-        return self.gathered + max(self.curve - price, 0.0)
+        return self.gathered + self.curve
 
 
 def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDiagnosis:
@@ -181,7 +182,8 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
     ]
     while True:
         outcome, hidden = _hold_effects(current, forms_of, curves, len(stages))
-        beside = _weigh_curve(current, outcome, curves)
+        price = _price_curve(current, outcome, curves) if stages else 0.0
+        beside = max(_weigh_curve(current, outcome, curves) - price, 0.0)
         stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered, beside)
         stages.append(stage)
         leader = stage.leader
@@ -215,6 +217,17 @@ def _weigh_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Na
     return outcome.shape_evidence + find_anew(likeliest, deviation, shapes)
 
 
+def _price_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
+    """Return what a curve without a name must bring beside effects that came in.
+
+    A catalogue knows the shape of what follows a reversal only roughly: what is left of it there is no cause
+    more.
+    """
+    is_locked = any(each.is_locked for each in curves if each.shape == outcome.shape)
+    is_by_travel = any(each.effect.law.parity is Parity.BY_TRAVEL for each in study.effects)
+    return 0.0 if is_locked and is_by_travel else FURTHER
+
+
 def _hold_effects(
     study: CircleStudy, forms_of: Sequence[_Forms], curves: Sequence[Nameless], seed: int
 ) -> tuple[CircleContest, list[str]]:
@@ -229,7 +242,12 @@ def _hold_effects(
             tried.append((effect, seen))
         else:
             unseen.append(effect.identifier)
-    return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
+
+    def refine(effect: CircleEffect, form: CircleForm) -> tuple[CircleForm, float]:
+        refined = refine_form(study, effect, form)
+        return refined, measure_sharpness(study, effect, refined)
+
+    return contest(Held(study.model, study.noise, study.deviation), tried, curves, refine, seed), unseen
 
 
 def _is_seen(columns: FloatArray, basis: FloatArray) -> bool:
