@@ -129,6 +129,8 @@ CAUSES = (
     "squareness", "scale-mismatch", "servo-mismatch", "circle-backlash", "over-compensation", "lateral-play",
     "reversal-spikes", "cyclic-error", "bow", "vibration", "stick-slip",
 )  # fmt: skip
+#: Of which a parameter of the effect of their name is known.
+MEASURED = ("squareness", "scale-mismatch", "servo-mismatch", "circle-backlash")
 PAIRS = (
     ("servo-mismatch", "scale-mismatch"), ("squareness", "circle-backlash"),
     ("circle-backlash", "servo-mismatch"),

@@ -194,7 +194,8 @@ def _compute_rise_and_fall(since: FloatArray, width: float) -> FloatArray:
 
 def _compute_return(since: FloatArray, width: float) -> FloatArray:
     """Return what an axis leaves that creeps likewise, and is brought back gently: exp(−((φ − w)/w)²)."""
-    return np.where(since < width, 1.0 - (1.0 - since / width) ** 2, np.exp(-(((since - width) / width) ** 2)))
+    behind = since / width - 1.0
+    return np.where(behind < 0.0, 1.0 - behind**2, np.exp(-(behind**2)))
 
 
 _SHAPES: tuple[Callable[[FloatArray, float], FloatArray], ...] = (

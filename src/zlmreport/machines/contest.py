@@ -30,6 +30,8 @@ from zlmreport.model.effects.circle_effect import CircleEffect
 SIZES = np.array([0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 12.8, 25.6, 100.0])
 #: Simulated tests.
 TRIALS = 200
+#: Whole waves about a circle, alike in both senses, that are tried as lobes.
+_LOBES = range(5, 13)
 #: Of the largest evidence, what an effect must have for its searched values to be refined.
 _WORTH_REFINING = 0.5
 #: Of a column's length that the base model must leave, for the column to be seen.
@@ -47,13 +49,16 @@ class Nameless:
 
 
 def make_nameless_curves(design: ThinnedDesign) -> tuple[Nameless, ...]:
-    """Return the curves without names: even, odd, locked to the reversals of each axis, in time."""
+    """Return the curves without names: even, odd, lobes, locked to the reversals of axes, in time."""
     found = []
     for length in (40.0, 15.0):
         smooth = _smooth(design.angle, np.radians(length))
         found.append(Nameless(_EVEN, smooth))
         if design.has_both_senses:
             found.append(Nameless(_ODD, smooth * design.sense[:, np.newaxis]))
+    for order in _LOBES:
+        waves = order * design.angle
+        found.append(Nameless(_LOBED, np.column_stack([np.cos(waves), np.sin(waves)])))
     locked = {AXES[axis]: _sample_bumps(design.since_reversal(axis)) for axis in design.axes}
     if len(locked) > 1:
         locked[", ".join(locked)] = np.concatenate([*locked.values()], axis=1)
@@ -92,6 +97,7 @@ def _smooth_line(travelled: FloatArray, length: float) -> FloatArray:
 
 _EVEN = Words("smooth over the angle, alike in both senses")
 _ODD = Words("smooth over the angle, opposite in the two senses")
+_LOBED = Words("lobes about the circle, alike in both senses")
 _REVERSAL = Words("locked to the reversals of {axis}")
 _TIME = Words("smooth along the path, each turn in its own way")
 
@@ -160,8 +166,8 @@ def contest(
         columns = np.column_stack([term.column for term in terms])
         found = np.array([arena.evidence(columns, subsets) for arena in arenas])
         by_effect.append(_average(found, weight))
-        own = _average_over_noises(found, weight)[:, 0]
-        best.append((effect, [forms[index] for index in _find_best_of_kinds(effect, forms, own)]))
+        weighed = _average_over_noises(found, weight)[:, 0]
+        best.append((effect, [forms[index] for index in _find_best_of_kinds(effect, forms, weighed)]))
     by_shape = [
         _average(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
     ]
@@ -176,11 +182,10 @@ def contest(
     for index, (effect, kinds) in enumerate(best):
         value, form = float(named[index, 0]), kinds[0]
         p_value = chance.p_value_of_effect(index, value)
-        if value > max(_WORTH_REFINING * float(named[:, 0].max()), 0.0):
-            for kind in kinds:
-                refined, share = refine(effect, kind)
-                sharp = _weigh_refined(arenas, weight, refined, share - np.log(len(effects[index][1])))
-                form, value = (refined, sharp) if sharp > value else (form, value)
+        is_worth_it = value > max(_WORTH_REFINING * float(named[:, 0].max()), 0.0)
+        for refined, share in (refine(effect, kind) for kind in kinds if is_worth_it):
+            sharp = _weigh_refined(arenas, weight, refined, share - float(np.log(len(effects[index][1]))))
+            form, value = (refined, sharp) if sharp > value else (form, value)
         contenders.append(Contender(effect, form, value, p_value, float(usual[index])))
     reached = np.array([each.evidence for each in contenders])
     all_of_them = np.concatenate([[0.0], reached, curves[:, 0]]) / 2.0
@@ -198,7 +203,7 @@ def contest(
 
 
 def _find_best_of_kinds(effect: CircleEffect, forms: Sequence[CircleForm], own: FloatArray) -> list[int]:
-    """Return the best form of each kind, best first: forms of a kind differ by what is refined, and by groups.
+    """Return the best form of each kind, best first: those of one differ by what is refined and by groups.
 
     `own`, (forms,): their evidence.
     """

@@ -110,6 +110,7 @@ class _Stage:
     #: Evidence of the best curve without a name, less what it must bring as a cause more; 0 where nothing is
     #: left.
     curve: float
+    beside: CircleStudy  #: The model with that curve beside it.
 
     @property
     def is_something_left(self) -> bool:
@@ -159,11 +160,13 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     first, last = stages[0], stages[len(found)]
     is_left = last.is_something_left and not is_tied
     remainder = _find_left(last.study, last.outcome) if is_left else None
+    complete = last.beside if is_left else last.study
     verdict = Verdict.UNEXPLAINED if remainder else Verdict.ADEQUATE
     verdict = Verdict.MISSING if found or is_tied else verdict
     return MachineDiagnosis(
-        study, last.study, verdict, first.outcome.p_value, first.shown, tuple(found), tuple(steps),
-        remainder, first.hidden, tuple(catalogue), is_tied, stages[chosen].study.noise.rms,
+        study if found else complete, complete, verdict, first.outcome.p_value, first.shown,
+        tuple(found), tuple(steps), remainder, first.hidden, tuple(catalogue), is_tied,
+        stages[chosen].study.noise.rms,
     )  # fmt: skip
 
 
@@ -183,8 +186,9 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
     while True:
         outcome, hidden = _hold_effects(current, forms_of, curves, len(stages))
         price = _price_curve(current, outcome, curves) if stages else 0.0
-        beside = max(_weigh_curve(current, outcome, curves) - price, 0.0)
-        stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered, beside)
+        curve, beside = _weigh_curve(current, outcome, curves)
+        shown = _list_candidates(current, outcome)
+        stage = _Stage(current, outcome, shown, tuple(hidden), gathered, max(curve - price, 0.0), beside)
         stages.append(stage)
         leader = stage.leader
         needed = FURTHER + NAMED if len(stages) > 1 else NAMED
@@ -202,19 +206,22 @@ def _is_left(outcome: CircleContest) -> bool:
     return outcome.p_value.value <= LEVEL
 
 
-def _weigh_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
-    """Return the evidence of the best curve without a name, its noise found anew; 0 where nothing is left."""
+def _weigh_curve(
+    study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]
+) -> tuple[float, CircleStudy]:
+    """Return the evidence of the best curve without a name, its noise found anew, and the study beside it.
+
+    Nothing, and the study as it is, where nothing is left.
+    """
     if outcome.shape_evidence <= 0 or not _is_left(outcome):
-        return 0.0
+        return 0.0, study
     shapes, deviation = study.noise.shapes, study.deviation
-    models = [
-        NoiseModel(study.shared, study.base, np.column_stack([study.known, size * each.columns]))
-        for each in curves
-        if each.shape == outcome.shape
-        for size in SIZES
-    ]
-    likeliest = max(models, key=lambda each: each.log_likelihoods(shapes[:1], deviation)[0, 0])
-    return outcome.shape_evidence + find_anew(likeliest, deviation, shapes)
+    tried = [size * each.columns for each in curves if each.shape == outcome.shape for size in SIZES]
+    models = [NoiseModel(study.shared, study.base, np.column_stack([study.known, each])) for each in tried]
+    logs = [float(each.log_likelihoods(shapes[:1], deviation)[0, 0]) for each in models]
+    likeliest = int(np.argmax(logs))
+    evidence = outcome.shape_evidence + find_anew(models[likeliest], deviation, shapes)
+    return evidence, study.beside(tried[likeliest])
 
 
 def _price_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
@@ -266,13 +273,20 @@ def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[Circle
     ][:8]
     found = [_make_candidate(study, each, probability) for each, probability in worth]
     found.sort(key=lambda each: (not each.is_plausible, -each.evidence))
-    plausible = [each for each in found if each.is_plausible]
-    if plausible:
-        tied = [each for each in plausible if each.evidence > plausible[0].evidence - MENTION]
-        plainest = min(tied, key=_measure_strangeness)
-        found.sort(key=lambda each: each is not plainest)
     curves = [_compute_curve(study, each) for each in found]
-    return tuple(_add_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True))
+    named = [_add_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True)]
+    if named and named[0].is_plausible:
+        # Of effects that the plan cannot tell apart, the one leads that needs the least unusual values.
+        equals = named[0].indistinguishable_from
+        tied = [
+            each
+            for each in named
+            if each is named[0]
+            or (each.effect.identifier in equals and each.evidence > named[0].evidence - MENTION)
+        ]
+        plainest = min(tied, key=_measure_strangeness)
+        named.sort(key=lambda each: each is not plainest)
+    return tuple(named)
 
 
 def _make_candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:
