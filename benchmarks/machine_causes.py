@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 
@@ -28,19 +29,36 @@ class Cause:
     truth: Mapping[str, float] = field(default_factory=dict)
 
 
-def _spike(path: Course, axis: int, width: float, slow: float) -> np.ndarray:
-    """Return a bump of another shape than the catalogue's: a half sine, then a slow return."""
-    angle = np.arctan2(path.v, path.u)
-    since = (path.sense * (angle - axis * np.pi / 2)) % np.pi
-    rise = np.sin(np.pi * np.minimum(since / width, 1.0) / 2)
-    return np.asarray(
-        np.where(since < width, rise, np.exp(-((np.maximum(since - width, 0.0) / slow) ** 1.5)))
-    )
+class _Spike(NamedTuple):
+    """How a bump behind a reversal rises and falls: by no shape of the catalogue, from steep to gentle."""
+
+    width: float  #: Up to its top, rad.
+    rise: float  #: Power of a sine.
+    slow: float  #: Length of the fall over the width.
+    fall: float  #: Its power.
+
+    def follow(self, path: Course, axis: int) -> np.ndarray:
+        """Return the bump of an axis along a path."""
+        angle = np.arctan2(path.v, path.u)
+        since = (path.sense * (angle - axis * np.pi / 2)) % np.pi
+        up = np.sin(np.pi * np.minimum(since / self.width, 1.0) / 2) ** self.rise
+        behind = np.maximum(since / self.width - 1.0, 0.0)
+        return np.asarray(np.where(behind > 0, np.exp(-((behind / self.slow) ** self.fall)), up))
 
 
 def _radial(path: Course, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     radius = np.hypot(path.u, path.v)
     return values * path.u / radius, values * path.v / radius
+
+
+def _measure_travelled(path: Course) -> np.ndarray:
+    """Return the angle travelled since the beginning of each turn, in one go over 0."""
+    angle, found = np.arctan2(path.v, path.u), np.zeros(len(path.u))
+    for way in np.unique(path.sense):
+        own = path.sense == way
+        unwrapped = np.unwrap(angle[own])
+        found[own] = np.abs(unwrapped - unwrapped[0])
+    return found
 
 
 def drawn_cause(name: str, draw: np.random.Generator) -> Cause:
@@ -51,7 +69,7 @@ def drawn_cause(name: str, draw: np.random.Generator) -> Cause:
     width = float(np.radians(draw.uniform(2.5, 15.0)))
 
     def spikes(path: Course) -> tuple[np.ndarray, np.ndarray]:
-        return _radial(path, sum(both[a] * _spike(path, a, width, 0.4 * width) for a in (0, 1)))
+        return _radial(path, sum(both[a] * spike.follow(path, a) for a in (0, 1)))
 
     pitch, phase = float(draw.uniform(8e-3, 60e-3)), float(draw.uniform(0, 2 * np.pi))
 
@@ -69,8 +87,7 @@ def drawn_cause(name: str, draw: np.random.Generator) -> Cause:
     order, turned = float(draw.uniform(12, 60)), draw.uniform(0, 2 * np.pi, 2)
 
     def vibration(path: Course) -> tuple[np.ndarray, np.ndarray]:
-        angle = np.arctan2(path.v, path.u)
-        travelled = (path.sense * angle) % (2 * np.pi)
+        travelled = _measure_travelled(path)
         return _radial(path, np.sin(order * travelled + np.where(path.sense > 0, turned[0], turned[1])))
 
     decay, length = np.radians(draw.uniform(10, 28)), np.radians(draw.uniform(8, 24))
@@ -88,6 +105,7 @@ def drawn_cause(name: str, draw: np.random.Generator) -> Cause:
         shapes = (np.cos(lobes * angle + where), near, path.sense * near)
         return _radial(path, shapes[int(where * 1000) % 3])
 
+    spike = _Spike(width, *draw.uniform((0.6, 0.25, 1.0), (1.8, 0.8, 2.0)).tolist())
     lost = {"X": float(both[0]), "Y": float(both[1])}
     causes = {
         "nothing": Cause(nothing),
@@ -111,6 +129,8 @@ CAUSES = (
     "squareness", "scale-mismatch", "servo-mismatch", "circle-backlash", "over-compensation", "lateral-play",
     "reversal-spikes", "cyclic-error", "bow", "vibration", "stick-slip",
 )  # fmt: skip
+#: Of which a parameter of the effect of their name is known.
+MEASURED = ("squareness", "scale-mismatch", "servo-mismatch", "circle-backlash")
 PAIRS = (
     ("servo-mismatch", "scale-mismatch"), ("squareness", "circle-backlash"),
     ("circle-backlash", "servo-mismatch"),

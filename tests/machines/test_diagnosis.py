@@ -5,6 +5,7 @@ import pytest
 
 from machines.simulated import (
     MICRO,
+    Scatter,
     added,
     bare_machine,
     circle,
@@ -18,6 +19,7 @@ from machines.simulated import (
     with_play,
 )
 from zlmreport.machines.choosing import study_circles
+from zlmreport.machines.contest import make_nameless_curves
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.diagnosis_report import build_values, collect_diagnosis
 from zlmreport.model.diagnosis.diagnosis import Verdict
@@ -117,6 +119,60 @@ def test_five_lobes_are_nobodys(seed):
     assert found.verdict is Verdict.UNEXPLAINED
     assert found.found == ()
     assert found.remainder is not None
+
+
+def test_the_uncertainty_of_what_is_in_the_model_holds_a_curve_that_has_no_name():
+    """A bump stands beside a squareness in the model."""
+    seen = circle(out_of_square(12 * MICRO), seed=4)
+    bump = np.exp(-0.5 * ((seen.angle % (2 * np.pi) - 0.8) / 0.35) ** 2)
+    effects = [REGISTRY.circle_effect(name) for name in (*BASE, "squareness")]
+    study = study_circles(bare_machine(), [with_deviation(seen, 3 * MICRO * bump)], effects)
+    found = diagnose(study, [REGISTRY.circle_effect(name) for name in ("scale-mismatch", "servo-mismatch")])
+    assert (found.verdict, found.found) == (Verdict.UNEXPLAINED, ())
+    bare, held = (each.estimates_of("squareness")[0] for each in (study, found.complete))
+    assert held.expanded_uncertainty > 1.3 * bare.expanded_uncertainty
+    assert found.study is found.complete
+
+
+@pytest.mark.long
+def test_beside_curves_without_a_name_parameters_lie_within_their_uncertainty():
+    """The curves are drawn as they are taken to be: of 40 values some 38 lie within."""
+    random = np.random.default_rng(5)
+    effects = [REGISTRY.circle_effect(name) for name in (*BASE, "squareness")]
+    plain = study_circles(bare_machine(), [circle(nothing, seed=4, count=90, noise=0.3 * MICRO)], effects)
+    curve = 2.0 * make_nameless_curves(plain.design)[0].columns
+    misses = {False: [], True: []}
+    for _ in range(40):
+        drawn = 0.3 * MICRO * curve @ random.standard_normal(curve.shape[1])
+        study = replace(plain, deviation=plain.deviation + drawn)
+        for is_held, each in ((False, study), (True, replace(study, unnamed=0.3 * MICRO * curve))):
+            own = each.estimates_of("squareness")[0]
+            misses[is_held].append(abs(own.value) / own.expanded_uncertainty)
+    assert np.mean(np.array(misses[True]) <= 1) >= 0.9
+    assert np.mean(np.array(misses[False]) <= 1) < 0.8
+
+
+@pytest.mark.parametrize("length", [10.0, 20.0])
+def test_the_correlation_length_of_irregular_geometry_is_found(length):
+    sizes = Scatter(0.76, 0.0, 0.65, geometry_length=length)
+    seen = circle(nothing, seed=2, repeats=2, scatter=sizes)
+    effects = [REGISTRY.circle_effect(name) for name in BASE]
+    found = study_circles(bare_machine(), [seen], effects).noise
+    assert np.degrees(found.likeliest.length) == pytest.approx(length)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("decay", [11.0, 19.0])
+def test_an_oscillation_between_two_values_of_the_grid_is_named(decay):
+    """What is many times the noise shows decay and length to a part of a step of the grid."""
+    plain = circle(nothing, seed=6)
+    since = np.degrees((plain.sense * plain.angle) % np.pi)
+    wave = np.exp(-since / decay) * np.sin(2 * np.pi * since / 12.2)
+    found = diagnosed(with_deviation(plain, 6 * MICRO * wave))
+    assert found.found == ("stick-slip",)
+    values = {each.name: each for each in found.complete.estimates if each.effect == "stick-slip"}
+    for name, true in (("decay", np.radians(decay)), ("length", np.radians(12.2))):
+        assert abs(values[name].value - true) < 1.5 * values[name].expanded_uncertainty
 
 
 @pytest.mark.long

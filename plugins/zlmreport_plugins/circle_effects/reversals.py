@@ -182,26 +182,39 @@ def _compute_stand_still(since: FloatArray, width: float) -> FloatArray:
     return np.where(since < width, (since / width) ** 2, np.exp(-(since - width) / (width / 3.0)))
 
 
+def _compute_creep(since: FloatArray, width: float) -> FloatArray:
+    """Return what an axis leaves that creeps under growing friction, 1 − (1 − φ/w)², until it breaks away."""
+    return np.where(since < width, 1.0 - (1.0 - since / width) ** 2, np.exp(-(since - width) / (width / 3.0)))
+
+
 def _compute_rise_and_fall(since: FloatArray, width: float) -> FloatArray:
     """Return what an axis leaves that is held and comes back as gently: ½(1 − cos(π·φ/w)) up to 2w."""
     return np.where(since < 2.0 * width, 0.5 * (1.0 - np.cos(np.pi * since / width)), 0.0)
+
+
+def _compute_return(since: FloatArray, width: float) -> FloatArray:
+    """Return what an axis leaves that creeps likewise, and is brought back gently: exp(−((φ − w)/w)²)."""
+    behind = since / width - 1.0
+    return np.where(behind < 0.0, 1.0 - behind**2, np.exp(-(behind**2)))
 
 
 _SHAPES: tuple[Callable[[FloatArray, float], FloatArray], ...] = (
     _compute_let_go,
     _compute_stand_still,
     _compute_rise_and_fall,
+    _compute_creep,
+    _compute_return,
 )
 _WIDTHS = tuple(np.radians([2.0, 4.0, 7.0, 12.0, 20.0]).tolist())
 _CONSTANT, _WITH_ACCELERATION = 0.0, 1.0
 
 
 class ReversalSpikes(CircleEffect):
-    """A·g(φ/w) ≥ 0 after each reversal, in three shapes; the size constant, or growing with F²/R."""
+    """A·g(φ/w) ≥ 0 after each reversal, in five shapes; the size constant, or growing with F²/R."""
 
     identifier = "reversal-spikes"
     title = Words("Reversal spikes")
-    equation = "A·g(φ/w) ≥ 0, three shapes; constant, or as F²/R"
+    equation = "A·g(φ/w) ≥ 0, five shapes; constant, or as F²/R"
     explains = Words("an axis stands still for a moment where it turns: friction")
     law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
     searched = (
@@ -229,7 +242,7 @@ class ReversalSpikes(CircleEffect):
         return terms
 
 
-_DECAYS = tuple(np.radians([10.0, 20.0]).tolist())
+_DECAYS = tuple(np.radians([7.0, 14.0, 28.0]).tolist())
 _LENGTHS = tuple(np.radians([7.0, 9.0, 11.0, 13.5, 16.5, 20.0, 24.0]).tolist())
 
 
@@ -242,7 +255,7 @@ class StickSlip(CircleEffect):
     explains = Words("an axis oscillates after it has turned")
     law = Law(Parity.BY_TRAVEL, feed=None, radius=None)
     searched = (
-        SearchedParameter("decay", DEGREE),
+        SearchedParameter("decay", DEGREE, is_refined=True),
         SearchedParameter("length", DEGREE, is_refined=True),
     )
 

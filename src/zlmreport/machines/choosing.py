@@ -15,6 +15,8 @@ from zlmreport.model.effects.circle_effect import CircleEffect, Searched, Search
 
 #: Rounds of the search between two values of a grid, each with so many values.
 _ROUNDS, _VALUES = 3, 9
+#: Times that several searched values are refined one after the other.
+_SWEEPS = 2
 #: Of a searched value: the step by which the slope over it is taken.
 _STEP = 1e-4
 #: 2·ln of what each further term of a form must be worth.
@@ -81,14 +83,14 @@ def find_best_form(study: CircleStudy, effect: CircleEffect) -> CircleForm:
 def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleForm:
     """Return a form with those searched values refined between two of the grid that may be."""
     fit = _Fit(study)
-    grid = list(effect.grid(study.design.fine))
     best = form.searched
 
     def of(searched: Searched) -> CircleForm:
         return form_at(effect, study.design, searched, form)
 
-    for place in _find_refined_places(effect):
-        values = sorted({searched[place] for searched in grid})
+    values_of = _list_refined_values(study, effect)
+    for place in [*values_of] * (_SWEEPS if len(values_of) > 1 else 1):
+        values = values_of[place]
         nearest = int(np.argmin(np.abs(np.array(values) - best[place])))
         low, high = values[max(nearest - 1, 0)], values[min(nearest + 1, len(values) - 1)]
         for _ in range(_ROUNDS):
@@ -97,6 +99,26 @@ def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> C
             step = (high - low) / (_VALUES - 1)
             low, high = max(best[place] - step, low), min(best[place] + step, high)
     return of(best)
+
+
+def measure_sharpness(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> float:
+    """Return ln of the share of a step of the grid to which refined searched values are known; 0 at most."""
+    after = add_form(study, effect, form).estimates_of(effect.identifier)
+    found = {each.name: each.expanded_uncertainty for each in after if each.term is None}
+    total = 0.0
+    for place, values in _list_refined_values(study, effect).items():
+        expanded = found[effect.searched[place].name]
+        if expanded and len(values) > 1:
+            steps = np.gradient(np.array(values))
+            step = float(np.interp(form.searched[place], values, steps))
+            total += min(float(np.log(np.sqrt(2.0 * np.pi) * expanded / 2.0 / step)), 0.0)
+    return total
+
+
+def _list_refined_values(study: CircleStudy, effect: CircleEffect) -> dict[int, list[float]]:
+    """Return the values of the grid of each searched parameter that is refined, by its place."""
+    grid = list(effect.grid(study.design.fine))
+    return {place: sorted({searched[place] for searched in grid}) for place in _find_refined_places(effect)}
 
 
 def _find_refined_places(effect: CircleEffect) -> list[int]:

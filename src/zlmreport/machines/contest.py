@@ -11,9 +11,9 @@ but the noise that was found. A false alarm is an excess of any candidate over w
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -30,6 +30,10 @@ from zlmreport.model.effects.circle_effect import CircleEffect
 SIZES = np.array([0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4, 12.8, 25.6, 100.0])
 #: Simulated tests.
 TRIALS = 200
+#: Whole waves about a circle, alike in both senses, that are tried as lobes.
+_LOBES = range(5, 13)
+#: Of the largest evidence, what an effect must have for its searched values to be refined.
+_WORTH_REFINING = 0.5
 #: Of a column's length that the base model must leave, for the column to be seen.
 _LEAST_VISIBLE = 1e-4
 _LEAST = 1e-9
@@ -41,26 +45,29 @@ class Nameless:
 
     shape: Words
     columns: FloatArray  #: (N, f): Their random combination is the curve, mean variance one.
+    is_locked: bool = False  #: Whether it follows the reversals of an axis.
 
 
 def make_nameless_curves(design: ThinnedDesign) -> tuple[Nameless, ...]:
-    """Return the curves without names: even, odd, locked to the reversals of each axis, in time."""
+    """Return the curves without names: even, odd, lobes, locked to the reversals of axes, in time."""
     found = []
     for length in (40.0, 15.0):
         smooth = _smooth(design.angle, np.radians(length))
         found.append(Nameless(_EVEN, smooth))
         if design.has_both_senses:
             found.append(Nameless(_ODD, smooth * design.sense[:, np.newaxis]))
-    for axis in design.axes:
-        since = design.since_reversal(axis)
-        known = np.isfinite(since)
-        bumps = _sample_bumps(np.nan_to_num(since)) * known[:, np.newaxis]
-        found.append(Nameless(_REVERSAL.given(axis=AXES[axis]), bumps))
+    for order in _LOBES:
+        waves = order * design.angle
+        found.append(Nameless(_LOBED, np.column_stack([np.cos(waves), np.sin(waves)])))
+    locked = {AXES[axis]: _sample_bumps(design.since_reversal(axis)) for axis in design.axes}
+    if len(locked) > 1:
+        locked[", ".join(locked)] = np.concatenate([*locked.values()], axis=1)
+    found += [Nameless(_REVERSAL.given(axis=axes), bumps, is_locked=True) for axes, bumps in locked.items()]
     travelled = [
         _smooth_line(design.travelled, 0.5) * (design.turn == turn)[:, np.newaxis] for turn in design.turns
     ]
     found.append(Nameless(_TIME, np.concatenate(travelled, axis=1)))
-    return tuple(Nameless(each.shape, _weigh_one(each.columns)) for each in found)
+    return tuple(replace(each, columns=_weigh_one(each.columns)) for each in found)
 
 
 def _weigh_one(columns: FloatArray) -> FloatArray:
@@ -76,10 +83,11 @@ def _smooth(angle: FloatArray, length: float) -> FloatArray:
 
 
 def _sample_bumps(since: FloatArray) -> FloatArray:
-    """Return a random shape locked to a reversal, dying away over some 30°."""
+    """Return a random shape locked to a reversal, dying away over some 30°; nothing of an axis at rest."""
+    known, since = np.isfinite(since), np.nan_to_num(since)
     places = np.radians(np.arange(0.0, 48.0, 3.0))
     bumps = np.exp(-0.5 * ((since[:, np.newaxis] - places) / np.radians(3.0)) ** 2)
-    return np.asarray(bumps * np.exp(-places / np.radians(20.0)))
+    return np.asarray(bumps * np.exp(-places / np.radians(20.0)) * known[:, np.newaxis])
 
 
 def _smooth_line(travelled: FloatArray, length: float) -> FloatArray:
@@ -89,6 +97,7 @@ def _smooth_line(travelled: FloatArray, length: float) -> FloatArray:
 
 _EVEN = Words("smooth over the angle, alike in both senses")
 _ODD = Words("smooth over the angle, opposite in the two senses")
+_LOBED = Words("lobes about the circle, alike in both senses")
 _REVERSAL = Words("locked to the reversals of {axis}")
 _TIME = Words("smooth along the path, each turn in its own way")
 
@@ -99,6 +108,11 @@ class Held(NamedTuple):
     model: NoiseModel  #: The noise under the base model.
     noise: NoiseFound  #: What of it the readings show.
     deviation: FloatArray  #: (N,), m.
+
+
+#: Refines the searched values of an effect's form, and says what share of a step of their grid, ln, they are
+#: known to.
+Refine: TypeAlias = Callable[[CircleEffect, CircleForm], tuple[CircleForm, float]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,9 +141,14 @@ def contest(
     held: Held,
     effects: Sequence[tuple[CircleEffect, tuple[CircleForm, ...]]],
     nameless: Sequence[Nameless],
+    refine: Refine,
     seed: int = 0,
 ) -> CircleContest:
-    """Hold all effects and curves against what the base model leaves of the deviations."""
+    """Hold all effects and curves against what the base model leaves of the deviations.
+
+    Chance is judged by the forms of the grid. Where an effect explains much, the likelihood is narrower than
+    a step of the grid: its evidence is then that of the refined form, by Laplace's method.
+    """
     model, noise, deviation = held
     random = np.random.default_rng(seed)
     drawn = random.choice(len(noise.shapes), TRIALS, p=noise.weights)
@@ -147,7 +166,8 @@ def contest(
         columns = np.column_stack([term.column for term in terms])
         found = np.array([arena.evidence(columns, subsets) for arena in arenas])
         by_effect.append(_average(found, weight))
-        best.append((effect, forms[int(np.argmax(_average_over_noises(found, weight)[:, 0]))]))
+        weighed = _average_over_noises(found, weight)[:, 0]
+        best.append((effect, [forms[index] for index in _find_best_of_kinds(effect, forms, weighed)]))
     by_shape = [
         _average(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
     ]
@@ -158,16 +178,20 @@ def contest(
     )
     chance = NullDistribution(named[:, 1:], curves[:, 1:], usual, usual_curves, 0.0)
     own = Scores(named[:, :1], curves[:, :1])
-    contenders = [
-        Contender(
-            effect, form, float(value), chance.p_value_of_effect(index, float(value)), float(usual[index])
-        )
-        for index, ((effect, form), value) in enumerate(zip(best, named[:, 0], strict=True))
-    ]
-    all_of_them = np.concatenate([[0.0], named[:, 0], curves[:, 0]]) / 2.0
+    contenders = []
+    for index, (effect, kinds) in enumerate(best):
+        value, form = float(named[index, 0]), kinds[0]
+        p_value = chance.p_value_of_effect(index, value)
+        is_worth_it = value > max(_WORTH_REFINING * float(named[:, 0].max()), 0.0)
+        for refined, share in (refine(effect, kind) for kind in kinds if is_worth_it):
+            sharp = _weigh_refined(arenas, weight, refined, share - float(np.log(len(effects[index][1]))))
+            form, value = (refined, sharp) if sharp > value else (form, value)
+        contenders.append(Contender(effect, form, value, p_value, float(usual[index])))
+    reached = np.array([each.evidence for each in contenders])
+    all_of_them = np.concatenate([[0.0], reached, curves[:, 0]]) / 2.0
     shares = np.exp(all_of_them - all_of_them.max())
     shares /= shares.sum()
-    order = np.argsort(-named[:, 0], kind="stable").tolist()
+    order = np.argsort(-reached, kind="stable").tolist()
     leading = int(np.argmax(curves[:, 0])) if len(curves) else None
     return CircleContest(
         tuple(contenders[index] for index in order),
@@ -176,6 +200,25 @@ def contest(
         tuple(float(shares[1 + index]) for index in order),
         chance.p_value(own),
     )
+
+
+def _find_best_of_kinds(effect: CircleEffect, forms: Sequence[CircleForm], own: FloatArray) -> list[int]:
+    """Return the best form of each kind, best first: those of one differ by what is refined and by groups.
+
+    `own`, (forms,): their evidence.
+    """
+    found: dict[tuple[float, ...], int] = {}
+    for index in np.argsort(-own, kind="stable").tolist():
+        pairs = zip(effect.searched, forms[index].searched, strict=True)
+        found.setdefault(tuple(value for each, value in pairs if not each.is_refined), index)
+    return list(found.values())
+
+
+def _weigh_refined(arenas: Sequence[_Arena], weight: FloatArray, form: CircleForm, prior: float) -> float:
+    """Return the evidence of one form alone; `prior`: ln of the probability that it was given before."""
+    whole = [list(range(len(form.terms)))]
+    found = np.array([arena.evidence(form.columns, whole) for arena in arenas])
+    return float(2.0 * (_average_over_noises(found, weight)[0, 0] + prior))
 
 
 class _Arena:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 import numpy as np
 
 from zlmreport.language import Words
-from zlmreport.machines.choosing import add_effect, add_form, refine_form
+from zlmreport.machines.choosing import add_effect, add_form, measure_sharpness, refine_form
 from zlmreport.machines.contest import (
     SIZES,
     CircleContest,
@@ -26,7 +26,7 @@ from zlmreport.machines.study import CircleStudy, EstimatedTerm
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.model.diagnosis.diagnosis import Verdict
 from zlmreport.model.diagnosis.null_distribution import LEVEL, PValue
-from zlmreport.model.effects.circle_effect import CircleEffect
+from zlmreport.model.effects.circle_effect import CircleEffect, Parity
 
 #: Evidence that a cause after the first must bring more than that, that is worth a mention, and by which a
 #: name must surpass a shape without one.
@@ -107,7 +107,10 @@ class _Stage:
     shown: tuple[CircleCandidate, ...]
     hidden: tuple[str, ...]
     gathered: float  #: Evidence of all effects that came in, less what each further one must bring.
-    curve: float  #: Evidence of the best curve without a name; 0 where nothing is left.
+    #: Evidence of the best curve without a name, less what it must bring as a cause more; 0 where nothing is
+    #: left.
+    curve: float
+    beside: CircleStudy  #: The model with that curve beside it.
 
     @property
     def is_something_left(self) -> bool:
@@ -122,8 +125,7 @@ class _Stage:
     @property
     def worth(self) -> float:
         """Evidence of the model so far, with a curve without a name beside it where something is left."""
-        price = FURTHER if self.gathered and self.curve else 0.0
-        return self.gathered + max(self.curve - price, 0.0)
+        return self.gathered + self.curve
 
 
 def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDiagnosis:
@@ -158,11 +160,13 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     first, last = stages[0], stages[len(found)]
     is_left = last.is_something_left and not is_tied
     remainder = _find_left(last.study, last.outcome) if is_left else None
+    complete = last.beside if is_left else last.study
     verdict = Verdict.UNEXPLAINED if remainder else Verdict.ADEQUATE
     verdict = Verdict.MISSING if found or is_tied else verdict
     return MachineDiagnosis(
-        study, last.study, verdict, first.outcome.p_value, first.shown, tuple(found), tuple(steps),
-        remainder, first.hidden, tuple(catalogue), is_tied, stages[chosen].study.noise.rms,
+        study if found else complete, complete, verdict, first.outcome.p_value, first.shown,
+        tuple(found), tuple(steps), remainder, first.hidden, tuple(catalogue), is_tied,
+        stages[chosen].study.noise.rms,
     )  # fmt: skip
 
 
@@ -181,8 +185,10 @@ def _build_stages(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> list
     ]
     while True:
         outcome, hidden = _hold_effects(current, forms_of, curves, len(stages))
-        beside = _weigh_curve(current, outcome, curves)
-        stage = _Stage(current, outcome, _list_candidates(current, outcome), tuple(hidden), gathered, beside)
+        price = _price_curve(current, outcome, curves) if stages else 0.0
+        curve, beside = _weigh_curve(current, outcome, curves)
+        shown = _list_candidates(current, outcome)
+        stage = _Stage(current, outcome, shown, tuple(hidden), gathered, max(curve - price, 0.0), beside)
         stages.append(stage)
         leader = stage.leader
         needed = FURTHER + NAMED if len(stages) > 1 else NAMED
@@ -200,19 +206,33 @@ def _is_left(outcome: CircleContest) -> bool:
     return outcome.p_value.value <= LEVEL
 
 
-def _weigh_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
-    """Return the evidence of the best curve without a name, its noise found anew; 0 where nothing is left."""
+def _weigh_curve(
+    study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]
+) -> tuple[float, CircleStudy]:
+    """Return the evidence of the best curve without a name, its noise found anew, and the study beside it.
+
+    Nothing, and the study as it is, where nothing is left.
+    """
     if outcome.shape_evidence <= 0 or not _is_left(outcome):
-        return 0.0
+        return 0.0, study
     shapes, deviation = study.noise.shapes, study.deviation
-    models = [
-        NoiseModel(study.shared, study.base, np.column_stack([study.known, size * each.columns]))
-        for each in curves
-        if each.shape == outcome.shape
-        for size in SIZES
-    ]
-    likeliest = max(models, key=lambda each: each.log_likelihoods(shapes[:1], deviation)[0, 0])
-    return outcome.shape_evidence + find_anew(likeliest, deviation, shapes)
+    tried = [size * each.columns for each in curves if each.shape == outcome.shape for size in SIZES]
+    models = [NoiseModel(study.shared, study.base, np.column_stack([study.known, each])) for each in tried]
+    logs = [float(each.log_likelihoods(shapes[:1], deviation)[0, 0]) for each in models]
+    likeliest = int(np.argmax(logs))
+    evidence = outcome.shape_evidence + find_anew(models[likeliest], deviation, shapes)
+    return evidence, study.beside(tried[likeliest])
+
+
+def _price_curve(study: CircleStudy, outcome: CircleContest, curves: Sequence[Nameless]) -> float:
+    """Return what a curve without a name must bring beside effects that came in.
+
+    A catalogue knows the shape of what follows a reversal only roughly: what is left of it there is no cause
+    more.
+    """
+    is_locked = any(each.is_locked for each in curves if each.shape == outcome.shape)
+    is_by_travel = any(each.effect.law.parity is Parity.BY_TRAVEL for each in study.effects)
+    return 0.0 if is_locked and is_by_travel else FURTHER
 
 
 def _hold_effects(
@@ -229,7 +249,12 @@ def _hold_effects(
             tried.append((effect, seen))
         else:
             unseen.append(effect.identifier)
-    return contest(Held(study.model, study.noise, study.deviation), tried, curves, seed), unseen
+
+    def refine(effect: CircleEffect, form: CircleForm) -> tuple[CircleForm, float]:
+        refined = refine_form(study, effect, form)
+        return refined, measure_sharpness(study, effect, refined)
+
+    return contest(Held(study.model, study.noise, study.deviation), tried, curves, refine, seed), unseen
 
 
 def _is_seen(columns: FloatArray, basis: FloatArray) -> bool:
@@ -248,13 +273,20 @@ def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[Circle
     ][:8]
     found = [_make_candidate(study, each, probability) for each, probability in worth]
     found.sort(key=lambda each: (not each.is_plausible, -each.evidence))
-    plausible = [each for each in found if each.is_plausible]
-    if plausible:
-        tied = [each for each in plausible if each.evidence > plausible[0].evidence - MENTION]
-        plainest = min(tied, key=_measure_strangeness)
-        found.sort(key=lambda each: each is not plainest)
     curves = [_compute_curve(study, each) for each in found]
-    return tuple(_add_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True))
+    named = [_add_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True)]
+    if named and named[0].is_plausible:
+        # Of effects that the plan cannot tell apart, the one leads that needs the least unusual values.
+        equals = named[0].indistinguishable_from
+        tied = [
+            each
+            for each in named
+            if each is named[0]
+            or (each.effect.identifier in equals and each.evidence > named[0].evidence - MENTION)
+        ]
+        plainest = min(tied, key=_measure_strangeness)
+        named.sort(key=lambda each: each is not plainest)
+    return tuple(named)
 
 
 def _make_candidate(study: CircleStudy, contender: Contender, probability: float) -> CircleCandidate:

@@ -1,6 +1,6 @@
 """What scatters on a circle: along the path, and as irregular geometry that all turns share.
 
-V = σ²·(1 + p·exp(−Δφ/6°) within a turn + g·k(Δθ)·(1 + s·s′) within a plane) + what else is known to be
+V = σ²·(1 + p·exp(−Δφ/6°) within a turn + k(Δθ)·(g + h·s·s′) within a plane) + what else is known to be
 uncertain: the errors of the axes, and the angle at which each turn began. White noise alone would take
 correlated readings for evidence: 77 to 82 % of healthy circles would then raise an alarm.
 
@@ -21,14 +21,17 @@ from numpy.linalg import cholesky
 from zlmreport.machines.design import ThinnedDesign
 from zlmreport.measurement.arrays import BoolArray, FloatArray, IntArray
 
-#: Correlation length along the path, and of irregular geometry, rad.
+#: Correlation length along the path, and of irregular geometry, rad: the shortest, and all that are tried.
 PATH_LENGTH, GEOMETRY_LENGTH = float(np.radians(6.0)), float(np.radians(10.0))
+_LENGTHS = (GEOMETRY_LENGTH, 2.0 * GEOMETRY_LENGTH)
 #: Variances that are tried, in units of that of a single reading: along the path; irregular geometry that is
 #: alike in both senses, and that is opposite.
 _PATH, _EVEN, _ODD = (0.0, 0.2, 0.6, 1.8), (0.0, 0.05, 0.2, 0.8), (0.0, 0.1)
 #: Share of the probability that the values of the noise which are kept must hold, and the most of them.
 _KEPT, _MOST = 0.98, 6
 _LEAST_VARIANCE = 1e-4
+#: What a wave of a longer correlation length has at least, of its variance at the shortest.
+_LEAST_SHARE = 1e-8
 #: A hair of the diagonal: columns of the base that nearly coincide must not stop the work.
 _HAIR = 1e-12
 #: Of the square of deviations, what is taken to be left where a model explains them exactly: rounding leaves
@@ -48,6 +51,7 @@ class NoiseShape:
     path: float
     even: float
     odd: float
+    length: float = GEOMETRY_LENGTH  #: Correlation length of irregular geometry, rad.
 
     @property
     def total(self) -> float:
@@ -55,7 +59,23 @@ class NoiseShape:
         return 1.0 + self.path + self.even + self.odd
 
 
-SHAPES = tuple(NoiseShape(*each) for each in product(_PATH, _EVEN, _ODD))
+SHAPES = tuple(
+    NoiseShape(path, even, odd, length)
+    for path, even, odd in product(_PATH, _EVEN, _ODD)
+    for length in (_LENGTHS if even or odd else _LENGTHS[:1])
+)
+
+
+def _list_orders() -> FloatArray:
+    """Return the numbers of waves about the circle that the shortest correlation length has."""
+    orders = np.arange(2, 64)
+    return np.asarray(orders[np.exp(-0.5 * (orders * GEOMETRY_LENGTH) ** 2) > _LEAST_VARIANCE])
+
+
+def _find_spectrum(length: float) -> FloatArray:
+    """Return the share of the variance that each of these waves has."""
+    spectrum = np.exp(-0.5 * (_list_orders() * length) ** 2)
+    return np.asarray(spectrum / np.sum(spectrum))
 
 
 def make_geometry(design: ThinnedDesign) -> tuple[FloatArray, FloatArray]:
@@ -64,11 +84,7 @@ def make_geometry(design: ThinnedDesign) -> tuple[FloatArray, FloatArray]:
     Waves about the circle, weighted so that their combination is correlated over `GEOMETRY_LENGTH`; each
     plane, centre and radius has its own.
     """
-    orders = np.arange(2, 64)
-    spectrum = np.exp(-0.5 * (orders * GEOMETRY_LENGTH) ** 2)
-    orders = orders[spectrum > _LEAST_VARIANCE]
-    size = np.sqrt(spectrum[spectrum > _LEAST_VARIANCE])
-    size /= np.sqrt(np.sum(size**2))
+    orders, size = _list_orders(), np.sqrt(_find_spectrum(GEOMETRY_LENGTH))
     waves = np.concatenate(
         [size * np.cos(np.outer(design.angle, orders)), size * np.sin(np.outer(design.angle, orders))], axis=1
     )
@@ -104,6 +120,14 @@ class CircleNoise:
     def __init__(self, design: ThinnedDesign) -> None:
         self.design = design
         self.even, self.odd = make_geometry(design)
+        repeats = self.even.shape[1] // len(_list_orders())
+        #: By correlation length: variances of the columns of geometry, (r,), one each at the shortest.
+        self.shares = {
+            length: np.tile(
+                np.maximum(_find_spectrum(length) / _find_spectrum(GEOMETRY_LENGTH), _LEAST_SHARE), repeats
+            )
+            for length in _LENGTHS
+        }
         self._turns = tuple(np.flatnonzero(design.turn == turn) for turn in design.turns)
         self._by_path: dict[float, Whitening] = {}
 
@@ -130,14 +154,16 @@ class CircleNoise:
     ) -> FloatArray:
         """Return deviations that hold nothing but noise, σ = 1, one column for each shape."""
         found = random.standard_normal((self.design.count, len(shapes)))
-        path, even, odd = (
-            np.sqrt(np.array([getattr(each, name) for each in shapes])) for name in ("path", "even", "odd")
-        )
+        path = np.sqrt(np.array([each.path for each in shapes]))
         for turn in self._turns:
             lower = cholesky(self.kernel(turn) + 1e-9 * np.eye(len(turn)))
             found[turn] += path * (lower @ random.standard_normal((len(turn), len(shapes))))
-        for columns, size in ((self.even, even), (self.odd, odd), (known, 1.0)):
-            found += size * (columns @ random.standard_normal((columns.shape[1], len(shapes))))
+        even, odd = (
+            np.array([getattr(each, name) * self.shares[each.length] for each in shapes]).T
+            for name in ("even", "odd")
+        )
+        for columns, variances in ((self.even, even), (self.odd, odd), (known, 1.0)):
+            found += columns @ (np.sqrt(variances) * random.standard_normal((columns.shape[1], len(shapes))))
         return found
 
 
@@ -224,12 +250,12 @@ class NoiseModel:
     def _matrix(self, shape: NoiseShape) -> tuple[FloatArray, BoolArray, float]:
         """Return the equations' matrix, which columns are in it, and ln|V| + ln|XᵀV⁻¹X| less its own ln."""
         _, gram = self._of_path(shape.path)
-        base, even = self._base.shape[1], self.noise.even.shape[1]
+        base, shares = self._base.shape[1], self.noise.shares[shape.length]
         sizes = np.concatenate(
             [
                 np.full(base, np.inf),
-                np.full(even, shape.even),
-                np.full(even, shape.odd),
+                shape.even * shares,
+                shape.odd * shares,
                 np.ones(self.known.shape[1]),
             ]
         )

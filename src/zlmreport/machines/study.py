@@ -77,6 +77,9 @@ class CircleStudy:
         The effects of the model, each in its form.
     shared
         What the noise of the design has in common, whatever the model.
+    unnamed
+        What is left that no effect explains: a curve whose random combination it is, (N, r), m. The
+        uncertainties of the parameters hold it.
     """
 
     design: ThinnedDesign
@@ -85,6 +88,7 @@ class CircleStudy:
     factor: FloatArray
     shared: CircleNoise = field(repr=False)
     effects: tuple[Chosen, ...] = ()
+    unnamed: FloatArray | None = field(default=None, repr=False)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -104,11 +108,16 @@ class CircleStudy:
         nothing = np.zeros((self.design.count, 0))
         return find_noise(NoiseModel(self.shared, self.base, nothing), self.deviation).sigma
 
+    @property
+    def _unit(self) -> float:
+        return max(self._sigma, 1e-12)
+
     @cached_property
     def known(self) -> FloatArray:
-        """What is uncertain by itself, as a factor in units of σ: the axes, and where turns begin."""
+        """What is uncertain by itself, as a factor in units of σ: axes, where turns begin, the unnamed."""
         turns = [_START * self._slope * (self.design.turn == turn) for turn in self.design.turns.tolist()]
-        return np.column_stack([self.factor, *turns]) / max(self._sigma, 1e-12)
+        left = () if self.unnamed is None else (self.unnamed,)
+        return np.column_stack([self.factor, *turns, *left]) / self._unit
 
     @cached_property
     def _slope(self) -> FloatArray:
@@ -226,6 +235,10 @@ class CircleStudy:
     def having(self, added: Chosen) -> CircleStudy:
         """Return the study with one effect more."""
         return replace(self, effects=(*self.effects, added))
+
+    def beside(self, curve: FloatArray) -> CircleStudy:
+        """Return the study beside a curve without a name, a random combination of columns, (N, r), in σ."""
+        return replace(self, unnamed=curve * self._unit)
 
     def without(self, identifier: str) -> CircleStudy:
         """Return the study without one of its effects."""

@@ -1,7 +1,10 @@
-"""What is said of an axis that loses motion where it turns."""
+"""What happens where an axis turns: what is said of lost motion, and where a spike is looked for."""
 
+import numpy as np
 import pytest
 
+from machines.simulated import circle, nothing
+from zlmreport.machines.design import clear_of_reversals, thinned
 from zlmreport.language import Language
 from zlmreport.plugin import MICROMETRE
 from zlmreport.plugin.circle_effect import Estimate
@@ -34,3 +37,16 @@ def test_ends_that_agree_within_their_uncertainties_are_not_said_to_differ() -> 
 @pytest.mark.parametrize("value", [0.3, -3.0])
 def test_what_lies_within_its_uncertainty_or_is_over_compensated_is_no_lost_motion(value: float) -> None:
     assert said(("X", value, 0.4)) == []
+
+
+@pytest.mark.parametrize("first", [0.0, 0.03])
+def test_an_axis_that_turned_in_the_feed_in_has_its_spike_at_the_beginning_of_a_turn(first: float) -> None:
+    """X turns at 0° and 180°, so that each turn shows two spikes of it, though no reading lies at 0° itself."""
+    design = thinned([clear_of_reversals(circle(nothing, noise=0.0, first=first))]).fine
+    effect = next(each for each in find_plugins().circle_effects if each.identifier == "reversal-spikes")
+    column = next(each for each in effect.terms(design, effect.grid(design)[0]) if each.name == "X").column
+    for turn in design.turns.tolist():
+        own = design.turn == turn
+        beyond = np.cos(design.angle[own]) > 0
+        sizes = np.sum(column[own][beyond] ** 2), np.sum(column[own][~beyond] ** 2)
+        assert sizes[0] == pytest.approx(sizes[1], rel=0.35)

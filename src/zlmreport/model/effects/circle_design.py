@@ -130,9 +130,10 @@ class CircleDesign:
         return np.asarray(self.sense * np.sign(np.round(moved, 12)))
 
     def since_reversal(self, axis: int) -> FloatArray:
-        """Return φ, the angle travelled since an axis turned, rad; NaN where it has not, or is at rest."""
+        """Return φ, the angle travelled since an axis turned, rad, in [0, π); NaN where it is at rest.
+
+        A turn comes out of its feed-in: where it begins behind a reversal, the axis has turned before.
+        """
         turned_at = np.where(self.second == axis, np.pi / 2, 0.0)
         since = (self.sense * (self.angle - turned_at) + 1e-9) % np.pi - 1e-9
-        moves = (self.first == axis) | (self.second == axis)
-        # Of a turn that begins at the reversal itself, as most do at θ = 0, the first reading belongs to it.
-        return np.where(moves & (since <= self.travelled + 1e-6), since, np.nan)
+        return np.where((self.first == axis) | (self.second == axis), since, np.nan)
