@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
+from collections.abc import Callable
 from pathlib import Path
-from subprocess import CompletedProcess
 
 import pytest
 
-from environments import ROOT
-from processes import ZLMREPORT, run
+from cli.commands import Run
+from zlmreport.cli import main
 from zlmreport.cli.arguments import parse
 
 _MINE = """\
@@ -22,47 +21,51 @@ def zlmreport_effects():
 """
 
 
-def _run(*arguments: str, folder: Path, **variables: str) -> CompletedProcess[str]:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "tests"), **variables}
-    return run(*ZLMREPORT, *arguments, cwd=folder, env=environment)
-
-
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "mine.py").write_text(_MINE, encoding="utf-8")
     return tmp_path
 
 
-def test_the_effect_in_the_file_is_listed_with_the_file(folder: Path) -> None:
-    done = _run("plugins", "--plugin", "mine.py", folder=folder)
-    assert (done.returncode, done.stderr) == (0, "")
-    (line,) = [line.split() for line in done.stdout.splitlines() if "exemplary-wave" in line]
+@pytest.fixture
+def run(folder: Path, capsys: pytest.CaptureFixture[str]) -> Callable[..., Run]:  # noqa: ARG001 - it works there
+    """Return a function that runs a command in the folder."""
+    return lambda *arguments: Run(main(arguments), *capsys.readouterr())
+
+
+def test_the_effect_in_the_file_is_listed_with_the_file(run: Callable[..., Run]) -> None:
+    done = run("plugins", "--plugin", "mine.py")
+    assert (done.code, done.messages) == (0, "")
+    (line,) = [line.split() for line in done.output.splitlines() if "exemplary-wave" in line]
     assert line[0] == "exemplary-wave"
     assert line[-1] == "mine.py"
 
 
-def test_the_environment_names_it_too(folder: Path) -> None:
-    done = _run("plugins", folder=folder, ZLMREPORT_PLUGINS=str(folder / "mine.py"))
-    assert "exemplary-wave" in done.stdout
+def test_the_environment_names_it_too(
+    folder: Path, run: Callable[..., Run], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ZLMREPORT_PLUGINS", str(folder / "mine.py"))
+    assert "exemplary-wave" in run("plugins").output
 
 
-def test_without_being_named_it_is_not_there(folder: Path) -> None:
-    assert "exemplary-wave" not in _run("plugins", folder=folder).stdout
+def test_without_being_named_it_is_not_there(run: Callable[..., Run]) -> None:
+    assert "exemplary-wave" not in run("plugins").output
 
 
-def test_a_file_that_is_not_there_cannot_be_read(folder: Path) -> None:
-    done = _run("plugins", "--plugin", "yours.py", folder=folder)
-    assert done.returncode == 3
-    assert "iso230-2:2014" in done.stdout  # what works is listed all the same
-    assert done.stderr.endswith("yours.py: there is no such plugin file\n")
+def test_a_file_that_is_not_there_cannot_be_read(run: Callable[..., Run]) -> None:
+    done = run("plugins", "--plugin", "yours.py")
+    assert done.code == 3
+    assert "iso230-2:2014" in done.output  # what works is listed all the same
+    assert done.messages.endswith("yours.py: there is no such plugin file\n")
 
 
-def test_a_file_that_does_not_work_is_a_mistake_at_its_line(folder: Path) -> None:
+def test_a_file_that_does_not_work_is_a_mistake_at_its_line(folder: Path, run: Callable[..., Run]) -> None:
     (folder / "mine.py").write_text("import numpy\n1 / 0\n")
-    done = _run("plugins", "--plugin", "mine.py", folder=folder)
-    assert done.returncode == 2
-    assert "iso230-2:2014" in done.stdout
-    assert "mine.py:2:1: ZeroDivisionError: division by zero" in done.stderr
+    done = run("plugins", "--plugin", "mine.py")
+    assert done.code == 2
+    assert "iso230-2:2014" in done.output
+    assert "mine.py:2:1: ZeroDivisionError: division by zero" in done.messages
 
 
 @pytest.mark.parametrize(

@@ -17,8 +17,13 @@ from documents.warm import warm_command, warm_server
 from processes import PATIENCE, started
 from zlmreport.cli.new import make_skeleton_of
 
-#: They simulate, measure and diagnose so much that they take as long as all other pages together.
-_LONG = {"README.md", "docs/how-to/use-in-a-notebook.md"}
+#: They simulate, measure, diagnose and print so much that they take as long as all other pages together.
+_LONG = {
+    "README.md",
+    "docs/explanation/real-measurements.md",
+    "docs/how-to/accept-a-machine.md",
+    "docs/how-to/use-in-a-notebook.md",
+}
 
 
 @pytest.fixture(scope="module")

@@ -99,11 +99,15 @@ def changed(*changes: tuple[str, Any], of: Mapping[str, Any] = SOUND) -> dict[st
 
 
 def composed(
-    folder: Path, keys: Mapping[str, Any], deviations: np.ndarray | None = None, **logged: Any
+    folder: Path,
+    keys: Mapping[str, Any],
+    deviations: np.ndarray | None = None,
+    trials: int = documents.FEW_TRIALS,
+    **logged: Any,
 ) -> Certificate:
     """Return the document of a job on these readings."""
     write(folder, readings() if deviations is None else deviations, **logged)
-    return documents.certificate(folder, keys)
+    return documents.certificate(folder, keys, trials)
 
 
 def refusals(

@@ -27,6 +27,7 @@ from doubtful.doubtful_jobs import (
     refusals,
     write,
 )
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.measurement.times import read_moment
 from zlmreport_plugins.renderers.json_results.document import JsonResultsRenderer
 
@@ -230,9 +231,8 @@ def test_the_first_page_tells_the_risk_that_the_table_has(tmp_path: Path) -> Non
 
 
 def test_a_guard_band_of_u_has_the_risk_of_95_percent(tmp_path: Path) -> None:
-    document = composed(
-        tmp_path, changed(("decision_rule", "guard-band"), ("environment.axis_temperature", 20.6))
-    )
+    keys = changed(("decision_rule", "guard-band"), ("environment.axis_temperature", 20.6))
+    document = composed(tmp_path, keys, trials=TRIALS)
 
     assert "The risk of a wrong acceptance is at most 2.3 %." in cover(document)
 
@@ -240,7 +240,7 @@ def test_a_guard_band_of_u_has_the_risk_of_95_percent(tmp_path: Path) -> None:
 def test_an_uncertainty_larger_than_the_limit_is_said_under_simple_acceptance(tmp_path: Path) -> None:
     tight = changed(("evaluate", [{"standard": "iso230-2:2014", "tolerances": {"B": 0.3}}]))
 
-    assert "U of B is larger than the limit" in text_of(composed(tmp_path, tight))
+    assert "U of B is larger than the limit" in text_of(composed(tmp_path, tight, trials=TRIALS))
 
 
 # 5. A laser that does not look at the air, and one that has corrected the material.

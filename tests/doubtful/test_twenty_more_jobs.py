@@ -36,6 +36,7 @@ from zlmreport.document.certificate.document import Certificate
 from zlmreport.errors import InputError
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.evaluation import Least
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.job.loading import load
 from zlmreport.language import Language
 
@@ -236,7 +237,7 @@ def test_an_instrument_as_coarse_as_the_axis_is_said_to_have_raised_u(layout: st
     """U of the instrument is 1 µm, and E 2.8 µm: the axis may be much flatter than it was read."""
     coarse = changed(("instrument.expanded_uncertainty", 1), ("certificate.layout", layout))
 
-    document = composed(tmp_path, coarse)
+    document = composed(tmp_path, coarse, trials=TRIALS)
 
     e = parameter(document, "E")
     assert "raised to reach the flattest axis that the readings leave possible" in text_of(document)

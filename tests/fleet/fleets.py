@@ -174,7 +174,7 @@ class Fleet:
 
 def without_processes(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let nights be spent in this process, with exemplary plugins of known versions."""
-    monkeypatch.setattr(night, "_executor", lambda *_: Here())
-    monkeypatch.setattr(making, "_registry", lambda _: REGISTRY)
-    monkeypatch.setattr(making, "_versions", lambda _: VERSIONS)
+    monkeypatch.setattr(night, "make_executor", lambda *_: Here())
+    monkeypatch.setattr(making, "find_plugins_once", lambda _: REGISTRY)
+    monkeypatch.setattr(making, "find_versions_once", lambda _: VERSIONS)
     monkeypatch.setattr(night, "find_program_versions", lambda **_: VERSIONS)

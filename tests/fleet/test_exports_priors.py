@@ -46,7 +46,7 @@ def _job(fleet: Fleet, name: str, number: int, *changes: tuple[str, str]) -> Non
 @pytest.fixture
 def fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
     """Two tests of a type of machine, and the folder of their readings beside them."""
-    monkeypatch.setattr(night, "_executor", lambda *_: Here())
+    monkeypatch.setattr(night, "make_executor", lambda *_: Here())
     for name in ("cool", "warm"):
         shutil.copy(_CONFIG / f"{name}.csv", tmp_path)
     fleet = Fleet(tmp_path)

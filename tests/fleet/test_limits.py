@@ -75,7 +75,7 @@ class Stopping(Here):
 @pytest.fixture
 def stopping(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
     without_processes(monkeypatch)
-    monkeypatch.setattr(night, "_executor", lambda *_: Stopping())
+    monkeypatch.setattr(night, "make_executor", lambda *_: Stopping())
     return Fleet.of(tmp_path, "x")
 
 
@@ -121,7 +121,7 @@ def test_a_job_may_take_ten_times_as_long_as_it_ever_took(
                 object.__setattr__(made, "seconds", 300.0)
                 yield task, made
 
-    monkeypatch.setattr(night, "_executor", lambda *_: Slow())
+    monkeypatch.setattr(night, "make_executor", lambda *_: Slow())
     fleet.spend()
     fleet.readings("x", "2 2 3 -1 -2 -3")
     fleet.spend()

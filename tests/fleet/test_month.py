@@ -128,7 +128,7 @@ class Month:
             monkeypatch.setattr(issuing, "lay", full)
         elif trouble == "hang":
             self.hanging = f"a{HANGING}t{self.measured[HANGING]}"
-        monkeypatch.setattr(night, "_executor", lambda *_: Hanging(self.hanging))
+        monkeypatch.setattr(night, "make_executor", lambda *_: Hanging(self.hanging))
         if trouble == "kill":
             self.measure([0, 1])
             with pytest.raises(KilledError):

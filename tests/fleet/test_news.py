@@ -97,7 +97,7 @@ def fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, post: Post) -> Fleet:
 
 
 def on_a_day(day: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(night, "_now", lambda: f"2026-12-{day:02}T02:00:00+00:00")
+    monkeypatch.setattr(night, "read_clock", lambda: f"2026-12-{day:02}T02:00:00+00:00")
 
 
 def test_a_calm_night_tells_nobody_anything(fleet: Fleet, post: Post) -> None:

@@ -7,11 +7,13 @@ import os
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import matplotlib as mpl
 import pytest
 
 from fleet.fleets import FLEET, REGISTRY, VERSIONS, Fleet, without_processes
+from zlmreport import pipeline
 from zlmreport.errors import AccessError, InputError
 from zlmreport.fleet import making, night as nights
 from zlmreport.fleet.issuing import What
@@ -19,6 +21,7 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.plan import Due
 from zlmreport.fleet.records import State
 from zlmreport.job import days
+from zlmreport.job.job import Job
 
 FONTS = Path(mpl.get_data_path(), "fonts", "ttf")
 OTHER_READINGS = "2 2 3 -1 -2 -3"
@@ -248,13 +251,13 @@ def test_a_job_with_two_files_of_one_suffix_is_refused_alone(fleet: Fleet) -> No
 
 
 def test_a_plugin_that_raises_fails_its_job_alone(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
-    def made(*arguments: object) -> making.MadeCertificate:
-        if "x.yaml" in str(arguments[0]):
+    def raising(job: Job, *others: Any) -> pipeline.Outcome:
+        if job.files[0].name == "x.yaml":
             raise ZeroDivisionError
-        return whole(*arguments)
+        return run(job, *others)
 
-    whole = making._made
-    monkeypatch.setattr(making, "_made", made)
+    run = pipeline.run
+    monkeypatch.setattr(pipeline, "run", raising)
     night = fleet.spend()
     assert night.what == {"x": What.FAILED, "y": What.ISSUED}
     assert "ZeroDivisionError" in night.of("x").problems[0].message
@@ -321,7 +324,7 @@ def test_a_new_release_of_a_plugin_is_named(fleet: Fleet, monkeypatch: pytest.Mo
     fleet.spend()
     newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
     monkeypatch.setattr(nights, "find_program_versions", lambda **_: newer)
-    monkeypatch.setattr(making, "_versions", lambda _: newer)
+    monkeypatch.setattr(making, "find_versions_once", lambda _: newer)
     happened = fleet.spend().of("x")
     assert happened.why.startswith("exemplary-plugins changed from 1.2 to 1.3 since ")
     assert happened.what is What.CONFIRMED
@@ -332,7 +335,7 @@ def with_another_page(monkeypatch: pytest.MonkeyPatch, factor: float = 1.0) -> N
     """Let a new release print another page, and come to other values by a factor."""
     newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
     monkeypatch.setattr(nights, "find_program_versions", lambda **_: newer)
-    monkeypatch.setattr(making, "_versions", lambda _: newer)
+    monkeypatch.setattr(making, "find_versions_once", lambda _: newer)
     page = REGISTRY.renderer("exemplary")
     monkeypatch.setattr(page, "render", lambda certificate: f"1.3: {certificate.title}".encode())
     states = making.list_parameters_of
@@ -379,7 +382,7 @@ def test_a_plugin_that_no_job_uses_changes_nothing(fleet: Fleet, monkeypatch: py
 
 
 def test_a_worker_with_another_release_is_refused(fleet: Fleet, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(making, "_versions", lambda _: VERSIONS | {"zlmreport": "0.0.9 code"})
+    monkeypatch.setattr(making, "find_versions_once", lambda _: VERSIONS | {"zlmreport": "0.0.9 code"})
     happened = fleet.spend().of("x")
     assert "this worker has zlmreport 0.0.9, and the night began with 0.1.0" in happened.problems[0].message
 

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import datetime as dt
 import shutil
+from collections.abc import Iterable
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 
-from fleet.fleets import FLEET, Fleet, without_processes
+from fleet.fleets import FLEET, Fleet, Here, without_processes
 from zlmreport.errors import InputError
 from zlmreport.fleet import ledger, night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.ledger import Ledger
+from zlmreport.fleet.making import Task
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.records import About, PastNight, State
 from zlmreport.fleet.state import Rules, state_of
@@ -30,7 +33,7 @@ def fleet(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Fleet:
 
 
 def on_a_day(day: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(night, "_now", lambda: f"{day}T02:00:00+00:00")
+    monkeypatch.setattr(night, "read_clock", lambda: f"{day}T02:00:00+00:00")
 
 
 def test_a_job_that_is_gone_is_told_every_night_until_it_is_retired(fleet: Fleet) -> None:
@@ -138,7 +141,12 @@ def test_many_jobs_that_are_gone_at_once_are_told_as_one_thing_too(fleet: Fleet)
 def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
     fleet: Fleet, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(night, "_work_through", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    class Interrupted(Here):
+        def results(self, _: Iterable[Task]) -> NoReturn:
+            raise KeyboardInterrupt
+
+    fleet.job("u")
+    monkeypatch.setattr(night, "make_executor", lambda *_: Interrupted())
     with pytest.raises(KeyboardInterrupt):
         fleet.spend()
     monkeypatch.undo()

@@ -17,7 +17,7 @@ _made_again: dict[Any, Any] = {}
 @contextmanager
 def remembering() -> Iterator[None]:
     """Make each certificate again once: what it carries and states of its makers tells it from others."""
-    make_again = verifying._again
+    make_again = verifying.make_certificate_again
 
     def known(job: Path, carrier: Any, stated: Any, plugins: Any) -> Any:
         unpacked = sorted(path for path in job.parents[1].rglob("*") if path.is_file())
@@ -29,5 +29,5 @@ def remembering() -> Iterator[None]:
         return _made_again[key]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(verifying, "_again", known)
+        patch.setattr(verifying, "make_certificate_again", known)
         yield

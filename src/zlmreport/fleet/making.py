@@ -138,7 +138,7 @@ def make_certificate(task: Task) -> MadeCertificate | Failed:
         subject = Subject()
         try:
             begun, start = time.time(), time.monotonic()
-            registry = _registry(task.plugins)
+            registry = find_plugins_once(task.plugins)
             fleet = _read_fleet(task.fleet, task.content, task.plugins)
             job = load(
                 task.job, registry, choose_formats_once(fleet.formats, registry), defaults=fleet.defaults
@@ -154,11 +154,11 @@ def make_certificate(task: Task) -> MadeCertificate | Failed:
 
 def warm(plugins: tuple[Path, ...]) -> None:
     """Load the plugins, so that the first certificate need not."""
-    _registry(plugins)
+    find_plugins_once(plugins)
 
 
 def _made(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertificate:
-    registry = _registry(task.plugins)
+    registry = find_plugins_once(task.plugins)
     programs = _find_programs(task, job, registry)
     named = digest_named_files(job)
     renderers = [registry.renderer(identifier) for identifier in job.formats]
@@ -253,7 +253,7 @@ def _digest(content: bytes) -> str:
 
 def _find_programs(task: Task, job: Job, registry: Registry) -> dict[str, str]:
     """Return the versions of what takes part; refuse to work with other releases than the night's."""
-    here = _versions(task.plugins)
+    here = find_versions_once(task.plugins)
     names = sorted(name_programs_of(job, job.formats, registry))
     for name in names:
         own, begun_with = (release(each.get(name, "")) for each in (here, task.programs))
@@ -267,15 +267,17 @@ def _find_programs(task: Task, job: Job, registry: Registry) -> dict[str, str]:
 
 
 @functools.cache
-def _registry(plugins: tuple[Path, ...]) -> Registry:
+def find_plugins_once(plugins: tuple[Path, ...]) -> Registry:
+    """Return the plugins, with those in files of their own: a worker finds them once."""
     return find_plugins(files=plugins)
 
 
 @functools.cache
-def _versions(plugins: tuple[Path, ...]) -> Mapping[str, str]:
+def find_versions_once(plugins: tuple[Path, ...]) -> Mapping[str, str]:
+    """Return the versions of the program and of its plugins; these do not change under a worker."""
     return find_program_versions(files=plugins)
 
 
 @functools.lru_cache(maxsize=4)
 def _read_fleet(path: Path, content: bytes, plugins: tuple[Path, ...]) -> FleetFile:
-    return load_fleet(path, content, lambda: _registry(plugins).extensions)
+    return load_fleet(path, content, lambda: find_plugins_once(plugins).extensions)

@@ -120,7 +120,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
         if unmatched and not gone:
             raise InputError(unmatched)
         lacking = find_missing(known, gone)
-        with ledger.night(_now(), str(fleet.path)) as night, _show_alive(fleet):
+        with ledger.night(read_clock(), str(fleet.path)) as night, _show_alive(fleet):
             if lacking:
                 place, notice = lacking
                 noticed = (*say_of_last(night, last), notice)
@@ -129,7 +129,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 _tell(fleet, night, ways, watch, last)
                 night.notice((*noticed, *ways.untold.values()))
                 if not night.was_interrupted:  # else the next night still has to tidy up
-                    night.end(_now())
+                    night.end(read_clock())
                 raise MissingError.at(place, notice.english)
             mistakes = (NightNotice(About.JOBS, same(each.message)) for each in unmatched)
             noticed = (*list_notices(known, night, gone, last), *mistakes)
@@ -153,7 +153,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 night.report(tuple(find_news_of(state, language)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
-            night.end(_now())
+            night.end(read_clock())
 
 
 @contextlib.contextmanager
@@ -168,7 +168,7 @@ def _show_alive(fleet: FleetFile) -> Iterator[None]:
 
 def _beat(fleet: FleetFile, *, is_at_work: bool) -> None:
     """Write the sign of life; where it cannot be written, its age tells."""
-    text = write_heartbeat(fleet.name, dt.datetime.fromisoformat(_now()), is_at_work=is_at_work)
+    text = write_heartbeat(fleet.name, dt.datetime.fromisoformat(read_clock()), is_at_work=is_at_work)
     with contextlib.suppress(AccessError):
         write([Document(fleet.heartbeat, text.encode())])
 
@@ -239,7 +239,7 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
     with contextlib.ExitStack() as stack:
         due = sum(map(bool, why.values()))
         executor = (
-            _executor(known.fleet, order, due, lambda: _write_sign_of_life(known.fleet, night))
+            make_executor(known.fleet, order, due, lambda: _write_sign_of_life(known.fleet, night))
             if due
             else None
         )
@@ -277,7 +277,7 @@ def _work_through(known: Evening, order: Order, witness: _Witness, work: _Work) 
 
 def _write_sign_of_life(fleet: FleetFile, night: Night) -> None:
     """Give a sign of life, to the ledger and to whoever watches files."""
-    night.beat(_now())
+    night.beat(read_clock())
     _beat(fleet, is_at_work=True)
 
 
@@ -337,7 +337,8 @@ def _is_upgrade(planned: PlannedJob, known: Evening) -> bool:
     return not any(say_changes(standing.basis, Disk(known.fleet.path.parent), as_before))
 
 
-def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]) -> Pool | Cluster:
+def make_executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]) -> Pool | Cluster:
+    """Return who makes the certificates that are due: a scheduler's workers, or processes here."""
     keys = fleet.keys.executor
     if keys.kind == "dask":
         return Cluster(keys.scheduler or "", fleet.place_of("executor", "scheduler"), beat)
@@ -345,6 +346,6 @@ def _executor(fleet: FleetFile, order: Order, due: int, beat: Callable[[], None]
     return Pool(min(wanted, due), order.plugins, beat)
 
 
-def _now() -> str:
+def read_clock() -> str:
     """Return date and time; no document states them."""
     return dt.datetime.now(dt.UTC).isoformat(timespec="seconds")

@@ -155,7 +155,7 @@ def verify(
     with lay_out(sources, carrier.carried) as layout:
         try:
             is_machine = stated.tree.get("schema") == MACHINE_RESULTS
-            make_again = _make_machine_again if is_machine else _again
+            make_again = _make_machine_again if is_machine else make_certificate_again
             again = make_again(layout.job, carrier, stated.results, registry)
         except Exception as error:  # what anyone sent may break anything that it is handed to
             ended = error if isinstance(error, ZlmreportError) else _make_unforeseen(carrier.place, error)
@@ -179,7 +179,7 @@ def _make_unforeseen(place: Place, error: Exception) -> ZlmreportError:
     return InputError.at(place, f"cannot be evaluated again: {reason}")
 
 
-def _again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
+def make_certificate_again(job_path: Path, carrier: Carrier, stated: Results, registry: Registry) -> _Again:
     """Load the attached job, evaluate it, and print it with all that the document carries.
 
     It is printed in the name of the releases that it states: where their names are all that differs, another

@@ -7,8 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from document.certificate.documents import COMPLETE, certificate, lines_of, text_of
+from document.certificate.documents import COMPLETE, FEW_TRIALS, certificate, lines_of, text_of
 from zlmreport.document.blocks import Graph, Table
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.language import Language
 
 HEAD = "target,direction,run,deviation\n"
@@ -23,7 +24,7 @@ def adjusted(tmp_path: Path):
     """Compose the certificate of an axis that was adjusted, with other readings as found or other keys."""
     (tmp_path / "left.csv").write_text(AS_LEFT)
 
-    def compose(as_found: str = AS_FOUND, work: str = "adjustment", **keys: object):
+    def compose(as_found: str = AS_FOUND, work: str = "adjustment", trials: int = FEW_TRIALS, **keys: object):
         (tmp_path / "found.csv").write_text(as_found)
         before = {
             "work": work,
@@ -38,7 +39,7 @@ def adjusted(tmp_path: Path):
             "evaluate": [{"standard": "iso230-2:2014", "tolerances": {"B": 5}}, "nmtba"],
             **keys,
         }
-        return certificate(tmp_path, complete)
+        return certificate(tmp_path, complete, trials)
 
     return compose
 
@@ -83,7 +84,7 @@ def test_each_graph_as_found_says_so(adjusted):
 
 
 def test_the_first_page_shows_the_axis_as_left_and_says_so(adjusted):
-    document = adjusted()
+    document = adjusted(trials=TRIALS)
     cover = [line for block in document.cover for line in lines_of(block)]
     assert any("Reversal error | 0.500 | 0.055 | 1.97 | 5 | conforms" in line for line in cover)
     assert any("The results above are those after the adjustment" in line for line in cover)
@@ -98,7 +99,7 @@ def test_both_measurements_are_evaluated_by_every_standard(adjusted):
 
 
 def test_a_change_is_the_value_as_left_less_the_value_as_found(adjusted):
-    rows = lines(adjusted(), "as-found-as-left")
+    rows = lines(adjusted(trials=TRIALS), "as-found-as-left")
     # U of the change: the sum of 0.0573 and 0.0547, both of them unrounded
     assert "B | Reversal error | 8.500 | 0.057 | 0.500 | 0.055 | −8.00 | 0.11" in rows
 

@@ -7,6 +7,7 @@ import pytest
 
 from document.certificate.documents import certificate, having, lines_of
 from document.certificate.everything import EVERYTHING, write_tables
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 
 GOLDEN = Path(__file__).with_name("golden")
 #: The sections that are not about one standard, the budget or the files.
@@ -21,7 +22,7 @@ def test_the_wording_is_what_was_read_and_approved(tmp_path, language, kind):
     keys = having("certificate.language", language, EVERYTHING)
     keys = having("as_found.work", "repair" if kind == "amendment" else "adjustment", keys)
     amends = {"number": "CAL-0", "kind": kind, "reason": "Wrong serial number.", "changes": ["S-1, not S-2"]}
-    document = certificate(tmp_path, having("certificate.amends", amends, keys))
+    document = certificate(tmp_path, having("certificate.amends", amends, keys), TRIALS)
     lines = [document.title, *(line for block in document.cover for line in lines_of(block))]
     for section in document.sections:
         if section.key in SECTIONS:

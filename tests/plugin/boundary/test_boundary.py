@@ -127,11 +127,11 @@ def test_plugin_that_exits_fails_its_job_of_a_fleet_and_no_other(
     without_processes(monkeypatch)
     monkeypatch.setattr(
         making,
-        "_registry",
+        "find_plugins_once",
         lambda _: collect([sinful, (Plugin("sound", "s", "exemplary-plugins", "1.2"), sound)]),
     )
     versions = {**VERSIONS, "house-plugins": "2.0 code"}
-    monkeypatch.setattr(making, "_versions", lambda _: versions)
+    monkeypatch.setattr(making, "find_versions_once", lambda _: versions)
     monkeypatch.setattr(night, "find_program_versions", lambda **_: versions)
     fleet = Fleet.of(tmp_path, "a", "b")
     fleet.job("b", ("exemplary:1", "house:1"), ("{E: 20}", "{R: 20}"))

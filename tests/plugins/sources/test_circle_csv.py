@@ -147,17 +147,18 @@ def test_many_readings_are_averaged_without_moving_the_path(file: File) -> None:
     assert averaging.amplitude == 0.0
 
 
-@pytest.mark.parametrize("begins", [0.0, 0.04, 0.25])
+@pytest.mark.parametrize("begins", [0.0, 0.2, 1.25])
 def test_an_arc_in_which_a_turn_begins_and_ends_keeps_its_place_in_time(file: File, begins: float) -> None:
+    # arcs of 2.5°, with 50 readings in each
     lines = ["sense,run,angle,deviation,time"]
     for sense, way in (("ccw", 1), ("cw", -1)):
         lines += [
-            f"{sense},1,{(begins + way * 0.01 * index) % 360:.2f},1,{(way < 0) * 1e4 + index * 0.01:.2f}"
-            for index in range(36_001)
+            f"{sense},1,{(begins + way * 0.05 * index) % 360:.2f},1,{(way < 0) * 1e4 + index * 0.05:.2f}"
+            for index in range(7_201)
         ]
-    found = read(file, "\n".join(lines), readings_per_turn=720)
+    found = read(file, "\n".join(lines), readings_per_turn=144)
     assert found.time is not None
-    assert found.deviations().shape == (2, 720, 1)
+    assert found.deviations().shape == (2, 144, 1)
     assert np.diff(found.time).min() > 0
 
 
