@@ -100,6 +100,8 @@ class SetSearch:
         told(0.6)
         together = self._climb(self._united(beside, named), is_thorough=False)
         best = self._climb(min((released, beside, together), key=find_score))
+        if self._is_coloured(best):  # names alone may lead where there is no way on
+            best = min(best, self._climb(beside), key=find_score)
         told(0.8)
         is_near = len(named.members) <= _MOST_ALONE and named.score < best.score + _NEAR
         if is_near and self.has_nameless(best):
