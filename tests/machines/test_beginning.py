@@ -1,6 +1,8 @@
 """A machine file from nothing but files of readings: what they tell is written, and the rest is asked for."""
 
+import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -72,6 +74,53 @@ def readings(tmp_path: Path) -> Path:
     return folder
 
 
+def fill_in(name: str, *values: tuple[str, str]) -> None:
+    path = Path("mill", name)
+    text = path.read_text("utf-8")
+    for commented, stated in values:
+        assert commented in text
+        text = text.replace(commented, stated)
+    path.write_text(text, "utf-8")
+
+
+def ask(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, Any]:
+    assert main(["machine", *arguments, "--json"]) == 0
+    found: dict[str, Any] = json.loads(capsys.readouterr().out)
+    return found
+
+
+@pytest.mark.long
+def test_six_axes_and_two_runs_of_a_ballbar_tell_that_the_y_drive_lags(
+    readings: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """From files to a machine that is square, of equal scales, its lag known: a new user's ten minutes."""
+    monkeypatch.chdir(tmp_path)
+    (readings / "x-straightness.csv").rename(readings / "EYX.csv")
+    (readings / "EZX.csv").write_bytes((readings / "EYX.csv").read_bytes())  # no part of a circle in XY
+    assert main(["init", "mill", "--machine", "readings"]) == 0
+    assert "not known" not in capsys.readouterr().out
+    fill_in("ballbar-cw.yaml", ("# radius: 150", "radius: 150"), ("# feed: 1000", "feed: 1000"))
+    for name in ("ballbar-cw.yaml", "ballbar-XY-R150-F1000-ccw.yaml"):
+        fill_in(name, ("# centre: [0, 0, 0]", "centre: [250, 200, 0]"))
+    path = "mill/machine.yaml"
+    found = ask(capsys, "diagnose", path)
+    assert (found["verdict"], found["set"]) == ("missing", ["servo-mismatch"])
+    assert any(each.startswith("Y lags behind X by 0.79") for each in found["findings"])
+    values = {each["name"]: each for each in found["candidates"][0]["parameters"]}
+    assert values["T_X-T_Y"]["value"] == pytest.approx(-0.8, abs=values["T_X-T_Y"]["expanded_uncertainty"])
+    beside = {each["effect"]: each for each in found["beside"]}
+    assert "X and Y are square" in beside["squareness"]["statements"][0]
+    assert "The scales of X and Y agree" in f"T{beside['scale-mismatch']['statements'][0][1:]}"
+    # The file of the machine has it now, and each of both runs differs by no more than its readings scatter.
+    changed = ask(capsys, "add", path, "servo-mismatch")
+    assert "servo-mismatch" in Path(path).read_text("utf-8")
+    for before, after in zip(changed["before"]["tests"], changed["after"]["tests"], strict=True):
+        assert before["rms_left"] > 4.5
+        assert after["rms_left"] == pytest.approx(after["noise_rms"], rel=0.15)
+    again = ask(capsys, "diagnose", path)
+    assert (again["verdict"], again["set"]) == ("adequate", [])
+
+
 def test_a_machine_begins_with_files_and_says_what_only_its_user_knows(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -86,14 +135,6 @@ def test_a_machine_begins_with_files_and_says_what_only_its_user_knows(
     # As it is, what is missing is told with its place.
     assert main(["machine", "check", "mill/machine.yaml"]) == 2
     assert "mill/ballbar-cw.yaml:5:1: circle: missing" in capsys.readouterr().err
-
-    def fill_in(name: str, *values: tuple[str, str]) -> None:
-        path = Path("mill", name)
-        text = path.read_text("utf-8")
-        for commented, stated in values:
-            assert commented in text
-            text = text.replace(commented, stated)
-        path.write_text(text, "utf-8")
 
     fill_in("x-straightness.yaml", ("# error: EYX", "error: EYX"))
     fill_in("machine.yaml", ("# - x-straightness.yaml", "- x-straightness.yaml"))

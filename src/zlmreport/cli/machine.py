@@ -13,7 +13,7 @@ from zlmreport.document.blocks import Block, Section
 from zlmreport.errors import Place
 from zlmreport.files import Document, write
 from zlmreport.language import Language
-from zlmreport.machines.comparison import ComparedTest, compare_circles, compare_line
+from zlmreport.machines.comparison import compare_circles, compare_line
 from zlmreport.machines.diagnosis import diagnose
 from zlmreport.machines.diagnosis_report import build_values, change_values, collect_diagnosis
 from zlmreport.machines.document import make_machine_document
@@ -86,7 +86,7 @@ def _diagnose(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[I
         compare_circles(machine.machine, machine.measured, registry, study)
         for study in (found.study, found.complete)
     )
-    blocks: list[Block] = [tests.lay_out_sizes(before, _SAY, found.noise)]
+    blocks: list[Block] = [tests.lay_out_sizes(before, _SAY, found.noise_of_readings)]
     failures = tests.make_failure_notice(before, _SAY)
     if failures:
         blocks.append(failures)
@@ -165,14 +165,13 @@ def _change_effects(
     edit_effects(machine, tuple(each.identifier for each in effects))
     sections = [
         findings.change_section(before, after, _SAY),
-        *map(_compare_sizes, ("Tests before", "Tests after"), compared, (after.noise.rms, after.noise.rms)),
+        *(
+            Section("sizes", title, (tests.lay_out_sizes(each, _SAY, after.noise_of_readings),))
+            for title, each in zip(("Tests before", "Tests after"), compared, strict=True)
+        ),
         findings.lay_out_model(after, _SAY),
     ]
     return _lay_out(machine, sections), change_values(before, after, (compared[0], compared[1]))
-
-
-def _compare_sizes(title: str, compared: Sequence[ComparedTest], noise: float) -> Section:
-    return Section("sizes", title, (tests.lay_out_sizes(compared, _SAY, noise),))
 
 
 _ACTIONS = {

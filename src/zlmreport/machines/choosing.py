@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.forms import CircleForm, form_at, list_forms_of, make_whole_form
+from zlmreport.machines.forms import CircleForm, find_best_of_kinds, form_at, list_forms_of, make_whole_form
 from zlmreport.machines.machine import Machine
 from zlmreport.machines.study import Chosen, CircleStudy, study_bare
 from zlmreport.measurement.arrays import FloatArray
@@ -77,7 +77,9 @@ def find_best_form(study: CircleStudy, effect: CircleEffect) -> CircleForm:
     """Return the form of an effect that fits best, its searched values refined."""
     fit = _Fit(study)
     forms = [form for form in list_forms_of(effect, study.design) if form.terms]
-    return refine_form(study, effect, max(forms, key=fit.gained))
+    worth = np.array([fit.gained(form) for form in forms])
+    kinds = [refine_form(study, effect, form) for form in find_best_of_kinds(effect, forms, worth)]
+    return max(kinds, key=fit.gained)
 
 
 def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> CircleForm:

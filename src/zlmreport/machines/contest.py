@@ -19,7 +19,7 @@ import numpy as np
 
 from zlmreport.language import Words
 from zlmreport.machines.design import ThinnedDesign
-from zlmreport.machines.forms import CircleForm
+from zlmreport.machines.forms import CircleForm, find_best_of_kinds
 from zlmreport.machines.noise import NoiseFound, NoiseModel, Whitened, bound_square
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.model.diagnosis.null_distribution import LEVEL, NullDistribution, PValue, Scores
@@ -167,7 +167,7 @@ def contest(
         found = np.array([arena.evidence(columns, subsets) for arena in arenas])
         by_effect.append(_average(found, weight))
         weighed = _average_over_noises(found, weight)[:, 0]
-        best.append((effect, [forms[index] for index in _find_best_of_kinds(effect, forms, weighed)]))
+        best.append((effect, find_best_of_kinds(effect, forms, weighed)))
     by_shape = [
         _average(np.array([[arena.curve(each.columns)] for arena in arenas]), weight) for each in nameless
     ]
@@ -200,18 +200,6 @@ def contest(
         tuple(float(shares[1 + index]) for index in order),
         chance.p_value(own),
     )
-
-
-def _find_best_of_kinds(effect: CircleEffect, forms: Sequence[CircleForm], own: FloatArray) -> list[int]:
-    """Return the best form of each kind, best first: those of one differ by what is refined and by groups.
-
-    `own`, (forms,): their evidence.
-    """
-    found: dict[tuple[float, ...], int] = {}
-    for index in np.argsort(-own, kind="stable").tolist():
-        pairs = zip(effect.searched, forms[index].searched, strict=True)
-        found.setdefault(tuple(value for each, value in pairs if not each.is_refined), index)
-    return list(found.values())
 
 
 def _weigh_refined(arenas: Sequence[_Arena], weight: FloatArray, form: CircleForm, prior: float) -> float:

@@ -91,6 +91,7 @@ class MachineDiagnosis:
     #: Root mean square of what scatters beside the model that describes the circles best, m. Where effects
     #: are tied, that has one of them, though `complete` has none: what they do is no noise.
     noise: float
+    noise_of_readings: float  #: The same of single readings, before they are thinned.
 
 
 def compute_rms_of(study: CircleStudy) -> float:
@@ -166,7 +167,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
     return MachineDiagnosis(
         study if found else complete, complete, verdict, first.outcome.p_value, first.shown,
         tuple(found), tuple(steps), remainder, first.hidden, tuple(catalogue), is_tied,
-        stages[chosen].study.noise.rms,
+        stages[chosen].study.noise.rms, stages[chosen].study.noise_of_readings,
     )  # fmt: skip
 
 

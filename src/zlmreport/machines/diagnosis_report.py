@@ -31,7 +31,7 @@ def collect_diagnosis(
     `tests`: The tests beside the model as it is.
     `complete`: The same beside the model with all that was found.
     """
-    noise = diagnosis.noise
+    noise, of_readings = diagnosis.noise, _MICRO * diagnosis.noise_of_readings
     return {
         "schema": SCHEMA,
         "model": collect_model(diagnosis.study),
@@ -42,11 +42,11 @@ def collect_diagnosis(
         "set": list(diagnosis.found),
         "candidates": [collect_candidate(each, diagnosis, language) for each in diagnosis.candidates],
         "remainder": collect_remainder(diagnosis, language),
-        "tests": [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise} for each in tests],
+        "tests": [{**collect_compared_sizes(each), "noise_rms": of_readings} for each in tests],
         "complete": {
             "model": collect_model(diagnosis.complete),
             "error": collect_study(diagnosis.complete, noise),
-            "tests": [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise} for each in complete],
+            "tests": [{**collect_compared_sizes(each), "noise_rms": of_readings} for each in complete],
         },
         "findings": [each.in_language(language) for each in list_findings(diagnosis.complete)],
         "beside": [
@@ -103,14 +103,14 @@ def change_values(
     before: CircleStudy, after: CircleStudy, tests: tuple[Sequence[ComparedTest], Sequence[ComparedTest]]
 ) -> dict[str, Any]:
     """Return what a change of the model did; `tests` are those beside the model before and after it."""
-    noise = after.noise.rms
+    noise, of_readings = after.noise.rms, _MICRO * after.noise_of_readings
     return {
         "schema": CHANGE,
         **{
             name: {
                 "model": collect_model(study),
                 "error": collect_study(study, noise),
-                "tests": [{**collect_compared_sizes(each), "noise_rms": _MICRO * noise} for each in compared],
+                "tests": [{**collect_compared_sizes(each), "noise_rms": of_readings} for each in compared],
             }
             for name, study, compared in zip(("before", "after"), (before, after), tests, strict=True)
         },

@@ -202,7 +202,7 @@ def _lay_out_first(material: _Material, say: Sayer) -> Iterator[Block]:
     if diagnosis:
         yield from findings.lay_out_verdict(diagnosis, say).blocks
         lines = [each for each in material.by_axes if not isinstance(each.test, CircularTest)]
-        noise = diagnosis.noise
+        noise = diagnosis.noise_of_readings
         yield tests.lay_out_sizes((*material.complete, *lines), say, noise, with_numbers=True)
     elif material.by_axes:
         yield tests.lay_out_sizes(material.by_axes, say)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
@@ -74,3 +75,17 @@ def list_forms_of(effect: CircleEffect, design: ThinnedDesign) -> tuple[CircleFo
         for searched in effect.grid(design.fine)
         for part in split_parts_of(effect, make_whole_form(effect, design, searched))
     )
+
+
+def find_best_of_kinds(
+    effect: CircleEffect, forms: Sequence[CircleForm], worth: FloatArray
+) -> list[CircleForm]:
+    """Return the best form of each kind, best first: those of one differ by what is refined and by groups.
+
+    `worth`, (forms,): how good each is.
+    """
+    found: dict[Searched, CircleForm] = {}
+    for index in np.argsort(-worth, kind="stable").tolist():
+        pairs = zip(effect.searched, forms[index].searched, strict=True)
+        found.setdefault(tuple(value for each, value in pairs if not each.is_refined), forms[index])
+    return list(found.values())

@@ -304,6 +304,10 @@ class NoiseFound:
             np.sqrt(sum(w * s.total for w, s in zip(self.weights, self.shapes, strict=True)))
         )
 
+    def estimate_of_readings(self, averaged: float) -> float:
+        """Return the same of single readings, where so many neighbours were averaged: what is white grows."""
+        return float(np.sqrt(self.rms**2 + (averaged - 1.0) * self.sigma**2))
+
 
 def find_anew(model: NoiseModel, deviation: FloatArray, kept: Sequence[NoiseShape]) -> float:
     """Return 2·ln of what a model gains if its noise may have any shape, and not only some.

@@ -156,6 +156,11 @@ class CircleStudy:
         """The noise that the readings show under this model."""
         return find_noise(self.model, self.deviation)
 
+    @property
+    def noise_of_readings(self) -> float:
+        """Root mean square of what scatters from reading to reading before they are thinned, m."""
+        return self.noise.estimate_of_readings(float(self.design.sizes.mean()))
+
     @cached_property
     def whitened(self) -> Whitened:
         """The readings under the likeliest noise."""

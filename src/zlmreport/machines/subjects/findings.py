@@ -289,7 +289,7 @@ _BEFORE, _AFTER = Words("before"), Words("after")
 _NOISE = Words("noise")
 _CHANGED = Words("The error before and after")
 _CHANGE = Words(
-    "With the effects {effects} the root mean square of all circles goes from {before} µm to {after} µm; "
-    "the noise is {noise} µm."
+    "With the effects {effects} the root mean square of all circles, neighbouring readings averaged, goes "
+    "from {before} µm to {after} µm; the noise is {noise} µm."
 )
 _NONE = Words("none")
