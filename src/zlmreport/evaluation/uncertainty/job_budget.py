@@ -1,8 +1,4 @@
-"""From what a job states of its measuring set-up to the uncertainty budget, and what it leaves out.
-
-A report with an incomplete budget says so wherever it states U; a calibration certificate is refused, with
-what is to be stated and how. So is one of a length whose temperature nobody knows.
-"""
+"""From what a job states of its measuring set-up to the uncertainty budget, and what it leaves out."""
 
 from __future__ import annotations
 
