@@ -18,9 +18,8 @@ from zlmreport import pipeline
 from zlmreport.document.certificate.information import Information, check_information
 from zlmreport.errors import InputError
 from zlmreport.evaluation import likely_units, traceability
-from zlmreport.evaluation.disagreements import find_disagreements
+from zlmreport.evaluation.disagreements import find_contradicting_limits, find_disagreements
 from zlmreport.evaluation.evidence import find_evidence, find_lines_read_twice
-from zlmreport.evaluation.limits import find_contradicting_limits
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.language import Language, Words

@@ -29,6 +29,7 @@ from doubtful.doubtful_jobs import (
 )
 from doubtful.test_twenty_jobs import GERMAN, SHEET, STANDARD, by, false_in, machine
 from doubtful.test_twenty_more_jobs import first_page
+from zlmreport.language import Language
 
 Spoil = Callable[[np.ndarray], np.ndarray]
 FRENCH = ("certificate.language", "fr")
@@ -254,6 +255,28 @@ def test_two_axes_with_the_readings_of_one_are_marked(tmp_path: Path) -> None:
     said = "The readings of EXX and EYY are identical in every digit: one line may have been read twice"
     assert said in first_page(document)
     assert said in [each.in_language(document.language) for each in document.evidence]
+
+
+def test_a_length_that_the_instrument_corrected_by_another_coefficient_is_not_said_to_hold_at_20_degrees(
+    tmp_path: Path,
+) -> None:
+    """At 24 °C, by 23 and not by 11.5 µm/(m·K): 45.7 µm on 993 mm."""
+    other = changed(
+        ("instrument.compensates", {"material": 23, "air": True}), ("environment.axis_temperature", 24)
+    )
+
+    (finding,) = (
+        each
+        for each in composed(tmp_path, other).evaluations[0].findings
+        if each.requirement.en.startswith("Results for 20")
+    )
+
+    assert finding.met is False
+    assert "the machine has 11.5 µm/(m·K), and 45.7 µm are left" in finding.found.in_language(
+        Language.ENGLISH
+    )
+    same = changed(("instrument.compensates.material", 11.5), of=other)
+    assert "45.7 µm" not in text_of(composed(tmp_path, same))
 
 
 # Refused at its line, with what would be right.

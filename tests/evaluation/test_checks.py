@@ -376,6 +376,16 @@ def test_differing_intervals_can_carry_a_random_fraction() -> None:
     assert said(found)[1:] == ("intervals from 9.66 mm to 10.53 mm", True)
 
 
+def test_one_interval_of_three_times_the_others_is_no_interval_with_fractions() -> None:
+    found = random_fractions(taken_at(0, 10.21, 19.87, 30.4, 904), FORMULA, Basis.PUBLISHED)
+
+    assert found.met is False
+    assert (
+        found.found.in_language(Language.ENGLISH)
+        == "intervals from 9.66 mm to 873.6 mm: there is no interval p"
+    )
+
+
 def test_two_positions_do_not_tell_whether_there_is_a_random_fraction() -> None:
     assert random_fractions(taken_at(0, 10), FORMULA, Basis.PUBLISHED).met is None
 

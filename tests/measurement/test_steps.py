@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import MeasurementSet
-from zlmreport.measurement.steps import find_last_digit, find_step
+from zlmreport.measurement.measurement_set import MeasurementSet, find_last_digit, find_step
 
 TARGETS = np.linspace(0.003, 0.993, 11)
 

@@ -337,8 +337,17 @@ def _check_spacing_against(measurements: MeasurementSet, name: Words, period: fl
     return Finding(requirement, found, met=False, basis=basis)
 
 
+_INTERVALS = Words("intervals from {shortest} to {longest}")
+_NO_COMMON_INTERVAL = Words("intervals from {shortest} to {longest}: there is no interval p")
+#: Times the usual interval that none is long where there is an interval p.
+_NO_INTERVAL = 3.0
+
+
 def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -> Finding:
     """Ask that each target carries a random fraction; equal intervals show that none does.
+
+    A fraction of an interval lengthens none to twice its length; one of three times the usual interval shows
+    that there is no interval p.
 
     Parameters
     ----------
@@ -360,10 +369,10 @@ def random_fractions(measurements: MeasurementSet, formula: str, basis: Basis) -
         found = Words("all intervals alike: {interval}")
         found = found.given(interval=position_in_words(axis, float(intervals.mean())))
         return Finding(requirement, found, met=False, basis=basis)
-    found = Words("intervals from {shortest} to {longest}").given(
-        shortest=position_in_words(axis, shortest), longest=position_in_words(axis, longest)
-    )
-    return Finding(requirement, found, met=True, basis=basis)
+    has_interval = longest <= _NO_INTERVAL * float(np.median(intervals))
+    words = _INTERVALS if has_interval else _NO_COMMON_INTERVAL
+    found = words.given(shortest=position_in_words(axis, shortest), longest=position_in_words(axis, longest))
+    return Finding(requirement, found, has_interval, basis)
 
 
 def mean_interval(measurements: MeasurementSet, limit: float, basis: Basis) -> Finding:

@@ -6,11 +6,12 @@ Nothing of it is refused, for each may have its reason: a reader is told, and th
 from __future__ import annotations
 
 import datetime as dt
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import combinations, pairwise
 
 import numpy as np
 
+from zlmreport.evaluation.evaluation import Evaluation, Parameter
 from zlmreport.evaluation.logged_conditions import (
     find_gaps,
     find_silent_sensors,
@@ -21,6 +22,7 @@ from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.language import Words, same
+from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import BoolArray, FloatArray
 from zlmreport.measurement.axis import AxisKind
@@ -67,6 +69,10 @@ _BOTH_WAYS = Words("A unidirectional method is stated, and targets were approach
 _SERIALS = Words("The measuring instrument and the machine are stated with one serial number, {serial}")
 _BARE_LENGTH = Words(
     "The length of the instrument is said to be calibrated, and no calibration certificate is named for it"
+)
+_EXCHANGED = Words(
+    "{designation}: the limit of {part}, {larger}, is above that of {whole}, {smaller}, and {whole} is never "
+    "smaller than {part}: nothing that conforms by {whole} can fail by {part}"
 )
 #: Days after which issue is late, and that a measurement may take.
 _YEAR, _LONGEST = 365, 31
@@ -280,3 +286,34 @@ def _find_exceeded_feed(
     if speed > _OF_FEED * feed:
         per_minute = "°/min" if measurements.axis.kind is AxisKind.ROTARY else "mm/min"
         yield _TOO_FAST.given(speed=float(f"{speed:.2g}"), feed=feed, unit=per_minute)
+
+
+def find_contradicting_limits(evaluation: Evaluation) -> Iterator[Words]:
+    """Yield the limits that can decide nothing beside that of a parameter that is never smaller."""
+    limited = {each.quantity.symbol: each for each in evaluation.parameters if each.limit is not None}
+    for whole in limited.values():
+        parts = set(_list_parts(whole.quantity.never_below, evaluation))
+        for symbol, part in limited.items():
+            if symbol in parts and (part.limit or 0.0) > (whole.limit or 0.0):
+                yield _EXCHANGED.given(
+                    designation=evaluation.designation,
+                    part=write_plain(part.quantity.notation),
+                    whole=write_plain(whole.quantity.notation),
+                    larger=_write_limit(part, evaluation),
+                    smaller=_write_limit(whole, evaluation),
+                )
+
+
+def _list_parts(symbols: tuple[str, ...], evaluation: Evaluation) -> Iterator[str]:
+    """Yield the symbols of parameters that are never larger, and those of which these say it."""
+    known: Mapping[str, Parameter] = {each.quantity.symbol: each for each in evaluation.parameters}
+    for symbol in symbols:
+        yield symbol
+        if symbol in known:
+            yield from _list_parts(known[symbol].quantity.never_below, evaluation)
+
+
+def _write_limit(parameter: Parameter, evaluation: Evaluation) -> Words:
+    unit = parameter.quantity.unit_or(evaluation.measurements.axis.deviation_unit)
+    limit = float(f"{unit.from_si(parameter.limit or 0.0):.6g}")
+    return Words(with_unit("{limit}", unit.symbol)).given(limit=limit)

@@ -24,8 +24,13 @@ from zlmreport.language import Words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.steps import find_last_digit, find_step
+from zlmreport.measurement.measurement_set import (
+    CONDITION_NAMES,
+    CONDITIONS,
+    MeasurementSet,
+    find_last_digit,
+    find_step,
+)
 from zlmreport.measurement.units import ANGLES, MILLIMETRE, Unit, with_unit
 
 _DRIFTS = Words("Run means {lie} {low} {to} {high}; {stated} counted as the axis's own, and not in U")

@@ -16,8 +16,7 @@ from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.language.formatting import write_plain
 from zlmreport.measurement.axis import AxisKind
-from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
-from zlmreport.measurement.steps import find_step
+from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet, find_step
 from zlmreport.measurement.units import ANGLES, MICRORADIAN, Scale
 
 _UNLIKELY = Words("{name}: {value} {unit} is unusual where machines are measured")

@@ -18,9 +18,11 @@ _GAP = Words(
     "to change evenly"
 )
 _BEGINS_LATE = Words(
-    "{name}: not logged at the first {count} readings, for which it is taken to have been what it was then"
+    "{name}: not logged at the first {count} readings, for which the first value that was logged is taken"
 )
-_ENDS_EARLY = Words("{name}: not logged at the last {count} readings, for which it is taken to have stayed")
+_ENDS_EARLY = Words(
+    "{name}: not logged at the last {count} readings, for which the last value that was logged is taken"
+)
 _STOOD = Words(
     "{name}: the same in every digit over {hours} h, at {count} readings: its sensor may have stood still"
 )

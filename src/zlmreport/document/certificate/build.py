@@ -22,9 +22,8 @@ from zlmreport.document.certificate.statements import (
 )
 from zlmreport.document.writer import Marks, Writer
 from zlmreport.evaluation import traceability
-from zlmreport.evaluation.disagreements import find_disagreements
+from zlmreport.evaluation.disagreements import find_contradicting_limits, find_disagreements
 from zlmreport.evaluation.evidence import find_as_left_once_more, find_evidence, find_lines_read_twice
-from zlmreport.evaluation.limits import find_contradicting_limits
 from zlmreport.language import Words
 from zlmreport.version import __version__
 

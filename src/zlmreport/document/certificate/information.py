@@ -17,7 +17,7 @@ from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
 from zlmreport.evaluation.uncertainty.reasons import is_placeholder, is_reference
 from zlmreport.language import Row, Words
 from zlmreport.measurement.measurand import STRAIGHTNESS
-from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN
+from zlmreport.measurement.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN
 
 if TYPE_CHECKING:
     from zlmreport.job.job import Job
@@ -62,6 +62,7 @@ _FAR_IN_U = Words("{difference} K from 20 °C, and not corrected; U holds the ex
 _BY_INSTRUMENT = Words("corrected by the instrument, by α = {coefficient} µm/(m·K)")
 #: Instruments that have a straight line of their own.
 _BEAM = re.compile(r"laser|interf\w*met|autoco?l+imat|telescop|fernrohr|lunette|cannocchiale", re.IGNORECASE)
+_LEFT_BY_INSTRUMENT = Words("{corrected}; the machine has {stated} µm/(m·K), and {left} µm are left")
 #: Distance from 20 °C up to which an expansion that is counted in U may stand for a correction, K.
 _NEAR = 1.0
 _AT_REFERENCE = Words("measured at 20 °C")
@@ -101,7 +102,7 @@ def _check_reference_temperature(
     by_instrument = find_compensated_by_instrument(job, measurements).material
     if by_instrument is not None:
         coefficient = float(f"{by_instrument / MICROMETRE_PER_METRE_KELVIN:.6g}")
-        return Finding(requirement, _BY_INSTRUMENT.given(coefficient=coefficient), met=True)
+        return Finding(requirement, *_judge_compensation(coefficient, job, budget))
     if not budget.uncorrected_expansion:
         return Finding(requirement, _AT_REFERENCE, met=True)
     if not isinstance(budget, Budget):
@@ -109,6 +110,22 @@ def _check_reference_temperature(
     is_near = abs(budget.difference) <= _NEAR
     difference = float(f"{budget.difference:.3g}")
     return Finding(requirement, _IN_U if is_near else _FAR_IN_U.given(difference=difference), met=is_near)
+
+
+def _judge_compensation(coefficient: float, job: Job, budget: Budget | NoBudget) -> tuple[Words, bool]:
+    """Return what is said of a length that the instrument took to 20 °C, and whether it did.
+
+    `coefficient`: By which it did, µm/(m·K). What another one of the machine leaves counts as so many kelvins
+    of an expansion that nobody has corrected.
+    """
+    found = _BY_INSTRUMENT.given(coefficient=coefficient)
+    stated = job.keys.environment.expansion_coefficient if job.keys.environment else None
+    if not isinstance(stated, float) or not stated or not isinstance(budget, Budget):
+        return found, True
+    if abs(budget.difference * (1 - coefficient / stated)) <= _NEAR:
+        return found, True
+    left = float(f"{abs(MICROMETRE.from_si(budget.uncorrected_expansion or 0.0)):.3g}")
+    return _LEFT_BY_INSTRUMENT.given(corrected=found, stated=stated, left=left), False
 
 
 def _find_used_coefficient(job: Job) -> float | None:

@@ -26,14 +26,13 @@ from zlmreport.language.numbers import number_words
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
-from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet
+from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet, find_step
 from zlmreport.measurement.provenance import Correction, Exclusion
 from zlmreport.measurement.refractive_index import (
     STANDARD_HUMIDITY,
     STANDARD_PRESSURE,
     refractive_index,
 )
-from zlmreport.measurement.steps import find_step
 from zlmreport.measurement.units import (
     MICROMETRE_PER_METRE_KELVIN,
     REFERENCE_TEMPERATURE,

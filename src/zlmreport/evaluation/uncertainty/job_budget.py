@@ -38,8 +38,7 @@ from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
-from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
-from zlmreport.measurement.steps import find_last_digit, find_step
+from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet, find_last_digit, find_step
 from zlmreport.measurement.units import MICROMETRE, MICROMETRE_PER_METRE_KELVIN, MILLIMETRE, Unit
 
 #: Of the uncertainties that a job states as expanded.

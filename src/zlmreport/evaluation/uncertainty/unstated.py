@@ -1,4 +1,8 @@
-"""What a calibration certificate must state of its uncertainty and does not: it is refused, and told how."""
+"""What a calibration certificate must state of its uncertainty and does not: it is refused, and told how.
+
+A report with an incomplete budget says so wherever it states U. Refused is also a certificate of a length
+whose temperature nobody knows, or whose expansion is most of its U.
+"""
 
 from __future__ import annotations
 
