@@ -27,6 +27,20 @@ def test_no_two_cases_share_their_noise() -> None:
     )
 
 
+@pytest.mark.long
+def test_an_ideal_observer_is_asked_where_nothing_was_named() -> None:
+    """Of a twentieth of the noise nobody sees anything; of a spike that got no name somebody would."""
+    assert run(Case("both senses", "reversal-spikes", 0.05, 0)).ideal == ""
+    assert run(Case("both senses", "reversal-spikes", 2.0, 4)).ideal == "truth"
+
+
+@pytest.mark.long
+def test_beside_a_stranger_what_the_model_has_is_estimated_within_its_uncertainty() -> None:
+    found = run(Case("beside a stranger", "servo-mismatch", 1.0, 0))
+    assert (found.outcome, found.ideal) == ("nameless", None)
+    assert abs(found.misses["T_X-T_Y"]) < 2.0
+
+
 @pytest.mark.parametrize(
     ("cause", "said", "outcome"),
     [
