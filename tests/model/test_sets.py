@@ -12,6 +12,7 @@ from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
+from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
@@ -215,3 +216,20 @@ def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
     found = SetSearch(_contest(readings, design, few)).found()
     assert {"lost-motion-step", "lost-motion-wave"} <= _names(found)
     assert "worn-zone" not in _names(found)
+
+
+def test_two_of_which_neither_explains_anything_alone_are_a_pair() -> None:
+    design = linear_test(21, 3)
+    lever = EFFECTS["abbe"].columns(design, np.empty(0))[:, 0]
+    straight = np.column_stack([np.ones(len(lever)), design.position])
+    bent = lever - straight @ np.linalg.lstsq(straight, lever, rcond=None)[0]
+    readings = SIGMA * bent / bent.std() + noise(design)
+    names = ("backlash", "abbe", "first-run", "scale-error", "thermal-drift")
+    contest = _contest(readings, design, tuple(EFFECTS[name] for name in names))
+    best = list_pairs(contest, SetSearch(contest).alone())[0]
+    assert _names(best) == {"abbe", "scale-error"}
+
+
+def test_a_single_effect_makes_no_pair() -> None:
+    contest = _contest(_hiding(("backlash", [])), effects=(EFFECTS["backlash"],))
+    assert list_pairs(contest, SetSearch(contest).alone()) == []
