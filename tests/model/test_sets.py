@@ -183,6 +183,22 @@ def test_what_is_within_its_uncertainty_of_the_usual_costs_nothing() -> None:
     assert weigh_size(EFFECTS["screw-expansion"], DESIGN, growth, 1e-6, 4e-6) == 0
 
 
+def test_a_name_of_a_value_reaches_as_far_as_the_value_may() -> None:
+    effect = EFFECTS["dead-path"]
+    (path,) = effect.linear  # preset at the far end: as long as the travel, not six metres
+    assert weigh_size(effect, DESIGN, path, -0.9, 0.1) == 0
+    assert weigh_size(effect, DESIGN, path, -6.0, 0.4) > UNUSUAL
+
+
+def test_a_member_that_is_there_costs_what_its_value_had_to_be_searched_for() -> None:
+    search = SetSearch(_contest(_hiding(("time-periodic", [290.0]), ("backlash", []))))
+    wave, lost = search.members_of(
+        [(EFFECTS["time-periodic"], np.array([290.0])), (EFFECTS["backlash"], np.empty(0))]
+    )
+    assert wave.spread > 2
+    assert lost.spread == pytest.approx(0.0, abs=1e-9)
+
+
 def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:
     """Return a search in a contest of a joint and a second one, on readings with joints at places, m."""
     joints = [EFFECTS["scale-joint"], EFFECTS["scale-joint"].repeated(2)]
