@@ -12,6 +12,7 @@ from zlmreport.model.diagnosis.contest import Contest
 from zlmreport.model.diagnosis.effect_set import EffectSet
 from zlmreport.model.diagnosis.forms import list_unnamed_forms
 from zlmreport.model.diagnosis.set_costs import UNUSUAL, weigh_size
+from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.diagnosis.sets import SetSearch
 from zlmreport.model.effects.design import Design
 from zlmreport.model.effects.effect import Effect
@@ -182,6 +183,22 @@ def test_what_is_within_its_uncertainty_of_the_usual_costs_nothing() -> None:
     assert weigh_size(EFFECTS["screw-expansion"], DESIGN, growth, 1e-6, 4e-6) == 0
 
 
+def test_a_name_of_a_value_reaches_as_far_as_the_value_may() -> None:
+    effect = EFFECTS["dead-path"]
+    (path,) = effect.linear  # preset at the far end: as long as the travel, not six metres
+    assert weigh_size(effect, DESIGN, path, -0.9, 0.1) == 0
+    assert weigh_size(effect, DESIGN, path, -6.0, 0.4) > UNUSUAL
+
+
+def test_a_member_that_is_there_costs_what_its_value_had_to_be_searched_for() -> None:
+    search = SetSearch(_contest(_hiding(("time-periodic", [290.0]), ("backlash", []))))
+    wave, lost = search.members_of(
+        [(EFFECTS["time-periodic"], np.array([290.0])), (EFFECTS["backlash"], np.empty(0))]
+    )
+    assert wave.spread > 2
+    assert lost.spread == pytest.approx(0.0, abs=1e-9)
+
+
 def _with_two_joints(*places: float) -> tuple[SetSearch, list[Effect]]:
     """Return a search in a contest of a joint and a second one, on readings with joints at places, m."""
     joints = [EFFECTS["scale-joint"], EFFECTS["scale-joint"].repeated(2)]
@@ -215,3 +232,20 @@ def test_what_explains_most_by_itself_is_no_makeshift_for_two() -> None:
     found = SetSearch(_contest(readings, design, few)).found()
     assert {"lost-motion-step", "lost-motion-wave"} <= _names(found)
     assert "worn-zone" not in _names(found)
+
+
+def test_two_of_which_neither_explains_anything_alone_are_a_pair() -> None:
+    design = linear_test(21, 3)
+    lever = EFFECTS["abbe"].columns(design, np.empty(0))[:, 0]
+    straight = np.column_stack([np.ones(len(lever)), design.position])
+    bent = lever - straight @ np.linalg.lstsq(straight, lever, rcond=None)[0]
+    readings = SIGMA * bent / bent.std() + noise(design)
+    names = ("backlash", "abbe", "first-run", "scale-error", "thermal-drift")
+    contest = _contest(readings, design, tuple(EFFECTS[name] for name in names))
+    best = list_pairs(contest, SetSearch(contest).alone())[0]
+    assert _names(best) == {"abbe", "scale-error"}
+
+
+def test_a_single_effect_makes_no_pair() -> None:
+    contest = _contest(_hiding(("backlash", [])), effects=(EFFECTS["backlash"],))
+    assert list_pairs(contest, SetSearch(contest).alone()) == []

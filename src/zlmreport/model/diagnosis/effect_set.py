@@ -73,6 +73,14 @@ class EffectSet:
         return [*self.columns, *(each.tangents for each in self.members if each.tangents is not None)]
 
 
+def make_member(family: Family, block: int, spread: float) -> SetMember:
+    """Return a family at the values of one of its blocks.
+
+    `spread`: What it costs that these had to be found.
+    """
+    return SetMember(family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread)
+
+
 def find_installed_name(effect: Effect) -> str:
     """Return the name of an effect by which it is installed, whichever time it stands in a model."""
     return part_number(effect.identifier)[0] if effect.several else effect.identifier

@@ -19,7 +19,7 @@ import numpy as np
 
 from zlmreport.job.choices import number_effect, part_number
 from zlmreport.measurement.arrays import FloatArray, IntArray
-from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Scan, Told, tell_nobody
+from zlmreport.model.diagnosis.contest import Amplitudes, Contest, Told, tell_nobody
 from zlmreport.model.diagnosis.effect_set import (
     EffectSet,
     MemberKey,
@@ -29,10 +29,12 @@ from zlmreport.model.diagnosis.effect_set import (
     list_beside,
     list_names,
     list_unnamed,
+    make_member,
 )
 from zlmreport.model.diagnosis.families import Family, make_orthonormal
 from zlmreport.model.diagnosis.refining import jump_along_grids, refine_member
 from zlmreport.model.diagnosis.set_costs import SetCosts
+from zlmreport.model.diagnosis.set_pairs import list_pairs
 from zlmreport.model.effects.effect import Effect
 
 #: Effects of a set at most, and moves of a search.
@@ -190,9 +192,10 @@ class SetSearch:
 
     def _find_best_values(self, found: EffectSet) -> EffectSet:
         """Return the best of a set as it is, as it becomes once it is settled, and as it was met before."""
-        near = (found, self._settled(found)) if any(each.theta.size for each in found.members) else (found,)
-        known = self._best[list_names(found.named), list_unnamed(found)]
-        return min((*near, known), key=find_score)
+        near = [found, self._best[list_names(found.named), list_unnamed(found)]]
+        if any(each.theta.size for each in found.members):
+            near.append(self._settled(found))
+        return min(near, key=find_score)
 
     def as_noise(self, members: Sequence[SetMember]) -> EffectSet:
         """Return a set beside which there is nothing but noise."""
@@ -461,49 +464,10 @@ class SetSearch:
         return None
 
     def _list_pairs(self, now: EffectSet) -> list[EffectSet]:
-        """Return the most promising sets with two more installed effects, the best first.
-
-        Two may explain much together of which neither explains anything alone: a lever of the guide's angle
-        and the slope that it brings with it.
-        """
-        contest, found = self.contest, dict[frozenset[str], tuple[float, EffectSet]]()
-        for amplitudes in dict.fromkeys((contest.as_noise(now.amplitudes), contest.quiet)):
-            first = contest.scan(amplitudes, now.columns)
-            for number, family in enumerate(contest.families):
-                if not family.is_named or not np.isfinite(first.criterion[number]):
-                    continue
-                member = self._make_member(first, number)
-                members = (*list_beside(now.members, member.effect), member)
-                second = contest.scan(amplitudes, [each.columns for each in members])
-                other = min(self._others(family), key=lambda each: float(second.criterion[each]))
-                gain = float(first.criterion[number] + second.criterion[other])
-                last = self._make_member(second, other)
-                pair = frozenset((member.identifier, last.identifier))
-                if np.isfinite(gain) and gain < found.get(pair, (np.inf,))[0]:
-                    together = (*list_beside(members, last.effect), last)
-                    found[pair] = gain, EffectSet(together, amplitudes, np.inf)
-        best = sorted(found.values(), key=lambda each: each[0])[:_LISTED]
-        glanced = [self._glanced(each.members, each.amplitudes) for _, each in best]
+        """Return the most promising sets with two more installed effects, the best first."""
+        best = list_pairs(self.contest, now)[:_LISTED]
+        glanced = [self._glanced(each.members, each.amplitudes) for each in best]
         return sorted(glanced, key=find_score)[:_TRIED]
-
-    def _others(self, family: Family) -> list[int]:
-        """Return the places of the families of other installed effects."""
-        return [
-            number
-            for number, each in enumerate(self.contest.families)
-            if each.is_named and each.identifier != family.identifier
-        ]
-
-    def _make_member(self, scan: Scan, number: int) -> SetMember:
-        """Return a family at its best values in a scan."""
-        family, block = self.contest.families[number], int(scan.best[number])
-        return SetMember(
-            family,
-            family.thetas[block],
-            family.blocks[block],
-            int(family.ranks[block]),
-            float(scan.spread[number]),
-        )
 
     def _ahead(
         self,
@@ -522,9 +486,7 @@ class SetSearch:
         """
         glanced = []
         for family, block, spread in self._leading(now, listed, wanted):
-            member = SetMember(
-                family, family.thetas[block], family.blocks[block], int(family.ranks[block]), spread
-            )
+            member = make_member(family, block, spread)
             members = (*list_beside(now.members, member.effect), member)
             glanced.append(self._glanced(members, now.amplitudes))
         glanced.sort(key=lambda each: each.score)

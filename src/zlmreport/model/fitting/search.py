@@ -82,9 +82,10 @@ class FitProblem:
     design: Design
     deviation: FloatArray
     whiten: Callable[[FloatArray], FloatArray]  #: Makes readings independent.
-    # Of each term its last θ and what it comes to: from one solution to the next one term changes.
+    # Of each term its last θ and what it comes to: from one solution to the next one term changes. Not
+    # handed on by `replace`: another model has other columns.
     _last: dict[int, tuple[bytes, tuple[FloatArray, FloatArray]]] = field(
-        default_factory=dict, repr=False, compare=False
+        default_factory=dict, init=False, repr=False, compare=False
     )
 
     def solution(self, thetas: Thetas) -> Solution:
