@@ -77,7 +77,8 @@ class Columns:
         contrasts = space.of(self._factor)
         self._gram = contrasts.T @ contrasts
         self._factor = space.single.whitened(self._factor)
-        self._values = np.empty((readings, _FIRST_ROOM))
+        # A row each: to gather some of them then copies whole stretches.
+        self._values = np.empty((_FIRST_ROOM, readings))
         self._sums = np.empty((self._factor.shape[1], _FIRST_ROOM))
         self._count = self._core = self._kept = 0
         self._plain = _Table(np.empty((0, 0)))  # of products with all kept columns, nothing eliminated
@@ -86,10 +87,10 @@ class Columns:
     def add(self, contrasts: FloatArray) -> IntArray:
         """Take columns in, contrasts of shape (N, k); return their places."""
         first, self._count = self._count, self._count + contrasts.shape[1]
-        while self._count > self._values.shape[1]:
-            self._values = np.concatenate([self._values, np.empty_like(self._values)], axis=1)
+        while self._count > len(self._values):
+            self._values = np.concatenate([self._values, np.empty_like(self._values)])
             self._sums = np.concatenate([self._sums, np.empty_like(self._sums)], axis=1)
-        self._values[:, first : self._count] = contrasts
+        self._values[first : self._count] = contrasts.T
         # Contrasts are at right angles to the model: the factor itself does for its contrasts.
         self._sums[:, first : self._count] = self._factor.T @ contrasts
         return read_only_integers(np.arange(first, self._count))
@@ -100,11 +101,11 @@ class Columns:
         `core`: How many of the first columns are the core.
         """
         self._core, self._kept = core, self._count
-        self._plain = _Table(self._values[:, :core].T @ self._values[:, : self._count])
+        self._plain = _Table(self._values[:core] @ self._values[: self._count].T)
 
     def values(self, places: IntArray) -> FloatArray:
         """Return columns, shape (N, k)."""
-        return self._values[:, places]
+        return self._values[places].T
 
     def log_determinant(self, ratios: tuple[float, ...]) -> float:
         """Return ln|V| of the irregular shares alone, within the space of contrasts."""
@@ -147,14 +148,14 @@ class Columns:
         """Return the same products with many of the kept columns."""
         if not len(one):
             return np.empty((0, len(kept)))
-        rows = self._plain.rows(one, lambda missing: self.values(missing).T @ self._values[:, : self._kept])
+        rows = self._plain.rows(one, lambda missing: self._values[missing] @ self._values[: self._kept].T)
         less = (self._of(ratios).kernel @ self._sums[:, one]).T @ self._sums[:, kept]
         return np.asarray(self._plain.values[rows[:, np.newaxis], kept] - less)
 
     def products_with(self, ratios: tuple[float, ...], one: IntArray, contrasts: FloatArray) -> FloatArray:
         """Return products of columns with contrasts that are not in the table, shape (k, l)."""
         sums = self._of(ratios).kernel @ (self._factor.T @ contrasts)
-        return np.asarray(self.values(one).T @ contrasts - self._sums[:, one].T @ sums)
+        return np.asarray(self._values[one] @ contrasts - self._sums[:, one].T @ sums)
 
     def squares(self, ratios: tuple[float, ...], width: int, blocks: IntArray) -> FloatArray:
         """Return products of the columns of each block among themselves, shape (g, k, k).
@@ -163,7 +164,7 @@ class Columns:
         """
         known = self._of(ratios)
         if width not in known.squares:
-            known.squares[width] = self._within(known, self._values[:, blocks])
+            known.squares[width] = self._within(known, np.moveaxis(self._values[blocks], -1, 0))
         return known.squares[width]
 
     def squares_of(self, ratios: tuple[float, ...], blocks: FloatArray) -> FloatArray:
@@ -175,19 +176,17 @@ class Columns:
         sums = self._factor.T @ flat
         turned = (known.kernel @ sums).reshape(len(sums), *blocks.shape[1:])
         sums = sums.reshape(turned.shape)
-        return np.asarray(
-            np.einsum("ngi,ngj->gij", blocks, blocks) - np.einsum("rgi,rgj->gij", sums, turned),
-            dtype=np.float64,
-        )
+        rows = np.ascontiguousarray(np.moveaxis(blocks, 0, -1))
+        return np.asarray(rows @ np.swapaxes(rows, 1, 2) - np.einsum("rgi,rgj->gij", sums, turned))
 
     def _with_core(self, kernel: FloatArray, places: IntArray) -> FloatArray:
         core = slice(0, self._core)
         less = (kernel @ self._sums[:, places]).T @ self._sums[:, core]
-        return np.asarray(self.values(places).T @ self._values[:, core] - less)
+        return np.asarray(self._values[places] @ self._values[core].T - less)
 
     def _between(self, known: _Eliminated, one: IntArray, other: IntArray) -> FloatArray:
         sums = known.kernel @ self._sums[:, other]
-        return np.asarray(self.values(one).T @ self.values(other) - self._sums[:, one].T @ sums)
+        return np.asarray(self._values[one] @ self._values[other].T - self._sums[:, one].T @ sums)
 
     def _of(self, ratios: tuple[float, ...]) -> _Eliminated:
         if ratios not in self._eliminated:
