@@ -28,6 +28,14 @@ def test_no_two_cases_share_their_noise() -> None:
 
 
 @pytest.mark.long
+def test_what_one_of_two_could_do_as_well_is_named_by_neither() -> None:
+    """In one sense two lateral plays are nearly unequal scales: whichever the readings favour by a hair."""
+    found = run(Case("one sense", "scale-mismatch", 1.0, seed=2))
+    assert (found.outcome, found.named) == ("tied", [])
+    assert {found.first, *found.equals} == {"scale-mismatch", "lateral-play"}
+
+
+@pytest.mark.long
 def test_an_ideal_observer_is_asked_where_nothing_was_named() -> None:
     """Of a twentieth of the noise nobody sees anything; of a spike that got no name somebody would."""
     assert run(Case("both senses", "reversal-spikes", 0.05, 0)).ideal == ""

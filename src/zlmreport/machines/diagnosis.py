@@ -275,7 +275,9 @@ def _list_candidates(study: CircleStudy, outcome: CircleContest) -> tuple[Circle
     found = [_make_candidate(study, each, probability) for each, probability in worth]
     found.sort(key=lambda each: (not each.is_plausible, -each.evidence))
     curves = [_compute_curve(study, each) for each in found]
-    named = [_add_equals(study, each, curve, found) for each, curve in zip(found, curves, strict=True)]
+    named = [
+        _add_equals(study, each, curve, found, curves) for each, curve in zip(found, curves, strict=True)
+    ]
     if named and named[0].is_plausible:
         # Of effects that the plan cannot tell apart, the one leads that needs the least unusual values.
         equals = named[0].indistinguishable_from
@@ -317,28 +319,45 @@ def _compute_curve(study: CircleStudy, candidate: CircleCandidate) -> FloatArray
 
 
 def _add_equals(
-    study: CircleStudy, candidate: CircleCandidate, curve: FloatArray, others: Sequence[CircleCandidate]
+    study: CircleStudy,
+    candidate: CircleCandidate,
+    curve: FloatArray,
+    others: Sequence[CircleCandidate],
+    curves: Sequence[FloatArray],
 ) -> CircleCandidate:
-    """Return a candidate with those that the plan cannot tell from it, by columns and evidence."""
+    """Return a candidate with those that the plan cannot tell from it, by columns and evidence.
+
+    `curves`: What each of the others makes of the deviations.
+    """
     if not candidate.is_plausible:
         return candidate
+    equals = []
+    for other, of_other in zip(others, curves, strict=True):
+        if other is candidate or not other.is_plausible:
+            continue
+        apart = _measure_apart(study, curve, other)
+        # To be like is mutual: of two that the readings favour alike, either may be what the other can do.
+        least = min(apart, _measure_apart(study, of_other, candidate))
+        nearer = abs(other.evidence - candidate.evidence)
+        if (apart < _ALIKE and nearer < FURTHER) or (least < _SIMILAR and nearer < MENTION):
+            equals.append(other.effect.identifier)
+    return replace(candidate, indistinguishable_from=tuple(equals))
+
+
+def _measure_apart(study: CircleStudy, curve: FloatArray, other: CircleCandidate) -> float:
+    """Return which part of a curve another effect leaves, whatever its values; 1 of a curve that is none."""
     under = study.whitened
     own = under.of(curve[:, np.newaxis])
     length = float(under.product(own, own)[0, 0])
-    equals = []
-    for other in others:
-        if other is candidate or not other.is_plausible or length <= 0:
-            continue
-        whole = make_whole_form(other.effect, study.design, other.form.searched)
-        explained = max(
-            _measure_explained(under, form.columns, own)
-            for form in split_parts_of(other.effect, whole)
-            if form.terms
-        )
-        apart, nearer = 1.0 - explained / length, abs(other.evidence - candidate.evidence)
-        if (apart < _ALIKE and nearer < FURTHER) or (apart < _SIMILAR and nearer < MENTION):
-            equals.append(other.effect.identifier)
-    return replace(candidate, indistinguishable_from=tuple(equals))
+    if length <= 0:
+        return 1.0
+    whole = make_whole_form(other.effect, study.design, other.form.searched)
+    explained = max(
+        _measure_explained(under, form.columns, own)
+        for form in split_parts_of(other.effect, whole)
+        if form.terms
+    )
+    return 1.0 - explained / length
 
 
 def _measure_explained(under: Whitened, columns: FloatArray, own: FloatArray) -> float:
