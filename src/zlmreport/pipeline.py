@@ -21,7 +21,6 @@ from zlmreport.document.certificate.attachments import (
 )
 from zlmreport.document.certificate.build import GENERATOR, build
 from zlmreport.document.certificate.clauses import find_missing_items
-from zlmreport.document.certificate.collection import collect_certificates
 from zlmreport.document.certificate.information import check_information
 from zlmreport.document.certificate.measured_lines import say_of_each
 from zlmreport.document.certificate.results import Evaluated, Tested
@@ -220,6 +219,8 @@ def _compose_parts(  # noqa: PLR0913 - what documents are made of
     is_laid_out: bool,
 ) -> Certificate:
     """Compose one document of several measurements; whatever is wrong with any of them is told at once."""
+    from zlmreport.document.certificate.collection import collect_certificates  # noqa: PLC0415 - of several only
+
     parts: dict[str, Certificate] = {}
     problems: list[Problem] = []
     for name, part in job.measurements.items():

@@ -161,17 +161,6 @@ def test_names_of_all_countries_are_not_marked(text: str) -> None:
     assert _texts_of(text)[0].oddities == ()
 
 
-def test_a_day_that_has_not_come_is_not_decided(
-    tmp_path: Path, verified: Callable[[bytes], Verification]
-) -> None:
-    laboratory = LABORATORY.replace("issued: 2026-11-20", "issued: 2131-11-20")
-    found = verified(issue(lay_out(tmp_path, laboratory=laboratory), "pdf-typst"))
-    assert found.outcome is VerificationOutcome.UNDECIDED
-    assert [each.subject for each in found.document if each.verdict is VerificationVerdict.OPEN] == [
-        "certificate.issued"
-    ]
-
-
 def test_a_day_on_which_something_will_be_due_holds(
     tmp_path: Path, verified: Callable[[bytes], Verification]
 ) -> None:
