@@ -11,6 +11,7 @@ import pytest
 from document.certificate.documents import ROOT, certificate, registry
 from zlmreport import pipeline
 from zlmreport.document.certificate.document import Certificate
+from zlmreport.evaluation.uncertainty.monte_carlo import TRIALS
 from zlmreport.verification.verify import verify
 from zlmreport_plugins.union_jack_lines import LINES
 
@@ -53,9 +54,7 @@ def test_a_plate_is_no_linear_axis(plate: Certificate) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst"])
-def test_a_pdf_is_evaluated_again_from_what_it_carries(
-    plate: Certificate, renderer: str, tmp_path: Path
-) -> None:
+def test_a_pdf_is_evaluated_again_from_what_it_carries(renderer: str, tmp_path: Path) -> None:
     path = tmp_path / "plate.pdf"
-    path.write_bytes(rendered(plate, renderer))
+    path.write_bytes(rendered(certificate(tmp_path, KEYS, trials=TRIALS), renderer))
     assert verify(path, registry()).holds

@@ -192,7 +192,11 @@ class SetSearch:
 
     def _find_best_values(self, found: EffectSet) -> EffectSet:
         """Return the best of a set as it is, as it becomes once it is settled, and as it was met before."""
-        near = [found, self._best[list_names(found.named), list_unnamed(found)]]
+        near = [found]
+        # Two joints are met by one name: what was met before may be a larger set than this.
+        known = self._best[list_names(found.named), list_unnamed(found)]
+        if len(known.members) == len(found.members):
+            near.append(known)
         if any(each.theta.size for each in found.members):
             near.append(self._settled(found))
         return min(near, key=find_score)
