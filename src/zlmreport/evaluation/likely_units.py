@@ -118,9 +118,7 @@ def _find_unlikely_conditions(job: Job, measurements: MeasurementSet) -> Iterato
             meant = kind.find_likely_unit(value)
             sentence = _UNLIKELY
             if meant:
-                sentence = _MEANT.given(
-                    other=_name_unit(meant), meant=float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
-                )
+                sentence = _MEANT.given(other=_name_unit(meant[0]), meant=meant[1])
             yield sentence.given(name=CONDITION_NAMES[name], value=value, unit=kind.unit.symbol)
 
 

@@ -273,10 +273,7 @@ def _describe_condition(kind: ConditionKind) -> tuple[Any, AfterValidator]:
         if kind.lowest <= value <= kind.highest:
             return value
         unit, meant = kind.unit.symbol, kind.find_likely_unit(value)
-        likely = ""
-        if meant:
-            converted = float(f"{kind.unit.from_si(meant.to_si(value)):.3g}")
-            likely = f"; {value:g} {meant.symbol} would be {converted:g} {unit}"
+        likely = f"; {value:g} {meant[0].symbol} would be {meant[1]:g} {unit}" if meant else ""
         raise ValueError(
             f"{value:g} {unit} is not between {kind.lowest:g} and {kind.highest:g} {unit}{likely}"
         )

@@ -37,13 +37,13 @@ class ConditionKind:
     #: In that unit, the lowest and the highest that is usual where machines are measured.
     usual: tuple[float, float]
 
-    def find_likely_unit(self, value: float) -> Scale | None:
-        """Return the unit in which an unusual value would be a usual one, if there is one."""
+    def find_likely_unit(self, value: float) -> tuple[Scale, float] | None:
+        """Return the unit in which an unusual value would be a usual one, and that one to three digits."""
         low, high = self.usual
         if low <= value <= high:
             return None
-        others = (each for each in self.units.values() if low <= self.unit.from_si(each.to_si(value)) <= high)
-        return next(others, None)
+        others = ((each, self.unit.from_si(each.to_si(value))) for each in self.units.values())
+        return next(((unit, float(f"{other:.3g}")) for unit, other in others if low <= other <= high), None)
 
 
 #: Decimals in which deviations may be given, in their unit.

@@ -96,10 +96,9 @@ def _say_other_unit(difference: float) -> str:
     meant = kind.find_likely_unit(stated)
     if meant is None:
         return ""
-    would_be = float(f"{kind.unit.from_si(meant.to_si(stated)):.3g}")
-    usual = kind.unit.symbol
+    (other, would_be), usual = meant, kind.unit.symbol
     return (
-        f". {stated:g} {usual} is unusual where machines are measured: if {meant.symbol} is meant, it is "
+        f". {stated:g} {usual} is unusual where machines are measured: if {other.symbol} is meant, it is "
         f"{would_be:g} {usual}; state it so, or the unit of a file under measurement.source.units"
     )
 
