@@ -66,10 +66,12 @@ def choose_instrument(
     source: type[Options], keys: Keys, registry: Installed, problems: list[Problem], *, within: str
 ) -> Choice | None:
     """Return the live instrument that the keys of a data source name; None if they name none."""
-    fields = list_keys_in(source).items()
-    key = next((key for key, field in fields if find_model_in(field.annotation) is LiveInstrumentKeys), "")
-    group = find_at(keys, (key,))
-    return choose_in(group, "plugin", registry.instrument, problems, within=f"{within}.{key}")
+    known = list_keys_in(source)
+    for key, entry in keys.entries.items():
+        is_group = isinstance(entry.value, Keys) and key in known
+        if is_group and find_model_in(known[key].annotation) is LiveInstrumentKeys:
+            return choose_in(entry.value, "plugin", registry.instrument, problems, within=f"{within}.{key}")
+    return None
 
 
 _SHAPE = (

@@ -88,20 +88,24 @@ _OF_TARGETS = {
 }
 
 
+def find_lack_of_circle(keys: JobKeys, measurand: Measurand) -> Iterator[tuple[tuple[Step, ...], str]]:
+    """Yield what would need a circle, of a job that states none."""
+    if measurand.identifier == CIRCLE.identifier:
+        yield (
+            ("circle",),
+            "missing; say which circle was run: {plane: XY, radius: 150, feed: 1000} (mm, mm/min)",
+        )
+    if keys.plan.circle is not None:
+        yield ("plan", "circle"), "belongs to a circular test (circle: …); take it out"
+
+
 def find_circle_contradictions(
-    keys: JobKeys, measurand: Measurand, *, has_axis: bool
+    keys: JobKeys, circle: CircleKeys, *, has_axis: bool
 ) -> Iterator[tuple[tuple[Step, ...], str]]:
     """Yield what does not go together of a circle and the other keys of a job.
 
     `has_axis`: Whether the job itself states an axis, which a circle stands for otherwise.
     """
-    if keys.circle is None:
-        if measurand.identifier == CIRCLE.identifier:
-            yield (
-                ("circle",),
-                "missing; say which circle was run: {plane: XY, radius: 150, feed: 1000} (mm, mm/min)",
-            )
-        return
     if has_axis:
         yield ("axis",), "a circle stands instead of an axis; take one of the two out"
     if keys.measurement.error is not None:
@@ -115,18 +119,10 @@ def find_circle_contradictions(
         if getattr(keys.measurement, key) is not None:
             yield ("measurement", key), reason
     feed = keys.measurement.feed
-    if feed is not None and feed != keys.circle.feed:
+    if feed is not None and feed != circle.feed:
         yield (
             ("measurement", "feed"),
-            f"{feed:g} is not the feed of the circle (circle.feed: {keys.circle.feed:g})",
+            f"{feed:g} is not the feed of the circle (circle.feed: {circle.feed:g})",
         )
-
-
-def find_circle_plan_contradictions(keys: JobKeys) -> Iterator[tuple[tuple[Step, ...], str]]:
-    """Yield the keys of a plan that do not go with a circle, or with a test of another kind."""
-    if keys.circle is None:
-        if keys.plan.circle is not None:
-            yield ("plan", "circle"), "belongs to a circular test (circle: …); take it out"
-        return
     for key in sorted(keys.plan.model_fields_set - _OF_PLANNED_CIRCLES):
         yield ("plan", key), "belongs to a test at targets; the path of a circle stands under plan.circle"

@@ -57,11 +57,6 @@ _OF_ONE = (
 _NOT_IN_NAMES = re.compile(r"[^A-Za-z0-9_-]+")
 
 
-def is_collection(tree: Keys) -> bool:
-    """Return whether a job makes one document of several jobs."""
-    return MEASUREMENTS in tree.entries
-
-
 def list_jobs_named(tree: Keys) -> tuple[tuple[Path, Place], ...]:
     """Return the files of the jobs that a document is made of, with the places that name them.
 
@@ -106,7 +101,7 @@ def make_part_of(own: Keys, document: Keys, named_at: Place) -> Keys:
 
     Raises `InputError` if it is such a document itself, or on another machine.
     """
-    if is_collection(own):
+    if MEASUREMENTS in own.entries:
         raise InputError.at(named_at, "this job is a document of several itself; name its jobs here")
     serials = [
         node.text

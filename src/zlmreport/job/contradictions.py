@@ -310,7 +310,12 @@ def list_markable_keys() -> tuple[str, ...]:
 
 def find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
     """Yield every key that is said to be somebody else's and is unknown, or not stated by the job."""
-    for key, path in _find_named(keys):
+    named: list[tuple[str, Path]] = [
+        (key, ("provided_by_customer", index)) for index, key in enumerate(keys.provided_by_customer)
+    ]
+    for number, external in enumerate(keys.external):
+        named += ((key, ("external", number, "keys", index)) for index, key in enumerate(external.keys))
+    for key, path in named:
         where = ".".join(step for step in path if isinstance(step, str))
         place = place_of(tree, path)
         if key not in list_markable_keys():
@@ -318,15 +323,6 @@ def find_supplied_problems(keys: JobKeys, tree: Keys) -> Iterator[Problem]:
             yield Problem(place, f"{where}: {quoted(key)} is no key whose value others can supply; {near}")
         elif not _is_stated(tree, key.split(".")):
             yield Problem(place, f"{where}: this job does not state {key}; state it, or do not list it")
-
-
-def _find_named(keys: JobKeys) -> Iterator[tuple[str, tuple[Step, ...]]]:
-    """Yield the keys that a job names as others', each with the path at which it does."""
-    for index, key in enumerate(keys.provided_by_customer):
-        yield key, ("provided_by_customer", index)
-    for number, external in enumerate(keys.external):
-        for index, key in enumerate(external.keys):
-            yield key, ("external", number, "keys", index)
 
 
 def _list_names(model: type[BaseModel], within: str) -> Iterator[str]:

@@ -60,7 +60,8 @@ DERIVED = (
 #: What a bound of what is possible may depend on: the largest logged rise of a temperature of the axis, K.
 RISE = "temperature_rise"
 _NAME = re.compile(r"[^\W\d]\w*", re.ASCII)
-_PER_KELVIN = TEMPERATURE.raised(Fraction(-1))
+_PER_KELVIN = Extent(temperature=Fraction(-1))
+_TRAVEL_PER_KELVIN = Extent(travel=Fraction(1), temperature=Fraction(-1))
 _ANY_AXIS = {"s": UnitOf(TIME), "1": UnitOf(NUMBER)}
 #: Units in which parameters are given, by the kind of axis: those in which results print them.
 UNITS: Mapping[AxisKind, Mapping[str, UnitOf]] = MappingProxyType(
@@ -69,7 +70,7 @@ UNITS: Mapping[AxisKind, Mapping[str, UnitOf]] = MappingProxyType(
             "um": UnitOf(TRAVEL, MICROMETRE.per_si),
             "mm": UnitOf(TRAVEL, MILLIMETRE.per_si),
             "um/m": UnitOf(NUMBER, 1e6),
-            "um/K": UnitOf(TRAVEL.combined(_PER_KELVIN), 1e6),
+            "um/K": UnitOf(_TRAVEL_PER_KELVIN, 1e6),
             "um/(m K)": UnitOf(_PER_KELVIN, 1e6),
             "deg": UnitOf(NUMBER, DEGREE.per_si),
             **_ANY_AXIS,
@@ -78,7 +79,7 @@ UNITS: Mapping[AxisKind, Mapping[str, UnitOf]] = MappingProxyType(
             "arcsec": UnitOf(TRAVEL, ARCSECOND.per_si),
             "deg": UnitOf(TRAVEL, DEGREE.per_si),
             "arcsec/deg": UnitOf(NUMBER, ARCSECOND.per_si / DEGREE.per_si),
-            "arcsec/K": UnitOf(TRAVEL.combined(_PER_KELVIN), ARCSECOND.per_si),
+            "arcsec/K": UnitOf(_TRAVEL_PER_KELVIN, ARCSECOND.per_si),
             "arcsec/(deg K)": UnitOf(_PER_KELVIN, ARCSECOND.per_si / DEGREE.per_si),
             **_ANY_AXIS,
         },

@@ -19,9 +19,9 @@ from zlmreport.job.choices import (
     choose_extensions,
     choose_programs_of,
 )
-from zlmreport.job.circle_keys import find_circle_contradictions, find_circle_plan_contradictions
+from zlmreport.job.circle_keys import find_circle_contradictions, find_lack_of_circle
 from zlmreport.job.collection import (
-    is_collection,
+    MEASUREMENTS,
     list_jobs_named,
     make_document_of,
     make_part_of,
@@ -83,7 +83,7 @@ def load(
     that it extends, cannot be read.
     """
     composition = compose(path, content, defaults)
-    if is_collection(composition.keys):
+    if MEASUREMENTS in composition.keys.entries:
         return _collect_jobs(composition, path, registry, formats)
     return _add_sessions(_check_job(composition, path.parent, registry, formats), path, registry)
 
@@ -169,8 +169,11 @@ def _check_job(
         found += [
             *find_quantity_contradictions(keys, measurand),
             *find_tests_contradictions(keys, measurand),
-            *find_circle_contradictions(keys, measurand, has_axis="axis" in composition.keys.entries),
-            *find_circle_plan_contradictions(keys),
+            *(
+                find_circle_contradictions(keys, keys.circle, has_axis="axis" in composition.keys.entries)
+                if keys.circle
+                else find_lack_of_circle(keys, measurand)
+            ),
             *find_effect_contradictions(chosen.effects, measurand, registry),
         ]
         problems.extend(find_all_contradictions(keys, tree, found))

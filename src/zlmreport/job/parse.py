@@ -11,7 +11,7 @@ import codecs
 import contextlib
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from types import MappingProxyType
 from typing import Any
 
@@ -86,17 +86,13 @@ def decode(content: bytes, file: str) -> str:
     return text
 
 
-def find_hidden_character(text: str) -> str | None:
-    """Return the first character of a text that cannot be printed or seen, if there is one."""
-    return next((found[0] for found in _find_hidden(text)), None)
-
-
 def list_invisible(text: str) -> list[str]:
     """Return the characters of a text that nobody sees, whatever they do."""
     return _INVISIBLE.findall(text)
 
 
 def _find_hidden(text: str) -> Iterator[re.Match[str]]:
+    """Return the characters of a text that cannot be printed or seen."""
     return (found for found in _HIDDEN.finditer(text) if not _is_joining(text, found.start()))
 
 
@@ -179,6 +175,8 @@ class _Reader:
     def __init__(self, parser: Any, file: str) -> None:
         self.problems: list[Problem] = []
         self._parser = parser
+        #: Returns the next event; which kinds may come, the parser's grammar says, and no type.
+        self._next: Callable[[], Any] = parser.get_event
         self._file = file
         self._values = 0
         self._anchors: dict[str, tuple[Node, int] | None] = {}
@@ -200,10 +198,6 @@ class _Reader:
     def stuck(self) -> Problem:
         """Return the problem of a character that the parser cannot get past."""
         return Problem(place(self._parser.get_mark(), self._file), NOT_YAML)
-
-    def _next(self) -> Any:
-        """Return the next event; which kinds may come, the parser's grammar says, and no type."""
-        return self._parser.get_event()
 
     def _node(self, event: Any, depth: int) -> Node:
         if isinstance(event, yaml.AliasEvent):
@@ -228,9 +222,9 @@ class _Reader:
         return node
 
     def _scalar(self, event: yaml.ScalarEvent) -> Scalar:
-        unseen = find_hidden_character(event.value)
-        if unseen:
-            self._refuse(event, f"{describe_character(unseen)} in a text; remove it")
+        for unseen in _find_hidden(event.value):
+            self._refuse(event, f"{describe_character(unseen[0])} in a text; remove it")
+            break
         return Scalar(self._place(event), event.value, plain=not event.style)
 
     def _items(self, start: yaml.Event, depth: int) -> Items:

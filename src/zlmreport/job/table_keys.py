@@ -136,11 +136,6 @@ class TableOptions(TablePlace):
             return DecimalSign.COMMA if self.decimal in {",", "comma"} else DecimalSign.POINT
         return {"point": DecimalSign.COMMA, "comma": DecimalSign.POINT}.get(self.thousands or "")
 
-    @property
-    def thousands_signs(self) -> str:
-        """The characters that part groups of three digits; none without."""
-        return THOUSANDS[self.thousands] if self.thousands else ""
-
     def names_column(self, text: str) -> bool:
         """Whether a header is the name of a column that the source knows, or of which the job speaks."""
         named = read_heading(text)
@@ -158,10 +153,6 @@ class TableOptions(TablePlace):
 
     def cells_of(self, table: TextTable, numbers: Sequence[int]) -> Cells:
         """Return what reads the cells of a table; `numbers` are the columns whose numbers have decimals."""
-        sign = self.stated_decimal_sign or find_decimal_sign(table, numbers, self.thousands_signs)
-        return Cells(table, sign, self.thousands_signs, self.words_for_missing)
-
-    @property
-    def words_for_missing(self) -> frozenset[str]:
-        """What stands for a missing reading, in lower case."""
-        return frozenset(word.casefold() for word in self.missing)
+        thousands = THOUSANDS[self.thousands] if self.thousands else ""
+        sign = self.stated_decimal_sign or find_decimal_sign(table, numbers, thousands)
+        return Cells(table, sign, thousands, frozenset(word.casefold() for word in self.missing))

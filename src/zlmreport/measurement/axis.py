@@ -13,7 +13,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.language import Words
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.circle import NominalCircle
-from zlmreport.measurement.measurand import POSITIONING, ROTARY_POSITIONING, Measurand
+from zlmreport.measurement.measurand import POSITIONING, ROTARY_POSITIONING, Coordinate, Measurand
 from zlmreport.measurement.provenance import SourceFile
 from zlmreport.measurement.units import ANGLE_UNITS, LENGTH_UNITS, Unit
 
@@ -111,8 +111,8 @@ class Axis:
 
     @property
     def has_length(self) -> bool:
-        """Whether what was measured is a length along it, with a temperature and an expansion."""
-        return self.measurand.is_length_along_the_axis
+        """Whether what was measured is a length along it: with a temperature, an expansion, a wavelength."""
+        return self.measurand.is_position and self.measurand.coordinate is Coordinate.LENGTH
 
     @property
     def letter(self) -> str:

@@ -243,15 +243,6 @@ def _is_never(_text: str) -> bool:
     return False
 
 
-def _read_headings(table: TextTable, is_no_unit: Callable[[str], bool]) -> tuple[Heading, ...]:
-    """Return the names in a header, their units taken off, or taken from the row of units."""
-    units = table.units.cells if table.units else ()
-    return tuple(
-        _add_unit_below(read_heading(text, index, is_no_unit), units[index] if index < len(units) else "")
-        for index, text in enumerate(table.header.cells)
-    )
-
-
 def read_heading(text: str, index: int = 0, is_no_unit: Callable[[str], bool] = _is_never) -> Heading:
     """Return a name in a header, its unit taken off.
 
@@ -286,7 +277,9 @@ def read_headings(
     Raises `InputError` if the header holds numbers, a name twice, or none where there are readings, or if the
     job speaks of columns that there are not.
     """
-    found = _read_headings(table, is_no_unit)
+    found = [read_heading(text, index, is_no_unit) for index, text in enumerate(table.header.cells)]
+    for heading, unit in zip(found, table.units.cells if table.units else (), strict=False):
+        found[heading.index] = _add_unit_below(heading, unit)
     if any(_NUMBER.fullmatch(heading.text) for heading in found) and not any(
         fold(heading.name) in options.column_names for heading in found
     ):

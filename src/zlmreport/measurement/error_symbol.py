@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from typing import TypeVar
 
 from zlmreport.errors import did_you_mean, quoted
@@ -66,9 +67,10 @@ def find_error_named(text: str) -> ErrorSymbol:
     ('straightness', 'X')
     """
     symbol = text.strip().upper().replace("O", "0")
-    found = _KNOWN.get(symbol)
+    known = _list_known()
+    found = known.get(symbol)
     if found is None:
-        near = did_you_mean(symbol[:10], list(_KNOWN))
+        near = did_you_mean(symbol[:10], list(known))
         raise ValueError(
             f"{quoted(text)} is no error of ISO 230-1 that is measured: E, its letter and that of the moving "
             f"axis, such as EYX, or C0Y for the squareness of Y to X; {near}"
@@ -106,7 +108,8 @@ def find_letter_of(axis: str) -> str:
     return letter if letter and letter in LINEAR_AXES + ROTARY_AXES else ""
 
 
-def _known() -> dict[str, ErrorSymbol]:
+@cache
+def _list_known() -> dict[str, ErrorSymbol]:
     """Return every error of a linear axis, the positioning of rotary ones, and the squareness of two axes."""
     found = []
     for axis in LINEAR_AXES:
@@ -124,6 +127,3 @@ def _known() -> dict[str, ErrorSymbol]:
         symbol = f"{_ROTATIONS[across]}0{axis}"
         symbols[symbol] = ErrorSymbol(symbol, _ROTATIONS[across], axis, SQUARENESS, reference)
     return symbols
-
-
-_KNOWN = _known()

@@ -139,11 +139,6 @@ class Measurand:
         """The units in which deviations may be given, by their spellings."""
         return ANGLE_UNITS if self.unit in ANGLES else LENGTH_UNITS
 
-    @property
-    def is_length_along_the_axis(self) -> bool:
-        """Whether it is a position that is a length: it has a temperature, an expansion and a wavelength."""
-        return self.is_position and self.coordinate is Coordinate.LENGTH
-
     def named(self, axis: str, symbol: str | Words = "") -> Words:
         """Return what a document is about: ``Straightness EYX of axis X``."""
         name = _NAME_WITH_SYMBOL.given(name=self.title, symbol=symbol) if symbol else self.title

@@ -62,9 +62,11 @@ def index_change(temperature: FloatArray, pressure: FloatArray, humidity: FloatA
 
     Such an interferometer reads a length too long by the factor 1 + Δn: in thin air, Δn < 0, too short.
     """
-    return refractive_index(temperature, pressure, humidity) - _ASSUMED
+    return refractive_index(temperature, pressure, humidity) - compute_standard_index()
 
 
-_ASSUMED = refractive_index(
-    np.array(REFERENCE_TEMPERATURE), np.array(STANDARD_PRESSURE), np.array(STANDARD_HUMIDITY)
-)
+def compute_standard_index(wavelength: float = HELIUM_NEON) -> float:
+    """Return the index of air at 20 °C, 1013.25 hPa and 50 %."""
+    state = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
+    temperature, pressure, humidity = map(np.array, state)
+    return float(refractive_index(temperature, pressure, humidity, wavelength))

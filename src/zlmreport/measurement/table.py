@@ -139,7 +139,8 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
             message = f"{quoted(name)} is too long to be the name of a column; does the table begin here?"
             raise InputError.at(text.place(*header.spot(index)), message)
     units = below.pop(0) if below and is_units(below[0].cells) else None
-    below = _find_rows_before(below, options.ends_before, header, text)
+    if options.ends_before is not None:
+        below = _find_rows_before(below, options.ends_before, header, text)
     sound = []
     for row in below:
         padded = _pad_row(row, len(header.cells)) if text.of_cells or options.transposed else row
@@ -232,10 +233,8 @@ def is_units(cells: Sequence[str]) -> bool:
     return are_short and any(cell.casefold() in UNITS for cell in filled)
 
 
-def _find_rows_before(rows: list[Row], beginning: str | None, header: Row, text: TextFile) -> list[Row]:
+def _find_rows_before(rows: list[Row], beginning: str, header: Row, text: TextFile) -> list[Row]:
     """Return the rows above the one that begins so."""
-    if beginning is None:
-        return rows
     for index, row in enumerate(rows):
         if find_first_cell(row.cells).casefold().startswith(beginning.casefold()):
             return rows[:index]

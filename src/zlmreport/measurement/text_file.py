@@ -208,9 +208,14 @@ def _find_nearest(path: Path) -> str:
 
 
 def _decode(content: bytes, file: Place, encoding: str | None) -> str:
+    """Return text; refuse that of two or four bytes a character, where the job does not say so."""
     if encoding is None:
-        _refuse_wide_characters(content, file)
         encoding = "utf-8"
+        if wide := _find_wide_encoding(content):
+            raise InputError.at(
+                Place(file.file, 1, 1),
+                f"is {wide[:6].upper()} text; save it as UTF-8, or say 'encoding: {wide}' in the job",
+            )
     if codecs.lookup(encoding).name == "utf-8":
         content = content.removeprefix(codecs.BOM_UTF8)
     try:
@@ -226,16 +231,6 @@ def _decode(content: bytes, file: Place, encoding: str | None) -> str:
             place,
             f"{wrong}; save the file as UTF-8, or name its encoding in the job, as in 'encoding: cp1252'",
         ) from error
-
-
-def _refuse_wide_characters(content: bytes, file: Place) -> None:
-    """Refuse text of two or four bytes a character, which nothing in the job says."""
-    found = _find_wide_encoding(content)
-    if found:
-        raise InputError.at(
-            Place(file.file, 1, 1),
-            f"is {found[:6].upper()} text; save it as UTF-8, or say 'encoding: {found}' in the job",
-        )
 
 
 def _find_wide_encoding(content: bytes) -> str | None:

@@ -32,10 +32,6 @@ if TYPE_CHECKING:
 Offered_co = TypeVar("Offered_co", covariant=True)
 
 
-def _say_nothing_more(offered: Any) -> str:  # noqa: ARG001 - what a kind asks beyond its interface
-    return ""
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Kind(Generic[Offered_co]):
     """What a plugin may offer."""
@@ -48,7 +44,7 @@ class Kind(Generic[Offered_co]):
     suffix: str = ""  #: Such as its files have; empty for what writes no file.
     has_keys: bool = True  #: Whether a job can give it keys of its own.
     #: Returns what is wrong with one beyond a missing member; empty if nothing is.
-    lacks: Callable[[Any], str] = _say_nothing_more
+    lacks: Callable[[Any], str] = lambda _: ""
 
     @property
     def hook(self) -> str:

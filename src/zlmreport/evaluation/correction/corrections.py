@@ -28,16 +28,8 @@ from zlmreport.measurement.arrays import FloatArray, read_only_floats
 from zlmreport.measurement.axis import Axis
 from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR, MeasurementSet, find_step
 from zlmreport.measurement.provenance import Correction, Exclusion
-from zlmreport.measurement.refractive_index import (
-    STANDARD_HUMIDITY,
-    STANDARD_PRESSURE,
-    refractive_index,
-)
-from zlmreport.measurement.units import (
-    MICROMETRE_PER_METRE_KELVIN,
-    REFERENCE_TEMPERATURE,
-    compute_above_reference,
-)
+from zlmreport.measurement.refractive_index import compute_standard_index, refractive_index
+from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN, compute_above_reference
 
 #: Target positions nearer to each other than this share of their unit are the same.
 _SAME = 1e-6
@@ -306,13 +298,6 @@ def _make_air(keys: AirKeys, job: Job, measurements: MeasurementSet, problems: l
     if keys.assumed == "vacuum":
         return Air(index, 1.0)
     return Air(index, compute_standard_index(wavelength))
-
-
-def compute_standard_index(wavelength: float) -> float:
-    """Return the index of air at 20 °C, 1013.25 hPa and 50 %."""
-    state = (REFERENCE_TEMPERATURE, STANDARD_PRESSURE, STANDARD_HUMIDITY)
-    temperature, pressure, humidity = map(np.array, state)
-    return float(refractive_index(temperature, pressure, humidity, wavelength))
 
 
 def _make_expansion(

@@ -17,7 +17,6 @@ from zlmreport.evaluation.correction.compensated import (
     speaks_of_air,
 )
 from zlmreport.evaluation.correction.corrections import (
-    compute_standard_index,
     correct_displacement_in_air,
     find_condition_at_readings,
 )
@@ -32,6 +31,7 @@ from zlmreport.measurement.refractive_index import (
     HELIUM_NEON,
     STANDARD_HUMIDITY,
     STANDARD_PRESSURE,
+    compute_standard_index,
     refractive_index,
 )
 from zlmreport.measurement.units import MICROMETRE, REFERENCE_TEMPERATURE

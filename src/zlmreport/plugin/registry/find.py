@@ -49,14 +49,15 @@ def find_plugins(
     plugin has a misspelt hook: what it offers would be missing in silence.
     """
     off = {name.strip() for name in environment.get(DISABLE, "").split(",")}
-    releases = _Releases()
+    points = find_plugin_points()
+    releases = _read_releases(point for point, _ in points)
     candidates: list[PluginCandidate] = []
     disabled: list[str] = []
-    for point, kind in find_plugin_points():
+    for point, kind in points:
         if point.name in off:
             disabled.append(point.name)
             continue
-        plugin = Plugin(point.name, point.module, *releases.of(point))
+        plugin = Plugin(point.name, point.module, *releases.get(id(point.dist), ("", "")))
         candidates.append(PluginCandidate(plugin, point.load, (kind, point.name) if kind else None))
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
     from_files: list[PluginCandidate] = []
@@ -81,21 +82,11 @@ def find_plugins(
     return registry
 
 
-class _Releases:
-    """Names and versions of distributions: each is read from its metadata once, which takes its time."""
-
-    def __init__(self) -> None:
-        self._known: dict[int, tuple[str, str]] = {}
-
-    def of(self, point: EntryPoint) -> tuple[str, str]:
-        """Return the distribution of an entry point and its version."""
-        if point.dist is None:
-            return "", ""
-        key = id(point.dist)  # all of them live as long as the entry points
-        if key not in self._known:
-            metadata = point.dist.metadata
-            self._known[key] = (metadata["Name"], metadata["Version"])
-        return self._known[key]
+def _read_releases(points: Iterable[EntryPoint]) -> dict[int, tuple[str, str]]:
+    """Return names and versions of distributions by their `id`: each is read once, which takes its time."""
+    distributions = {id(point.dist): point.dist for point in points if point.dist}
+    read = {key: each.metadata for key, each in distributions.items()}
+    return {key: (metadata["Name"], metadata["Version"]) for key, metadata in read.items()}
 
 
 def find_plugin_points() -> list[tuple[EntryPoint, Kind[Any] | None]]:
