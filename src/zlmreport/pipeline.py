@@ -94,7 +94,8 @@ def read(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names, correct them and set aside what it says."""
     if job.tests:
         return join_lines(job.axis, {name: read(each, registry) for name, each in job.tests.items()})
-    return drop_excluded(read_whole(job, registry), job)
+    measurements = read_whole(job, registry)
+    return drop_excluded(measurements, job) if job.keys.measurement.excluded else measurements
 
 
 def read_whole(job: Job, registry: Registry) -> MeasurementSet:
@@ -108,10 +109,8 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     }
     context = SourceContext(job.axis, job.source.place, set_ups)
     measurements = source.read(job.source.options, context)
-    corrections = find_corrections_of(job, measurements)
-    if corrections:
-        measurements = correct(measurements, corrections)
-    return measurements
+    corrections = find_corrections_of(job, measurements) if job.keys.corrections else None
+    return correct(measurements, corrections) if corrections else measurements
 
 
 def read_sessions(job: Job, registry: Registry) -> tuple[MeasurementSet, ...]:
@@ -137,30 +136,29 @@ def compose(  # noqa: PLR0913 - what a document is made of
     """
     if job.measurements:
         return _compose_parts(job, registry, made_by, showing, trials, is_laid_out=is_laid_out)
+    found = job.as_found
+    states = (job, found) if found else (job,)
     missing = [
         *find_missing_items(job),
-        *(
-            one
-            for each in (job, *job.tests.values(), job.as_found)
-            if each
-            for one in traceability.find_broken_chain(each)
-        ),
+        *(one for each in (*states, *job.tests.values()) for one in traceability.find_broken_chain(each)),
     ]
+    measured: list[tuple[Job, MeasurementSet, Budget | NoBudget]] = []
     try:
-        measurements = read(job, registry)
-        for each, readings in ((job, measurements), (job.as_found, None)):
-            if each:
-                missing += _find_refusals(
-                    each, make_budget_of_job(each, readings or read(each, registry), registry)
-                )
+        for each in states:
+            readings = read(each, registry)
+            budget = make_budget_of_job(each, readings, registry)
+            measured.append((each, readings, budget))
+            missing += _find_refusals(each, budget)
     except InputError as error:
         raise InputError([*missing, *error.problems]) from error
     if missing:
         raise InputError(dict.fromkeys(missing))
-    evaluations = evaluate_all(job, measurements, registry, trials)
+    evaluated = [
+        evaluate_all(each, readings, registry, trials, budget) for each, readings, budget in measured
+    ]
+    measurements = measured[0][1]
+    evaluations, as_found = evaluated[0], evaluated[1] if found else ()
     studied = fit_model(job, measurements, registry, showing) if job.effects else None
-    found = job.as_found
-    as_found = evaluate_all(found, read(found, registry), registry, trials) if found else ()
 
     def describe(writer: Writer) -> list[Described]:
         said = [

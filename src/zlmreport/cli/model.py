@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from argparse import Namespace
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 from zlmreport import pipeline
 from zlmreport.cli.model_build import build_lines
@@ -43,6 +43,8 @@ from zlmreport.model.planning.deciding import collect_experiment, plan_experimen
 from zlmreport.plugin.registry import Registry, find_plugins
 
 _KEY = "model.effects"
+#: Lines for a terminal, and what gives the same as JSON: one of the two is asked for.
+_Answer: TypeAlias = tuple[Iterable[str], Callable[[], Any]]
 
 _LEARN = Place("zlmreport model learn")
 
@@ -85,15 +87,15 @@ def run(options: Namespace) -> int:
     session = _Session(
         options.job, job, pipeline.read(job, registry), pipeline.read_sessions(job, registry), registry
     )
-    lines, values = _ACTIONS[options.action](session, options)
+    lines, collect_values = _ACTIONS[options.action](session, options)
     if options.json:
-        print_json(values)
+        print_json(collect_values())
     else:
         print(*lines, sep="\n")
     return 0
 
 
-def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
+def _fit(session: _Session, options: Namespace) -> _Answer:
     _demand_effects(session)
     fitted = session.study().fitted()
     points = find_points_of(fitted.fit, options.at)
@@ -103,10 +105,10 @@ def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
         "",
         _say_next("diagnose", session),
     )
-    return lines, fit_values(fitted) | point_values(points, session.job.axis)
+    return lines, lambda: fit_values(fitted) | point_values(points, session.job.axis)
 
 
-def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
+def _diagnose(session: _Session, _: Namespace) -> _Answer:
     study, effects = session.study(), session.registry.effects
     with show_progress("diagnosing") as told:
         diagnosis = study.diagnosis(effects, told)
@@ -114,11 +116,15 @@ def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
         experiment = plan_experiment_of_tie(study, diagnosis, effects, told)
     titles = study.titles(effects)
     lines = tell_diagnosis(diagnosis, study, session.shown_path, experiment, titles)
-    values = collect_experiment(experiment, session.job, Language.ENGLISH) if experiment else None
-    return lines, report(diagnosis, experiment=values)
+
+    def collect_values() -> dict[str, Any]:
+        values = collect_experiment(experiment, session.job, Language.ENGLISH) if experiment else None
+        return report(diagnosis, experiment=values)
+
+    return lines, collect_values
 
 
-def _tell_history(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
+def _tell_history(session: _Session, _: Namespace) -> _Answer:
     _demand_effects(session)
     study = session.study()
     history = study.history()
@@ -128,10 +134,10 @@ def _tell_history(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
         "",
         _say_next("diagnose", session),
     )
-    return lines, collect_history(history, forecasts)
+    return lines, lambda: collect_history(history, forecasts)
 
 
-def _add(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
+def _add(session: _Session, options: Namespace) -> _Answer:
     """Add an effect to the job's model, in place of those that it contains."""
     registry = session.registry
     named, removed = read_addition(
@@ -142,7 +148,7 @@ def _add(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     return _write_change(session, change)
 
 
-def _remove(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
+def _remove(session: _Session, options: Namespace) -> _Answer:
     """Take an effect out of the job's model."""
     text, present = options.effect, [choice.identifier for choice in session.job.effects]
     if text not in present:
@@ -153,7 +159,7 @@ def _remove(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     return _write_change(session, _try_change(session, None, (text,)))
 
 
-def _build(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
+def _build(session: _Session, options: Namespace) -> _Answer:
     """Build the job's model step by step, and write it into the job at the end."""
     with show_progress("building") as told:
         built = session.study().built(session.registry.effects, told)
@@ -162,7 +168,7 @@ def _build(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
         edit.write()
     job = edit.job if edit else session.job
     lines = build_lines(built, job, session.shown_path, edit, is_tried=options.dry_run)
-    return lines, build_values(built)
+    return lines, lambda: build_values(built)
 
 
 def _edit_of(session: _Session, built: Built) -> Edit | None:
@@ -210,9 +216,10 @@ def _try_change(session: _Session, named: NamedEffect | None, removed: tuple[str
     return ModelChange(edit, added, removed, before, history, session.forecasts(study, history))
 
 
-def _write_change(session: _Session, change: ModelChange) -> tuple[Iterable[str], Any]:
+def _write_change(session: _Session, change: ModelChange) -> _Answer:
     change.edit.write()
-    return change_lines(session.path, change, session.writer), change_values(session.path, change)
+    lines = change_lines(session.path, change, session.writer)
+    return lines, lambda: change_values(session.path, change)
 
 
 def _say_next(action: str, session: _Session) -> str:

@@ -49,11 +49,6 @@ def say(words: Words | str, language: Language = Language.ENGLISH) -> str:
     return text.replace(HELD, " ")
 
 
-def find_line_width() -> int:
-    """Return how many letters a line may have."""
-    return max(_SHORTEST_LINE, shutil.get_terminal_size((_USUAL_LINE, 0)).columns)
-
-
 def wrap(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; no line ends within a value."""
     return [line.replace(HELD, " ") for line in fill(_WITHIN_A_VALUE.sub(HELD, text), indent)]
@@ -61,9 +56,10 @@ def wrap(text: str, indent: str = "  ") -> list[str]:
 
 def fill(text: str, indent: str = "  ") -> list[str]:
     """Return a text in lines that fit, all but the first further in; blanks that are held stay."""
+    width = max(_SHORTEST_LINE, shutil.get_terminal_size((_USUAL_LINE, 0)).columns)
     further = f"{indent}  "
     return textwrap.wrap(
-        text, find_line_width(), initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
+        text, width, initial_indent=indent, subsequent_indent=further, break_on_hyphens=False
     )
 
 

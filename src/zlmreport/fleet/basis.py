@@ -280,7 +280,7 @@ def list_files_behind(
     own = job.files[1 if fleet.defaults else 0].path
     seen: set[str] = set()
     templates = job.keys.certificate.style.templates
-    stated = [(each.role.key, each.file.path, each.file.sha256) for each in certificate.sources]
+    stated = [(each.role.value, each.file.path, each.file.sha256) for each in certificate.sources]
     for role, path, sha256 in (*stated, *(("file", *each) for each in named.items())):
         if path is None or not path.is_file() or write_path_in(folder, path) in seen:
             continue

@@ -162,7 +162,7 @@ def _write_results(material: _Material, made_from: tuple[Source, ...], generator
             "plugins": {},
             "sources": [
                 {
-                    "role": each.role.key,
+                    "role": each.role.value,
                     "name": each.name,
                     "path": each.path,
                     "sha256": each.file.sha256,

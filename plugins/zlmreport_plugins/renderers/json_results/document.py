@@ -320,7 +320,7 @@ def _collect_file(file: SourceFile) -> Json:
 def _collect_source(source: CertificateSource) -> Json:
     """Return a file that the certificate was made from, under its name as an attachment."""
     return {
-        "role": source.role.key,
+        "role": source.role.value,
         "name": source.name,
         "path": source.path,
         "sha256": source.file.sha256,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from enum import Enum, StrEnum
+from enum import StrEnum
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING
 
@@ -80,21 +80,29 @@ class Attachment:
     description: str
 
 
-class SourceRole(Enum):
-    """What a source is to the job: its key in the results file, and its name."""
+class SourceRole(StrEnum):
+    """What a source is to the job, as the results file says it."""
 
-    JOB = ("job", Words("Job"))
-    EXTENDED = ("extended", Words("Extended by the job"))
-    TABLE = ("table", Words("Table of the axis"))
-    READINGS = ("readings", Words("Readings"))
-    SESSION = ("session", Words("Further test of the axis"))
-    PRIORS = ("priors", Words("What earlier tests taught"))
-    TEST = ("test", Words("Part of what was measured"))
-    LOGO = ("logo", Words("Logo of the laboratory"))
+    JOB = "job"
+    EXTENDED = "extended"
+    TABLE = "table"
+    READINGS = "readings"
+    SESSION = "session"
+    PRIORS = "priors"
+    TEST = "test"
+    LOGO = "logo"
 
-    def __init__(self, key: str, title: Words) -> None:
-        self.key = key
-        self.title = title
+
+_TITLES = {
+    SourceRole.JOB: Words("Job"),
+    SourceRole.EXTENDED: Words("Extended by the job"),
+    SourceRole.TABLE: Words("Table of the axis"),
+    SourceRole.READINGS: Words("Readings"),
+    SourceRole.SESSION: Words("Further test of the axis"),
+    SourceRole.PRIORS: Words("What earlier tests taught"),
+    SourceRole.TEST: Words("Part of what was measured"),
+    SourceRole.LOGO: Words("Logo of the laboratory"),
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -175,7 +183,7 @@ def attach_sources(sources: Iterable[Source], language: Language) -> Iterator[At
     """Yield the sources as attachments; one whose reader did not keep its bytes cannot be attached."""
     for source in sources:
         if source.file.content is not None:
-            description = f"{source.role.title.in_language(language)}: {_clean(source.path, kept='/')}"
+            description = f"{_TITLES[source.role].in_language(language)}: {_clean(source.path, kept='/')}"
             yield Attachment(
                 source.name,
                 source.file.content,

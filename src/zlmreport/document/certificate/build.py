@@ -68,7 +68,12 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     measurements = evaluated[0].evaluation.measurements
     writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
     designations = tuple(each.evaluation.designation for each in evaluated)
-    logo = _read_logo(job)
+    laboratory = job.keys.laboratory
+    logo = (
+        read_logo(laboratory.logo, job.place_of("laboratory.logo"))
+        if laboratory and laboratory.logo
+        else None
+    )
     sessions = interpretation.sessions if interpretation else ()
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]), *sessions)
     files = [file for each in read for file in each.provenance.files]
@@ -86,7 +91,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         of_all = [one for _, of_line in of_lines for one in of_line]
         shown += tuple(_collect_shown_as_found(job, measurements, as_found, of_all))
     letterhead, title = (
-        make_letterhead(job.keys.laboratory, logo),
+        make_letterhead(laboratory, logo),
         writer.say(write_document_title(certificate)),
     )
     results = tuple(each.evaluation for each in evaluated)
@@ -114,7 +119,9 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         )
         laid_out = _lay_out(material if certificate.readings_on_graphs else _drop_readings(material))
         linked = _link_readings(job, interpretation, writer) if interpretation else None
-    sections = arrange_sections(laid_out.sections, job)
+    sections = laid_out.sections
+    if certificate.sections is not None:
+        sections = arrange_sections(sections, certificate.sections, job)
     return Certificate(
         number=certificate.number,
         title=title,
@@ -128,8 +135,8 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         page_words=PageWords.said(
             certificate.language,
             writer.say(write_running_title(certificate)),
-            head=fill_in(style.header or "", job, "certificate.style.header"),
-            foot=fill_in(style.footer or "", job, "certificate.style.footer"),
+            head=fill_in(style.header, job, "certificate.style.header") if style.header else "",
+            foot=fill_in(style.footer, job, "certificate.style.footer") if style.footer else "",
         ),
         description=writer.say(
             _DESCRIPTION.given(subject=name_subject_of(job), standards=", ".join(designations))
@@ -216,13 +223,6 @@ def _drop_readings(material: Material) -> Material:
         as_found=drop(material.as_found),
         tests=tuple(replace(each, evaluated=drop(each.evaluated)) for each in material.tests),
     )
-
-
-def _read_logo(job: Job) -> Logo | None:
-    laboratory = job.keys.laboratory
-    if laboratory is None or laboratory.logo is None:
-        return None
-    return read_logo(laboratory.logo, job.place_of("laboratory.logo"))
 
 
 def make_letterhead(laboratory: Laboratory | None, logo: Logo | None) -> Letterhead | None:

@@ -143,7 +143,8 @@ def find_missing_items(job: Job) -> Iterator[Problem]:
     """Yield what a calibration certificate must state and does not; a measuring report may leave it out."""
     if job.keys.certificate.kind != "certificate":
         return
-    yield from find_left_out(job)
+    if (wanted := job.keys.certificate.sections) is not None:
+        yield from find_left_out(wanted, job)
     told = set()
     for item in MANDATORY_ITEMS:
         stated = item.stated(job.keys)

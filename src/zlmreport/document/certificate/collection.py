@@ -84,12 +84,16 @@ def collect_certificates(
         title=writer.say(write_document_title(certificate)),
         subtitle=subject,
         cover=cover_blocks,
-        sections=arrange_sections(sections, job),
+        sections=(
+            tuple(sections)
+            if certificate.sections is None
+            else arrange_sections(sections, certificate.sections, job)
+        ),
         page_words=replace(
             first.page_words,
             number=writer.say(write_running_title(certificate)),
-            head=fill_in(style.header or "", job, "certificate.style.header"),
-            foot=fill_in(style.footer or "", job, "certificate.style.footer"),
+            head=fill_in(style.header, job, "certificate.style.header") if style.header else "",
+            foot=fill_in(style.footer, job, "certificate.style.footer") if style.footer else "",
         ),
         description=writer.say(_DESCRIPTION.given(subject=subject, standards=", ".join(designations))),
         evaluations=evaluations,

@@ -61,11 +61,10 @@ def _list_values(keys: Mapping[str, Any], within: str = "") -> Iterator[tuple[st
                 yield f"{within}{name}", str(value)
 
 
-def arrange_sections(sections: Sequence[Section], job: Job) -> tuple[Section, ...]:
+def arrange_sections(
+    sections: Sequence[Section], wanted: Sequence[str | OwnText], job: Job
+) -> tuple[Section, ...]:
     """Return the sections that the job wants, in its order, with its own texts among them."""
-    wanted = job.keys.certificate.sections
-    if wanted is None:
-        return tuple(sections)
     found: list[Section] = []
     for number, each in enumerate(wanted):
         if isinstance(each, OwnText):
@@ -87,11 +86,10 @@ def _name(section: Section, job: Job) -> str:
     return name if name in _NAMES else "results"
 
 
-def find_left_out(job: Job) -> Iterator[Problem]:
+def find_left_out(wanted: Sequence[str | OwnText], job: Job) -> Iterator[Problem]:
     """Yield what a calibration certificate must state and the job's list of sections leaves out."""
-    wanted = job.keys.certificate.sections
     for name, (what, clause) in _MANDATORY.items():
-        if wanted is not None and name not in wanted and (name != "opinions" or job.keys.opinions):
+        if name not in wanted and (name != "opinions" or job.keys.opinions):
             yield Problem(
                 job.place_of("certificate.sections"),
                 f"a calibration certificate must state {what} (ISO/IEC 17025:2017, {clause}): add {name} to "

@@ -62,7 +62,7 @@ def make_budget_of(
     contributions = (
         *(() if isinstance(instrument, Words) else instrument),
         *_list_contributions_of_length(job, measurements, set_up),
-        *list_circle_contributions(job, measurements),
+        *(list_circle_contributions(job, job.axis.circle, measurements) if job.axis.circle else ()),
         *list_air_contributions(job, measurements, set_up.length),
         *_list_fluctuations(job, measurements),
         *(each for stated in keys.contributions for each in _make_other_contribution(stated, measurements)),

@@ -17,6 +17,7 @@ from zlmreport.evaluation.uncertainty import wording
 from zlmreport.evaluation.uncertainty.budget import Acts, Contribution, Distribution, from_range
 from zlmreport.job.job import Job
 from zlmreport.measurement.arrays import FloatArray
+from zlmreport.measurement.circle import NominalCircle
 from zlmreport.measurement.measurement_set import MeasurementSet
 from zlmreport.measurement.units import MICROMETRE
 
@@ -52,16 +53,16 @@ def smooth_curves(acts: Acts, angles: FloatArray, count: int, generator: np.rand
     return np.asarray(drawn @ basis / np.sqrt(len(harmonics)))
 
 
-def list_circle_contributions(job: Job, measurements: MeasurementSet) -> Iterator[Contribution]:
+def list_circle_contributions(
+    job: Job, circle: NominalCircle, measurements: MeasurementSet
+) -> Iterator[Contribution]:
     """Yield what only a circle has: its calibrated length, and what its centre leaves.
 
     The centre of a full turn is found from the readings, but for e²/(2R): a circle whose centre lies off by e
     is no circle over the angle by so much, and nobody knows whether angles are those of the path or of the
     instrument.
     """
-    circle, keys = job.axis.circle, job.keys.uncertainty
-    if circle is None:
-        return
+    keys = job.keys.uncertainty
     if circle.is_calibrated and keys.calibrated_length:
         yield Contribution(
             name=wording.USUAL["calibrated_length"],

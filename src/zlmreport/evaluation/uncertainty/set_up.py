@@ -97,11 +97,6 @@ class SetUp:
         return self.expansion if self.compensated is None else self.compensated
 
     @property
-    def is_at_reference(self) -> bool:
-        """Whether the machine was at 20 °C."""
-        return self.difference is not None and abs(self.difference) < _AT_REFERENCE
-
-    @property
     def uncorrected_coefficient(self) -> float | None:
         """α of what is left in the readings, 1/K; None where it is not known.
 
@@ -119,10 +114,11 @@ class SetUp:
 
         0 where the readings are corrected to 20 °C, or were taken there; None where it is not known.
         """
-        alpha = self.uncorrected_coefficient
-        if self.is_at_reference or not (alpha is None or alpha):
+        alpha, difference = self.uncorrected_coefficient, self.difference
+        is_at_reference = difference is not None and abs(difference) < _AT_REFERENCE
+        if is_at_reference or not (alpha is None or alpha):
             return 0.0
-        return None if self.difference is None or alpha is None else alpha * self.difference * self.length
+        return None if difference is None or alpha is None else alpha * difference * self.length
 
     def lacks(self, job: Job) -> Iterator[Problem]:
         """Yield the keys of the budget whose formula needs what is not known."""

@@ -226,7 +226,8 @@ def list_estimates_of(
     count = len(uncertainties.inverse)
     standard, degrees = uncertainties.of(np.eye(count))
     solved = iter(zip(standard.tolist(), degrees.tolist(), strict=True))
-    linear = [list(_estimate_linear(term, gamma, solved)) for term, gamma in _pair_terms(problem, solution)]
+    terms = zip(problem.model.terms, solution.coefficients, strict=True)
+    linear = [list(_estimate_linear(term, gamma, solved)) for term, gamma in terms]
     by_place = {
         (place.term, place.column): (
             float(standard[count - len(places) + number]),
@@ -267,10 +268,6 @@ def _link_estimate(estimate: Estimate, found: Sequence[Estimate], problem: FitPr
         expected=estimate.expected,
         equals=".".join(other),
     )
-
-
-def _pair_terms(problem: FitProblem, solution: Solution) -> Iterator[tuple[Term, FloatArray]]:
-    return zip(problem.model.terms, solution.coefficients, strict=True)
 
 
 def _estimate_linear(

@@ -307,7 +307,7 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
     for run in runs:
         left_out = np.flatnonzero(cycle == run)
         kept = np.flatnonzero(cycle != run)
-        problem = FitProblem(model, select_readings(design, kept), deviation[kept], _keep_as_they_are)
+        problem = FitProblem(model, select_readings(design, kept), deviation[kept], lambda columns: columns)
         found = refine(problem, problem.solution(thetas))
         others = select_readings(design, left_out)
         predicted = np.zeros(len(left_out))
@@ -315,7 +315,3 @@ def cross_validate(model: AxisModel, design: Design, deviation: FloatArray, thet
             predicted += term.effect.columns(others, theta) @ gamma
         squares += float(np.sum((deviation[left_out] - predicted) ** 2))
     return float(np.sqrt(squares / len(deviation)))
-
-
-def _keep_as_they_are(columns: FloatArray) -> FloatArray:
-    return columns
