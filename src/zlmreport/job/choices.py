@@ -1,8 +1,9 @@
-"""The plugins that a file names, each with its own keys: instruments, effects, programs, extensions."""
+"""The plugins that a file names, each with its own keys: sources, effects, programs, extensions."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Self, TypeAlias
@@ -15,8 +16,9 @@ from zlmreport.job.formula import FormulaError
 from zlmreport.job.formula_keys import FormulaKeys, ParameterName
 from zlmreport.job.formula_parts import refuse_unsound
 from zlmreport.job.installed import Installed, InstalledEffect, InstalledExtension, InstalledProgram, WithKeys
+from zlmreport.job.keys import JobKeys
 from zlmreport.job.sentences import show_value
-from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, make_keys_of
+from zlmreport.job.tree import Items, KeyEntry, Keys, Node, Scalar, find_at, find_key_place, make_keys_of
 from zlmreport.job.types import Finite, JobPart, LiveInstrumentKeys, Options, find_model_in, list_keys_in
 
 
@@ -27,6 +29,13 @@ class Choice:
     identifier: str
     options: Options
     place: Place = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class SourceChoice(Choice):
+    """The data source that the job names; `instrument` is the live one that its keys name, None for most."""
+
+    instrument: Choice | None = None
 
 
 def choose_in(
@@ -60,6 +69,38 @@ def choose_in(
 def group_naming(key: str, item: Node) -> Keys:
     """Return the group of keys that an item of a list is; a bare identifier stands for a key alone."""
     return item if isinstance(item, Keys) else make_keys_of(item.place, (KeyEntry(key, item.place, item),))
+
+
+def choose_source(
+    tree: Keys, path: tuple[str, ...], registry: Installed, problems: list[Problem]
+) -> SourceChoice | None:
+    """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
+    keys, within = find_at(tree, path), ".".join(path)
+    plugin = find_at(tree, (*path, "plugin"))
+    choice = choose_in(keys, "plugin", registry.source, problems, within=within)
+    instrument = None
+    with suppress(InputError):  # a source that there is not was refused above
+        if isinstance(keys, Keys) and isinstance(plugin, Scalar):
+            known = registry.source(plugin.text).options
+            instrument = choose_instrument(known, keys, registry, problems, within=within)
+    return SourceChoice(choice.identifier, choice.options, choice.place, instrument) if choice else None
+
+
+def choose_sources_of_tests(
+    keys: JobKeys, tree: Keys, registry: Installed, problems: list[Problem]
+) -> dict[str, SourceChoice]:
+    """Return the data source of each named test; one that several share is checked once."""
+    found = {}
+    checked: dict[Place, SourceChoice | None] = {}
+    for name in keys.measurement.tests:
+        path = ("measurement", "tests", name, "source")
+        place = find_key_place(tree, path)
+        if place not in checked:
+            checked[place] = choose_source(tree, path, registry, problems)
+        source = checked[place]
+        if source:
+            found[name] = source
+    return found
 
 
 def choose_instrument(

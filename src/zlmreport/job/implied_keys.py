@@ -1,4 +1,4 @@
-"""Keys that follow from others of a job: its axis, and what standards ask of the measurement."""
+"""Keys that follow from others of a job: sources of lines, its axis, what standards ask of a measurement."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from zlmreport.job.measured_lines import name_together
 from zlmreport.job.tree import Items, KeyEntry, Keys, Scalar, find_at, make_keys_of, merge, place_of
 from zlmreport.measurement.error_symbol import ErrorSymbol, find_error_named
 
+_TESTS = ("measurement", "tests")
+
 
 def find_stated_in(tree: Keys) -> str:
     """Return what a job says was measured, by its symbol or its name; empty where it does not."""
@@ -26,6 +28,37 @@ def find_error_in(tree: Keys) -> ErrorSymbol | None:
     with suppress(ValueError):
         return find_error_named(find_stated_in(tree))
     return None
+
+
+def add_shared_source(tree: Keys) -> Keys:
+    """Return the keys of a job with the source of its measurement in each test that has none of its own."""
+    measurement, tests = find_at(tree, ("measurement",)), find_at(tree, _TESTS)
+    if (
+        not isinstance(measurement, Keys)
+        or not isinstance(tests, Keys)
+        or "source" not in measurement.entries
+    ):
+        return tree
+    source = measurement.entries["source"]
+    shared = {
+        name: entry
+        for name, entry in tests.entries.items()
+        if isinstance(entry.value, Keys) and "source" not in entry.value.entries
+    }
+    if not shared:
+        return tree
+    filled = {
+        name: replace(entry, value=make_keys_of(entry.value.place, (*entry.value.entries.values(), source)))
+        for name, entry in shared.items()
+        if isinstance(entry.value, Keys)
+    }
+    of_tests = make_keys_of(tests.place, tuple({**tests.entries, **filled}.values()))
+    entries = dict(measurement.without("source").entries)
+    entries["tests"] = replace(entries["tests"], value=of_tests)
+    whole = replace(
+        tree.entries["measurement"], value=make_keys_of(measurement.place, tuple(entries.values()))
+    )
+    return make_keys_of(tree.place, tuple({**tree.entries, "measurement": whole}.values()))
 
 
 def add_axis(tree: Keys, registry: Installed) -> Keys:
@@ -41,7 +74,7 @@ def add_axis(tree: Keys, registry: Installed) -> Keys:
         name = plane.text if isinstance(plane, Scalar) else str(CircleKeys.model_fields["plane"].default)
     if not name and error:
         name = error.axis
-    if not name and isinstance(listed := find_at(tree, ("measurement", "tests")), Keys):
+    if not name and isinstance(listed := find_at(tree, _TESTS), Keys):
         name = name_together(listed.entries)
     if not name:
         return tree

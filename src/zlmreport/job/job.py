@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from zlmreport.errors import InputError, Place, quoted
-from zlmreport.job.choices import Choice, ControllerChoice, EffectChoice, ExtensionChoice
+from zlmreport.job.choices import Choice, ControllerChoice, EffectChoice, ExtensionChoice, SourceChoice
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.quantity import convert_places_to_si
@@ -24,13 +24,6 @@ class StandardChoice(Choice):
     tolerances: Mapping[str, float]  #: Limits by symbol, m or rad.
     specification: str = ""  #: The document that they come from; empty where the job does not say.
     adoption: str = ""  #: By whose name the job calls it, if by an identical adoption's; else empty.
-
-
-@dataclass(frozen=True, slots=True)
-class SourceChoice(Choice):
-    """The data source that the job names; `instrument` is the live one that its keys name, None for most."""
-
-    instrument: Choice | None = None
 
 
 @dataclass(frozen=True, slots=True)

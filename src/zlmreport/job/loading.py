@@ -18,6 +18,8 @@ from zlmreport.job.choices import (
     choose_effects_of,
     choose_extensions,
     choose_programs_of,
+    choose_source,
+    choose_sources_of_tests,
 )
 from zlmreport.job.circle_keys import find_circle_contradictions, find_lack_of_circle
 from zlmreport.job.collection import (
@@ -30,12 +32,12 @@ from zlmreport.job.collection import (
 from zlmreport.job.contradictions import find_all_contradictions, validate
 from zlmreport.job.evaluation_keys import PriorsKeys
 from zlmreport.job.extends import JOB, PRIORS, Composition, Defaults, compose, refuse_other_format
-from zlmreport.job.implied_keys import add_axis, find_stated_in, share_keys
+from zlmreport.job.implied_keys import add_axis, add_shared_source, find_stated_in, share_keys
 from zlmreport.job.installed import Installed
 from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.keys_file import KeysFile, read_keys_file
-from zlmreport.job.measured_lines import add_shared_source, make_job_of_test
+from zlmreport.job.measured_lines import make_job_of_test
 from zlmreport.job.quantity import (
     find_effect_contradictions,
     find_measurand_of,
@@ -43,7 +45,6 @@ from zlmreport.job.quantity import (
     find_stated_error,
     find_tests_contradictions,
 )
-from zlmreport.job.sources import choose_source, choose_sources_of_tests
 from zlmreport.job.standards import choose_standards, convert_tolerances_to_si, list_files_named
 from zlmreport.job.tree import Items, Keys, Scalar, find_at, place_of
 from zlmreport.measurement.error_symbol import evaluate_for_error

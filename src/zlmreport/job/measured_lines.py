@@ -1,4 +1,4 @@
-"""Several measured lines in a job: the source of each, and each as a job of its own."""
+"""Several measured lines in a job: each as a job of its own."""
 
 from __future__ import annotations
 
@@ -7,45 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from zlmreport.job.axis import convert_axis_to_si
+from zlmreport.job.choices import SourceChoice
 from zlmreport.job.installed import Installed
-from zlmreport.job.job import Job, SourceChoice
+from zlmreport.job.job import Job
 from zlmreport.job.measurement_keys import AxisKeys, Measurement
-from zlmreport.job.tree import Keys, find_at, make_keys_of
 from zlmreport.measurement.error_symbol import ErrorSymbol, find_error_named, find_letter_of
 from zlmreport.measurement.measurand import POSITIONING, is_for
-
-_TESTS = ("measurement", "tests")
-
-
-def add_shared_source(tree: Keys) -> Keys:
-    """Return the keys of a job with the source of its measurement in each test that has none of its own."""
-    measurement, tests = find_at(tree, ("measurement",)), find_at(tree, _TESTS)
-    if (
-        not isinstance(measurement, Keys)
-        or not isinstance(tests, Keys)
-        or "source" not in measurement.entries
-    ):
-        return tree
-    source = measurement.entries["source"]
-    shared = {
-        name: entry
-        for name, entry in tests.entries.items()
-        if isinstance(entry.value, Keys) and "source" not in entry.value.entries
-    }
-    if not shared:
-        return tree
-    filled = {
-        name: replace(entry, value=make_keys_of(entry.value.place, (*entry.value.entries.values(), source)))
-        for name, entry in shared.items()
-        if isinstance(entry.value, Keys)
-    }
-    of_tests = make_keys_of(tests.place, tuple({**tests.entries, **filled}.values()))
-    entries = dict(measurement.without("source").entries)
-    entries["tests"] = replace(entries["tests"], value=of_tests)
-    whole = replace(
-        tree.entries["measurement"], value=make_keys_of(measurement.place, tuple(entries.values()))
-    )
-    return make_keys_of(tree.place, tuple({**tree.entries, "measurement": whole}.values()))
 
 
 def make_job_of_test(job: Job, name: str, source: SourceChoice, registry: Installed) -> Job:

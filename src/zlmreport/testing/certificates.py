@@ -52,9 +52,10 @@ from zlmreport.evaluation.evaluation import (
     Quantity,
 )
 from zlmreport.evaluation.statistics import position_statistics
+from zlmreport.job.choices import SourceChoice
 from zlmreport.job.document_keys import CertificateKeys, Customer, Laboratory, Person
 from zlmreport.job.evaluation_keys import StandardKeys
-from zlmreport.job.job import Job, SourceChoice
+from zlmreport.job.job import Job
 from zlmreport.job.keys import JobKeys
 from zlmreport.job.measurement_keys import (
     AxisKeys,

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from zlmreport import pipeline
 from zlmreport.document.certificate.clauses import MANDATORY_ITEMS
-from zlmreport.evaluation.uncertainty.demanded import INSTRUMENT
+from zlmreport.evaluation.uncertainty.set_up import INSTRUMENT
 from zlmreport.evaluation.uncertainty.wording import DEVICE, name_contributor
 from zlmreport.job.job import Job
 from zlmreport.language import Language, Words

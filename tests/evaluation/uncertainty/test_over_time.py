@@ -11,7 +11,7 @@ import pytest
 from document.certificate.documents import COMPLETE, job as job_of, registry
 from zlmreport import pipeline
 from zlmreport.evaluation.uncertainty.budget import Acts, Budget
-from zlmreport.evaluation.uncertainty.demanded import list_demanded
+from zlmreport.evaluation.uncertainty.set_up import list_demanded
 from zlmreport.job.job import Job
 
 HOURS = np.arange(0.0, 8.25, 0.25)

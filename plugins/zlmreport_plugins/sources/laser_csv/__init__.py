@@ -17,12 +17,12 @@ from zlmreport.plugin.source import (
     collect_readings,
 )
 from zlmreport.plugin.table import days_of_readings, folded
-from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.layouts import (
     count_runs,
     find_long_layout,
     find_wide_layout,
     put_in_order,
+    read_heading,
 )
 from zlmreport_plugins.sources.laser_csv.options import (
     COLUMN_NAMES,

@@ -15,7 +15,7 @@ from zlmreport.plugin.table import (
     first_cell,
 )
 from zlmreport_plugins.sources.laser_csv import questions
-from zlmreport_plugins.sources.laser_csv.columns import read_heading
+from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import READING, number
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 

@@ -1,13 +1,24 @@
-"""The two layouts: one reading a row, or one target position a row and one column a run and direction."""
+"""Columns with their units, and the two layouts: a reading a row, or a target a row and a run a column."""
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from zlmreport.plugin import CONDITIONS, Approach, InputError, Problem, quoted
+from zlmreport.plugin import (
+    CONDITIONS,
+    SECOND,
+    TIME_UNITS,
+    Approach,
+    Axis,
+    InputError,
+    Problem,
+    ReadingScale,
+    Unit,
+    quoted,
+)
 from zlmreport.plugin.source import Reading, SourceContext
 from zlmreport.plugin.table import (
     Cells,
@@ -15,18 +26,48 @@ from zlmreport.plugin.table import (
     TextColumn,
     TextRow,
     TextTable,
+    column_with_unit,
     find_heading,
+    heading_of,
     missing_column,
     read_headings,
     time_reader,
 )
-from zlmreport_plugins.sources.laser_csv.columns import find_column_of
 from zlmreport_plugins.sources.laser_csv.options import (
     LaserCsvOptions,
     names_direction,
     read_direction,
     run_and_direction,
 )
+
+
+def read_heading(text: str) -> Heading:
+    """Return a name in a header, its unit taken off; a direction in brackets belongs to the name.
+
+    >>> read_heading("Run (up)").name
+    'Run up'
+    """
+    return heading_of(text, is_no_unit=names_direction)
+
+
+def find_column_of(
+    name: str, heading: Heading, options: LaserCsvOptions, context: SourceContext, table: TextTable
+) -> TextColumn:
+    """Return a known column with its unit; raise `InputError` if the unit is none of its quantity."""
+    return column_with_unit(name, heading, options, _list_units(name, context.axis), context.place, table)
+
+
+def _list_units(
+    name: str, axis: Axis
+) -> tuple[Mapping[str, Unit | ReadingScale], Unit | ReadingScale] | None:
+    """Return the units that a column may have by their spellings, and the usual one."""
+    if name in {"target", "position"}:
+        return axis.position_units, axis.position_unit
+    if name == "deviation":
+        return axis.deviation_units, axis.deviation_unit
+    if name == "time":
+        return TIME_UNITS, SECOND
+    return (CONDITIONS[name].units, CONDITIONS[name].unit) if name in CONDITIONS else None
 
 
 @dataclass(frozen=True, slots=True)

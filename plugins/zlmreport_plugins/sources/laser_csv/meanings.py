@@ -14,7 +14,7 @@ from zlmreport.plugin import Approach, DecimalSign
 from zlmreport.plugin.source import parse_number
 from zlmreport.plugin.table import folded, without_thousands
 from zlmreport_plugins.logged_columns import LOGGED
-from zlmreport_plugins.sources.laser_csv.columns import read_heading
+from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.options import (
     COLUMN_NAMES,
     names_direction,

@@ -12,7 +12,6 @@ from zlmreport.plugin.source import SourceProposal
 from zlmreport.plugin.table import folded, moment
 from zlmreport_plugins.logged_columns import SOME_TEMPERATURE
 from zlmreport_plugins.sources.laser_csv import questions
-from zlmreport_plugins.sources.laser_csv.columns import read_heading
 from zlmreport_plugins.sources.laser_csv.drafts import (
     Draft,
     is_unit_known,
@@ -20,6 +19,7 @@ from zlmreport_plugins.sources.laser_csv.drafts import (
     note_notation,
     place_table,
 )
+from zlmreport_plugins.sources.laser_csv.layouts import read_heading
 from zlmreport_plugins.sources.laser_csv.meanings import (
     READING,
     Notation,

@@ -10,10 +10,10 @@ from zlmreport.document.certificate.attachments import list_sources
 from zlmreport.document.certificate.conditions import Described
 from zlmreport.document.certificate.cover import split_address
 from zlmreport.document.certificate.digest import digest_of
-from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
+from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords, Party
 from zlmreport.document.certificate.material import Interpretation, LaidOut, Material, lay_out_in_full
 from zlmreport.document.certificate.measured_lines import say_of_each
-from zlmreport.document.certificate.own_look import Logo, read_logo, read_look
+from zlmreport.document.certificate.own_look import Logo, read_logo, read_own_look
 from zlmreport.document.certificate.own_words import arrange_sections, fill_in
 from zlmreport.document.certificate.statements import (
     name_subject_of,
@@ -122,6 +122,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     sections = laid_out.sections
     if certificate.sections is not None:
         sections = arrange_sections(sections, certificate.sections, job)
+    look = Look(style.accent, style.logo)
     return Certificate(
         number=certificate.number,
         title=title,
@@ -156,7 +157,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         sources=made_from,
         is_compact=laid_out.is_compact,
         head=laid_out.head,
-        look=read_look(job),
+        look=read_own_look(look, job) if style.typeface or style.templates else look,
         doubts=doubtful,
         evidence=shown,
         tests=tests,

@@ -12,9 +12,9 @@ from zlmreport.document.certificate.attachments import SourceRole, list_sources
 from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date
 from zlmreport.document.certificate.conditions import name_machine_kind
 from zlmreport.document.certificate.digest import DIGEST, digest_of
-from zlmreport.document.certificate.document import Certificate
+from zlmreport.document.certificate.document import Certificate, Look
 from zlmreport.document.certificate.measured_lines import say_of_each
-from zlmreport.document.certificate.own_look import read_look
+from zlmreport.document.certificate.own_look import read_own_look
 from zlmreport.document.certificate.own_words import arrange_sections, fill_in
 from zlmreport.document.certificate.readings import list_missing_readings
 from zlmreport.document.certificate.standard_layout import fit_on_a_page
@@ -79,6 +79,7 @@ def collect_certificates(
         sections += statements.lay_out_opinions(keys, writer)
     designations = tuple(dict.fromkeys(each.designation for each in evaluations))
     style = certificate.style
+    look = Look(style.accent, style.logo)
     return replace(
         first,
         title=writer.say(write_document_title(certificate)),
@@ -107,7 +108,7 @@ def collect_certificates(
         linked=None,
         job=job,
         sources=made_from,
-        look=read_look(job),
+        look=read_own_look(look, job) if style.typeface or style.templates else look,
         doubts=tuple(say_of_each((name, part.doubts) for name, part in parts.items())),
         evidence=(
             *_find_read_twice(parts),
@@ -168,7 +169,7 @@ def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
             heading = _GROUP.given(subject=part.subtitle, designation=evaluation.designation)
             groups.append(RowGroup(rows, writer.say(heading), section=_name_key_of_first(name, part)))
     return Table(
-        writer.say(_SUMMARY), values.columns(), tuple(each for each in groups if each.rows), dense=True
+        writer.say(_SUMMARY), tuple(values.columns()), tuple(each for each in groups if each.rows), dense=True
     )
 
 

@@ -151,7 +151,7 @@ def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
 
 def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
     values = Values.of((page[0].evaluation for page in pages), writer)
-    columns = values.columns()
+    columns = tuple(values.columns())
     groups = tuple(
         RowGroup(
             tuple(

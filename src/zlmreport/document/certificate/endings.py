@@ -61,22 +61,14 @@ def _count_kept(
     kept = 0
     for block in reversed(blocks):
         height = columns.estimate_height(block if isinstance(block, tuple) else (block,))
-        if (
-            taken >= _LEAST * page
-            or taken + height > _MOST * page
-            or _is_parted(block, is_compact=is_compact)
-        ):
+        if taken >= _LEAST * page or taken + height > _MOST * page:
             break
+        if isinstance(block, Table | Formulas):
+            layout = columns.lay_out_table(block, is_compact=is_compact)
+            if not layout.is_whole:  # pages may part it
+                break
         kept, taken = kept + 1, taken + height
     return kept, taken
-
-
-def _is_parted(block: GatheredBlock, *, is_compact: bool) -> bool:
-    """Return whether pages may part a block."""
-    return (
-        isinstance(block, Table | Formulas)
-        and not columns.lay_out_table(block, is_compact=is_compact).is_whole
-    )
 
 
 def is_all_of(section: Section, ending: Ending) -> bool:

@@ -5,7 +5,7 @@ A logo is recognised by its first bytes, without being unpacked.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BytesIO
 from pathlib import Path
 from string import ascii_letters, digits, punctuation
@@ -39,8 +39,8 @@ _RISES, _FALLS = 1.025, 0.275
 _RESTRICTED = 0x2
 
 
-def read_look(job: Job) -> Look:
-    """Return the look that a job asks for.
+def read_own_look(usual: Look, job: Job) -> Look:
+    """Return the look that a job asks for: the usual one with a typeface or templates of its own.
 
     Raises `AccessError` if a file or the folder cannot be read; `InputError` if a file of the typeface is no
     font, lacks letters or must not be embedded; if the folder holds what is no template.
@@ -54,7 +54,7 @@ def read_look(job: Job) -> Look:
         typeface = Typeface(regular, semibold, figure, sign)
     folder = style.templates
     templates = _read_templates(folder, job.place_of("certificate.style.templates")) if folder else ()
-    return Look(style.accent, style.logo, typeface, templates)
+    return replace(usual, typeface=typeface, templates=templates)
 
 
 def _load_font(path: Path, face: TypeFace, place: Place) -> tuple[bytes, float, float]:

@@ -166,7 +166,7 @@ def say_parameters(evaluation: Evaluation) -> Words:
 
 def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     values = Values.of([evaluation], writer, with_interval=True)
-    columns = values.columns(Words("Parameter and what it means"))
+    columns = tuple(values.columns(Words("Parameter and what it means")))
     groups = []
     for group, (heading, note) in _GROUPS.items():
         rows = tuple(

@@ -206,10 +206,17 @@ def _lay_out_table(budget: Budget, writer: Writer) -> Table:
         Column(Symbol("u"), writer.deviation_unit.symbol, Align.RIGHT),
         Column(writer.say(Words("Share")), "%", Align.RIGHT),
     )
+    numbered = list(enumerate(budget.contributions, 1))
     groups = [
         RowGroup(rows, writer.say(wording.ACTS[acts]))
         for acts in Acts
-        if (rows := tuple(_rows(budget, acts, writer)))
+        if (
+            rows := tuple(
+                _lay_out_row(number, each, budget.share(each), writer)
+                for number, each in numbered
+                if each.acts is acts
+            )
+        )
     ]
     total = (
         Symbol("u"),
@@ -236,12 +243,6 @@ def _known(number: int, error: KnownError, writer: Writer) -> tuple[Cell, ...]:
         "",
         "",
     )
-
-
-def _rows(budget: Budget, acts: Acts, writer: Writer) -> Iterator[tuple[Cell, ...]]:
-    for number, each in enumerate(budget.contributions, 1):
-        if each.acts is acts:
-            yield _lay_out_row(number, each, budget.share(each), writer)
 
 
 def _lay_out_row(number: int, contribution: Contribution, share: float, writer: Writer) -> tuple[Cell, ...]:

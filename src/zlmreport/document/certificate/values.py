@@ -50,15 +50,8 @@ class Values:
             is_mixed(parameters, writer),
         )
 
-    def columns(self, parameter: Words = _PARAMETER) -> tuple[Column, ...]:
-        """Return the headings of a row's symbol, of its parameter, and of what `cells` are."""
-        return tuple(self._columns(parameter))
-
-    def cells(self, parameter: Parameter) -> tuple[Cell, ...]:
-        """Return how large a parameter is, cell by cell."""
-        return tuple(self._cells(parameter))
-
-    def _columns(self, parameter: Words) -> Iterator[Column]:
+    def columns(self, parameter: Words = _PARAMETER) -> Iterator[Column]:
+        """Yield the headings of a row's symbol, of its parameter, and of what `cells` are."""
         say, unit = self.writer.say, "" if self.is_mixed else self.writer.deviation_unit.symbol
         yield Column(say(_SYMBOL))
         yield Column(say(parameter))
@@ -72,7 +65,8 @@ class Values:
             yield Column(say(_LIMIT) + self.writer.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
             yield Column(say(_CONFORMITY))
 
-    def _cells(self, parameter: Parameter) -> Iterator[Cell]:
+    def cells(self, parameter: Parameter) -> Iterator[Cell]:
+        """Yield how large a parameter is, cell by cell."""
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
         yield self._with_unit(value, parameter)
         if self.has_uncertainty:

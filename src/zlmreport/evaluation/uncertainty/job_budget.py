@@ -25,15 +25,15 @@ from zlmreport.evaluation.uncertainty.budget import (
     from_range,
     write_of_the_reading,
 )
-from zlmreport.evaluation.uncertainty.demanded import (
+from zlmreport.evaluation.uncertainty.reasons import says_something
+from zlmreport.evaluation.uncertainty.round_the_circle import list_circle_contributions
+from zlmreport.evaluation.uncertainty.set_up import (
     INSTRUMENT,
+    SetUp,
     has_radius,
     list_demanded,
     name_contributors_of_length,
 )
-from zlmreport.evaluation.uncertainty.reasons import says_something
-from zlmreport.evaluation.uncertainty.round_the_circle import list_circle_contributions
-from zlmreport.evaluation.uncertainty.set_up import SetUp
 from zlmreport.job.evaluation_keys import ContributionKeys
 from zlmreport.job.job import Job
 from zlmreport.language import Words, same

@@ -1,4 +1,7 @@
-"""The circumstances of a test on which its uncertainty rests: length, expansion, how far from 20 °C."""
+"""The circumstances of a test on which its uncertainty rests: length, expansion, how far from 20 °C.
+
+By these, and by its axis, a job must state contributors: one that says nothing of them is incomplete.
+"""
 
 from __future__ import annotations
 
@@ -8,20 +11,30 @@ from dataclasses import dataclass
 import numpy as np
 
 from zlmreport.errors import Problem
-from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument
+from zlmreport.evaluation.correction.compensated import find_compensated_by_instrument, is_blind_to_air
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.evaluation.uncertainty.budget import Acts
-from zlmreport.evaluation.uncertainty.demanded import name_contributors_of_length
+from zlmreport.evaluation.uncertainty.round_the_circle import OF_A_RADIUS
 from zlmreport.job.job import Job
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurand import Coordinate
-from zlmreport.measurement.measurement_set import MeasurementSet
+from zlmreport.measurement.measurement_set import STATE_OF_AIR, MeasurementSet
 from zlmreport.measurement.units import MICROMETRE_PER_METRE_KELVIN, compute_above_reference
 
 #: The temperature that the scale, and with it the measured length, has: the first that is known counts.
 _TEMPERATURES = ("axis_temperature", "material_temperature")
 #: What is printed as 20.0 °C is 20 °C, K.
 _AT_REFERENCE = 0.05
+INSTRUMENT = "instrument"
+_RESOLUTION = "resolution"
+_OF_EVERY_AXIS = ("environmental_variation", _RESOLUTION)
+_OF_LENGTHS = (
+    "misalignment",
+    "machine_temperature",
+    "device_temperature",
+    "expansion_coefficient",
+    "device_expansion_coefficient",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,3 +163,26 @@ def _find_temperature_differences(job: Job, measurements: MeasurementSet) -> Flo
         if known is not None:
             return compute_above_reference(known)
     return None
+
+
+def has_radius(job: Job) -> bool:
+    """Return whether the radius of a circle counts, as its instrument's length is known."""
+    return job.axis.circle is not None and job.axis.circle.is_calibrated
+
+
+def name_contributors_of_length(job: Job) -> tuple[str, ...]:
+    """Return the contributors of the length that was measured; none where it was none."""
+    return _OF_LENGTHS if job.axis.has_length else OF_A_RADIUS if has_radius(job) else ()
+
+
+def list_demanded(job: Job, of_silence: tuple[str, ...] = ()) -> tuple[str, ...]:
+    """Return the contributors that a job must state, by axis and set-up.
+
+    `of_silence`: Those that may act, for all that the job says of its instrument.
+    """
+    corrections = job.keys.corrections
+    corrects_air = corrections is not None and corrections.air is not None
+    of_air = STATE_OF_AIR if corrects_air or is_blind_to_air(job) else of_silence
+    is_over_time = job.axis.measurand.coordinate is Coordinate.TIME
+    of_all = (_RESOLUTION,) if is_over_time else _OF_EVERY_AXIS  # the environment is what is measured
+    return (INSTRUMENT, *name_contributors_of_length(job), *of_air, *of_all)

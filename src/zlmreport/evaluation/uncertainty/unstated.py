@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from zlmreport.errors import Problem, quoted
 from zlmreport.evaluation.correction.compensated import is_blind_to_air
 from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
-from zlmreport.evaluation.uncertainty.demanded import INSTRUMENT
 from zlmreport.evaluation.uncertainty.reasons import says_something
 from zlmreport.evaluation.uncertainty.round_the_circle import HOW
+from zlmreport.evaluation.uncertainty.set_up import INSTRUMENT
 from zlmreport.job.job import Job
 from zlmreport.measurement.measurement_set import CONDITIONS, STATE_OF_AIR
 from zlmreport.measurement.units import MICROMETRE, REFERENCE_TEMPERATURE
