@@ -312,13 +312,14 @@ def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registr
 
 def evaluate_parameters(job: Job, measurements: MeasurementSet, registry: Registry) -> tuple[Evaluation, ...]:
     """Evaluate readings by every standard that the job names; uncertainties and decisions are left out."""
-    return tuple(
-        replace(
-            name_adoption(evaluate(standard, measurements, options, choice.tolerances), choice.adoption),
-            specification="" if is_placeholder(choice.specification) else choice.specification,
-        )
-        for (standard, options), choice in zip(choose_standards(job, registry), job.standards, strict=True)
-    )
+    found = []
+    for (standard, options), choice in zip(choose_standards(job, registry), job.standards, strict=True):
+        evaluation = evaluate(standard, measurements, options, choice.tolerances)
+        if choice.adoption:
+            evaluation = name_adoption(evaluation, choice.adoption)
+        specification = "" if is_placeholder(choice.specification) else choice.specification
+        found.append(replace(evaluation, specification=specification))
+    return tuple(found)
 
 
 def evaluate_all(

@@ -103,12 +103,7 @@ def evaluate(
 
 
 def name_adoption(evaluation: Evaluation, adoption: str) -> Evaluation:
-    """Return an evaluation that names, beside its standard, the identical adoption that was asked for.
-
-    `adoption`: Its name; empty where none was.
-    """
-    if not adoption:
-        return evaluation
+    """Return an evaluation that names, beside its standard, the identical adoption that was asked for."""
     note = _IDENTICAL.given(adoption=adoption, standard=evaluation.designation)
     designation = f"{evaluation.designation} ({adoption})"
     return replace(evaluation, designation=designation, notes=(note, *evaluation.notes))

@@ -301,7 +301,8 @@ def place_of_work(keys: JobKeys) -> PlaceOfWork | None:
     """Return where the work was done: the place that is stated, or where the machine is said to stand."""
     match keys.location:
         case Location(kind=kind, address=address):
-            return _find_place_of_kind(kind, address or _write_own_address(kind, keys))
+            party = keys.laboratory if kind == "laboratory" else keys.customer
+            return _find_place_of_kind(kind, address or (party and party.address) or "")
         case str(location):
             return PlaceOfWork("other", location, same(_write_in_a_line(location)), ("location",))
     if keys.machine.location:
@@ -317,11 +318,6 @@ def _find_place_of_kind(kind: str, address: str) -> PlaceOfWork:
     elif address:
         words = _AT.given(kind=words, address=_write_in_a_line(address))
     return PlaceOfWork(kind, address, words, ("location",))
-
-
-def _write_own_address(kind: str, keys: JobKeys) -> str:
-    party = keys.laboratory if kind == "laboratory" else keys.customer
-    return party.address or "" if party else ""
 
 
 def _write_in_a_line(address: str) -> str:

@@ -35,9 +35,14 @@ def lay_out_origin(
     signs = (_SIGN if axis.measurand.joins_tests or axis.measurand.is_closed else _SIGNS).given(
         deviation=deviation, reversal=axis.measurand.reversal
     )
+    named = [
+        (name, _OF_LINE if name else heading, line)
+        for heading, each in zip(_READINGS, measurements, strict=False)
+        for name, line in (each.tests or {"": each}).items()
+    ]
     blocks: list[Block] = [
         *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer), signs)),
-        _lay_out_files(sources, measurements, writer),
+        _lay_out_files(sources, named, writer),
         programs,
     ]
     remarks = tuple(
@@ -68,7 +73,7 @@ def lay_out_origin_of_several(
     named = [(name, _OF_LINE, each) for name, each in found]
     blocks: list[Block] = [
         *(Paragraph(writer.say(words)) for words in (_READING_AID, *_say_whose_terms(writer))),
-        _lay_out_files_of(sources, named, writer),
+        _lay_out_files(sources, named, writer),
         _list_programs(generator, plugins, writer),
     ]
     if remarks := tuple(say_of_each((name, each.provenance.remarks) for name, each in found)):
@@ -126,18 +131,6 @@ def _list_programs(generator: str, plugins: Mapping[str, str], writer: Writer) -
 
 
 def _lay_out_files(
-    sources: Sequence[Source], measurements: Sequence[MeasurementSet], writer: Writer
-) -> Table:
-    """Return the files of each measurement, and of each of several measured lines."""
-    named = [
-        (name, _OF_LINE if name else heading, line)
-        for heading, each in zip(_READINGS, measurements, strict=False)
-        for name, line in (each.tests or {"": each}).items()
-    ]
-    return _lay_out_files_of(sources, named, writer)
-
-
-def _lay_out_files_of(
     sources: Sequence[Source], named: Sequence[tuple[str, Words, MeasurementSet]], writer: Writer
 ) -> Table:
     """Return the files of what was measured, under its names and what is said of them; once those of several.

@@ -71,7 +71,7 @@ def lay_out(of: Material) -> LaidOut:
         on_cover,
         (
             *_lay_out_results(of, pages, page if breaks else None),
-            *lay_out_results_by_line(of),
+            *(lay_out_results_by_line(of) if of.tests else ()),
             *map(set_in_smaller_type, _lay_out_further_conditions(of, behind)),
             *lay_out_in_common(pages, of.writer),
             *map(_drop_graphs, lay_out_uncertainty(of)),

@@ -93,15 +93,13 @@ class PluginCandidate:
         self.misspelt: tuple[Problem, ...] = ()
         self._load = load
         self._named = named
+        self._said = frozenset({(named[0].name, named[1])}) if named else None
         self._offered: Mapping[Key, Any] | None = None
 
     @property
     def keys(self) -> Collection[Key]:
         """What it offers: as its entry point says, or as it says itself."""
-        if self._named is None or self.failure:
-            return self.offered
-        kind, identifier = self._named
-        return {(kind.name, identifier)}
+        return self.offered if self._said is None or self.failure else self._said
 
     @property
     def offered(self) -> Mapping[Key, Any]:
