@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from zlmreport.job.measurement_keys import CompensatesKeys, Instrument
     from zlmreport.measurement.measurement_set import MeasurementSet
 
-_TITLE = Words("Item, method and conditions")
+TITLE = Words("Item, method and conditions")
 
 _MACHINE_TOOL = Words("machine tool")
 _MACHINE_KINDS = {
@@ -67,19 +67,11 @@ def lay_out_conditions(
 ) -> Section:
     """Return the section on the item, the method, the instrument and the environment."""
     blocks = (
-        *list_condition_blocks(job, measurements, described, writer),
+        *(group for _, group in list_groups(job, measurements, described, writer)),
+        *say_no_influence(job, measurements, writer),
         *list_besides(measurements, described, writer),
     )
-    return Section("conditions", writer.say(_TITLE), blocks)
-
-
-def list_condition_blocks(
-    job: Job, measurements: MeasurementSet, described: Sequence[Described], writer: Writer
-) -> Iterator[Block]:
-    """Yield what is stated of the item, the method, the instrument and the environment."""
-    for _, group in list_groups(job, measurements, described, writer):
-        yield group
-    yield from say_no_influence(job, measurements, writer)
+    return Section("conditions", writer.say(TITLE), blocks)
 
 
 def list_groups_beside_identification(

@@ -7,12 +7,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from zlmreport.document.blocks import Block, Facts, Notice, Paragraph, RowGroup, Symbol, Table
-from zlmreport.document.certificate import conformity, measured_lines, statements, uncertainty
+from zlmreport.document.certificate import conditions, conformity, measured_lines, statements, uncertainty
 from zlmreport.document.certificate.circumstances import Fact, select_stated_facts, write_date, write_days
 from zlmreport.document.certificate.conditions import (
     describe_axis,
-    lay_out_conditions as conditions_section,
-    list_groups as conditions_in_groups,
     list_groups_beside_identification,
     name_machine_kind,
     say_measured_of,
@@ -95,15 +93,11 @@ def _say_elsewhere(of: Material, behind: Behind) -> Iterator[Paragraph]:
     """Yield where that stands for which the page has no room."""
     writer = of.writer
     if behind.conditions:
-        groups = conditions_in_groups(of.job, of.measurements, of.described, writer)
+        groups = conditions.list_groups(of.job, of.measurements, of.described, writer)
         named = ", ".join(group.heading for key, group in groups if key in behind.conditions)
-        title = conditions_section(of.job, of.measurements, of.described, writer).title
-        yield Paragraph(writer.say(_IN_SECTION.given(title=title, what=named)))
+        yield Paragraph(writer.say(_IN_SECTION.given(title=conditions.TITLE, what=named)))
     if behind.explains_uncertainty:
-        title = uncertainty.lay_out_budgets(
-            of.evaluated[0].budget, [each.evaluation for each in of.evaluated], writer
-        ).title
-        yield Paragraph(writer.say(_IN_SECTION.given(title=title, what=_MEANING_OF_U)))
+        yield Paragraph(writer.say(_IN_SECTION.given(title=uncertainty.TITLE, what=_MEANING_OF_U)))
 
 
 #: Keys of the facts that one of several measurements has of its own.
@@ -116,7 +110,7 @@ def _lay_out_part(of: Material) -> Iterator[Block]:
     evaluations = tuple(each.evaluation for each in of.evaluated)
     own = [each for each in list_identity(of, evaluations) if set(each.keys) & OF_MEASUREMENT]
     yield Facts(select_stated_facts(own, writer), writer.say(statements.WORK[job.keys.certificate.kind]))
-    for key, group in conditions_in_groups(job, measurements, of.described, writer):
+    for key, group in conditions.list_groups(job, measurements, of.described, writer):
         if key != "machine":
             yield group
     yield from uncertainty.say_uncertainty(of.evaluated[0].budget, evaluations, writer)

@@ -118,8 +118,7 @@ def _lay_out_further_conditions(of: Material, behind: tuple[Facts, ...]) -> Iter
     """Yield what is to be said of the conditions besides what the first page states of them."""
     blocks = (*behind, *conditions.list_besides(of.measurements, of.described, of.writer))
     if blocks:
-        section = conditions.lay_out_conditions(of.job, of.measurements, of.described, of.writer)
-        yield replace(section, blocks=blocks)
+        yield Section("conditions", of.writer.say(conditions.TITLE), blocks)
 
 
 def _lay_out_results(of: Material, pages: Pages, room_of_page: float | None) -> Iterator[Section]:

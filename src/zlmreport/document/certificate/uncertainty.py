@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from zlmreport.evaluation.evaluation import Evaluation
     from zlmreport.measurement.axis import Axis
 
-_TITLE = Words("Uncertainty of measurement")
+TITLE = Words("Uncertainty of measurement")
 _COVERAGE = Words(
     "U = k·u is the expanded uncertainty of this test: y ± U holds, with a probability of about 95 %, the "
     "value that a faultless measuring set-up would have found in it."
@@ -152,7 +152,7 @@ def say_neglected(budget: Budget | NoBudget, writer: Writer) -> Iterator[Paragra
 
 def lay_out_budgets(budget: Budget | NoBudget, evaluations: Sequence[Evaluation], writer: Writer) -> Section:
     """Return the section on the uncertainty of everything that evaluations of one test state."""
-    return Section("uncertainty", writer.say(_TITLE), tuple(_lay_out_blocks(budget, evaluations, writer)))
+    return Section("uncertainty", writer.say(TITLE), tuple(_lay_out_blocks(budget, evaluations, writer)))
 
 
 def _lay_out_blocks(
