@@ -13,7 +13,6 @@ from zlmreport.document.certificate.digest import digest_of
 from zlmreport.document.certificate.document import Certificate, Letterhead, Look, PageWords, Party
 from zlmreport.document.certificate.material import Interpretation, LaidOut, Material, lay_out_in_full
 from zlmreport.document.certificate.measured_lines import say_of_each
-from zlmreport.document.certificate.own_look import Logo, read_logo, read_own_look
 from zlmreport.document.certificate.own_words import arrange_sections, fill_in
 from zlmreport.document.certificate.statements import (
     name_subject_of,
@@ -29,6 +28,7 @@ from zlmreport.version import __version__
 
 if TYPE_CHECKING:
     from zlmreport.document.certificate.document import Linked
+    from zlmreport.document.certificate.own_look import Logo
     from zlmreport.document.certificate.results import Evaluated, Tested
     from zlmreport.document.figures.figure import Figure
     from zlmreport.job.document_keys import Laboratory
@@ -69,11 +69,16 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     writer = Writer.of(measurements, certificate.language, Marks.of(job.keys))
     designations = tuple(each.evaluation.designation for each in evaluated)
     laboratory = job.keys.laboratory
-    logo = (
-        read_logo(laboratory.logo, job.place_of("laboratory.logo"))
-        if laboratory and laboratory.logo
-        else None
-    )
+    logo, style = None, certificate.style
+    look = Look(style.accent, style.logo)
+    if laboratory and laboratory.logo:
+        from zlmreport.document.certificate.own_look import read_logo  # noqa: PLC0415 - brings the typeface
+
+        logo = read_logo(laboratory.logo, job.place_of("laboratory.logo"))
+    if style.typeface or style.templates:
+        from zlmreport.document.certificate.own_look import read_own_look  # noqa: PLC0415 - likewise
+
+        look = read_own_look(look, job)
     sessions = interpretation.sessions if interpretation else ()
     read = (measurements, *(each.evaluation.measurements for each in as_found[:1]), *sessions)
     files = [file for each in read for file in each.provenance.files]
@@ -97,7 +102,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     results = tuple(each.evaluation for each in evaluated)
     results_as_found = tuple(each.evaluation for each in as_found)
     digest = digest_of(certificate.number, (*results, *results_as_found))
-    laid_out, linked, style = LaidOut((), ()), None, certificate.style
+    laid_out, linked = LaidOut((), ()), None
     if is_laid_out:
         material = Material(
             job,
@@ -122,7 +127,6 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
     sections = laid_out.sections
     if certificate.sections is not None:
         sections = arrange_sections(sections, certificate.sections, job)
-    look = Look(style.accent, style.logo)
     return Certificate(
         number=certificate.number,
         title=title,
@@ -157,7 +161,7 @@ def build(  # noqa: PLR0913, PLR0917 - what a document is made of
         sources=made_from,
         is_compact=laid_out.is_compact,
         head=laid_out.head,
-        look=read_own_look(look, job) if style.typeface or style.templates else look,
+        look=look,
         doubts=doubtful,
         evidence=shown,
         tests=tests,
