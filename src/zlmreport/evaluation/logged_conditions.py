@@ -10,7 +10,7 @@ import numpy as np
 from zlmreport.evaluation.correction.corrections import find_condition_at_readings
 from zlmreport.job.job import Job
 from zlmreport.language import Words
-from zlmreport.measurement.arrays import BoolArray, FloatArray
+from zlmreport.measurement.arrays import FloatArray
 from zlmreport.measurement.measurement_set import CONDITION_NAMES, CONDITIONS, MeasurementSet
 
 _GAP = Words(
@@ -84,7 +84,8 @@ def find_temperatures_apart(job: Job, measurements: MeasurementSet) -> Iterator[
     reckoned = material.temperature if material else next(iter(known), names[0])
     for (one, first), (other, second) in combinations(known.items(), 2):
         apart, of_air = np.abs(first - second), other == "air_temperature"
-        if not _is_most(apart > (_OF_AIR if of_air else _ALIKE)):
+        told = apart > (_OF_AIR if of_air else _ALIKE)
+        if 2 * int(told.sum()) <= told.size:  # not of most readings
             continue
         both = _TEMPERATURES.given(
             one=CONDITION_NAMES[one],
@@ -97,10 +98,6 @@ def find_temperatures_apart(job: Job, measurements: MeasurementSet) -> Iterator[
             yield _APART.given(temperatures=both, difference=difference)
         else:
             yield _RECKONED.given(temperatures=both, used=_write_median(reckoned, known[reckoned]))
-
-
-def _is_most(told: BoolArray) -> bool:
-    return 2 * int(told.sum()) > told.size
 
 
 def _write_median(name: str, values: FloatArray) -> float:

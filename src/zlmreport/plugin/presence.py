@@ -72,7 +72,7 @@ class Presence:
             os._exit(2)
         self._write(_LAST, called)
         self._write(_CALLED, before.called)
-        wrong = _find_lost_streams(before.streams) or self._came_back()
+        wrong = _find_lost_streams(before.streams) or (self._came_back() if self._copies else "")
         if wrong:
             self._write(_WRONG, called + b" " + wrong.encode())
         return wrong

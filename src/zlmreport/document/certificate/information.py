@@ -199,7 +199,9 @@ def _list_lacking(asked: Information, job: Job, measurements: MeasurementSet) ->
         if not _has_straightness_reference(job, measurements):
             yield Words("reference of the straightness")
         return
-    yield from (name for name, value in stated[asked] if not value or _is_unsaid(value))
+    for name, value in stated[asked]:
+        if not value or (isinstance(value, str) and is_placeholder(value)):
+            yield name
 
 
 def _has_straightness_reference(job: Job, measurements: MeasurementSet) -> bool:
@@ -208,7 +210,3 @@ def _has_straightness_reference(job: Job, measurements: MeasurementSet) -> bool:
     instrument = job.keys.instrument
     is_beam = instrument is not None and bool(_BEAM.search(instrument.name))
     return named or is_beam or measurements.artefact_is_reversed
-
-
-def _is_unsaid(value: object) -> bool:
-    return isinstance(value, str) and is_placeholder(value)
