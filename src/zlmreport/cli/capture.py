@@ -137,7 +137,7 @@ def _replace_journal(job: Job, journal: Path) -> Job:
 def _close(job: Job, asked: Assignment, path: Path) -> None:
     """Close the journal of a job; its instrument is not needed for that."""
     demand_own_journal(job, asked)
-    with Journal.continued(asked.options.journal) as journal:
+    with Journal.resume(asked.options.journal) as journal:
         taken, visits = journal.progress.taken, len(journal.progress.visits)
         journal.append(Ended(), journal.elapsed)
     print(f"closed after {taken} of {count_in_words(visits, 'visit')}; what was not taken is missing")
@@ -243,7 +243,7 @@ def demand_own_journal(job: Job, assignment: Assignment, words: TypedAnswers = T
         return
     demand_same_test(history, job, assignment, Place(str(path)))
     if words.retake:
-        history.progress.retake(words.retake, _RETAKE)
+        history.progress.make_retake(words.retake, _RETAKE)
     elif history.progress.is_over:
         raise AccessError.at(
             Place(str(path)),
@@ -264,16 +264,16 @@ def demand_answer(assignment: Assignment, answer: str) -> None:
 def _open_journal(job: Job, assignment: Assignment, *, resume: bool, words: TypedAnswers) -> Journal:
     path = assignment.options.journal
     if not resume:
-        return Journal.begun(path, make_header_of(job, assignment, dt.datetime.now(dt.UTC)))
-    journal = Journal.continued(path)
+        return Journal.begin(path, make_header_of(job, assignment, dt.datetime.now(dt.UTC)))
+    journal = Journal.resume(path)
     if words.answer:
         visit = visit_named(words.answer, journal.progress, Place("--answer"))
         now = _measure_elapsed(journal)
-        for event in Follower(journal.progress, assignment.settings).told(visit, now - journal.asked):
+        for event in Follower(journal.progress, assignment.settings).take_answer(visit, now - journal.asked):
             journal.append(event, now)
     journal.append(Resumed(), _measure_elapsed(journal))
     if words.retake:
-        journal.append(journal.progress.retake(words.retake, _RETAKE), _measure_elapsed(journal))
+        journal.append(journal.progress.make_retake(words.retake, _RETAKE), _measure_elapsed(journal))
     return journal
 
 
@@ -305,13 +305,13 @@ def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and w
                 display.leave("the datum is gone; all visits were taken before, and their readings stay")
             return
         if isinstance(event, Unclear):
-            for each in follower.told(display.ask(event, journal.progress)):
+            for each in follower.take_answer(display.ask(event, journal.progress)):
                 journal.append(each, _measure_elapsed(journal))
                 display.tell(each)
             if journal.progress.is_over:
                 return
         else:
-            display.see_to(event, journal.progress.after(Resumed()))
+            display.see_to(event, journal.progress.take_event(Resumed()))
         journal.append(Resumed(), _measure_elapsed(journal))
         readings = ReadAhead(connection.readings())
         first = next(readings)

@@ -106,9 +106,9 @@ def order_of(line: str, progress: Progress) -> Order:
     place = Place("keyboard")
     match line.strip().partition(" "):
         case ("r", _, rest) if rest:
-            return progress.retake(rest, place)
+            return progress.make_retake(rest, place)
         case ("b", _, "") if progress.taken:
-            return progress.retake(str(progress.taken), place)
+            return progress.make_retake(str(progress.taken), place)
         case ("b", _, ""):
             raise InputError.at(place, "nothing was taken yet")
         case ("s", _, "") if progress.taken < len(progress.visits):
@@ -179,7 +179,7 @@ class PlainLines:
         )
         visits = count_in_words(len(self._assignment.visits), "visit")
         method = self._assignment.plan.method
-        rest = f"about {write_duration(self._assignment.remaining_time(0))}"
+        rest = f"about {write_duration(self._assignment.estimate_remaining_time(0))}"
         self._line(f"{Colour.BOLD.of(number)}  axis {axis}, {method}, {visits}, {rest}")
 
     def begin(self, follower: Follower) -> None:
@@ -336,12 +336,12 @@ def show_panel(
     progress = follower.progress
     visit = progress.next
     yield ""
-    yield f"next   {writer.visit(visit)} {writer.say(SIDES[visit.approach])}"
+    yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}"
     yield f"now    {_now(reading, follower, assignment, writer)}"
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)
     bar = "█" * full + "░" * (_BAR - full)
-    rest = f"about {write_duration(assignment.remaining_time(done))}"
+    rest = f"about {write_duration(assignment.estimate_remaining_time(done))}"
     yield f"done   {bar}  {done} of {planned}, {planned - done} to go, {rest}"
 
 
@@ -349,11 +349,13 @@ def _now(reading: LiveReading, follower: Follower, assignment: Assignment, write
     if not reading.is_usable and reading.message:
         return reading.message
     progress, status, settings = follower.progress, follower.status, assignment.settings
-    still = f"range {writer.fine(status.range)}, still {status.still:.1f} of {settings.dwell:g} s"
+    still = (
+        f"range {writer.write_small_length(status.range)}, still {status.still:.1f} of {settings.dwell:g} s"
+    )
     if status.position is None:
         return f"waiting for the datum: {still}"
     away = status.position - progress.next.position
-    position = writer.position(status.position, 4)
+    position = writer.write_position(status.position, 4)
     if abs(away) > settings.tolerance:
-        return f"{position:>14}  {writer.position(-away, 3)} to go"
-    return f"{position:>14}  {writer.deviation(away)}  {still}"
+        return f"{position:>14}  {writer.write_position(-away, 3)} to go"
+    return f"{position:>14}  {writer.write_deviation(away)}  {still}"

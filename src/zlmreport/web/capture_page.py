@@ -76,7 +76,7 @@ class CapturePage:
         job, assignment = found
         history, state = _read_history(assignment), self.process.state()
         progress, writer = _find_progress(assignment, history), AxisWriter(job.axis, language)
-        rest = assignment.remaining_time(progress.taken)
+        rest = assignment.estimate_remaining_time(progress.taken)
         return {
             "isCaptured": True,
             "isOver": progress.is_over and not state["runs"],
@@ -131,9 +131,9 @@ def _rows(progress: Progress, history: History | None, writer: AxisWriter) -> It
             "number": number,
             "run": visit.run,
             "arrow": visit.approach.arrow,
-            "target": writer.position(visit.position),
-            "deviation": writer.deviation(reading.deviation) if reading else "",
-            "range": writer.fine(reading.mean.range) if reading else "",
+            "target": writer.write_position(visit.position),
+            "deviation": writer.write_deviation(reading.deviation) if reading else "",
+            "range": writer.write_small_length(reading.mean.range) if reading else "",
             "state": _state(number, progress, is_read=reading is not None),
         }
 
@@ -158,10 +158,10 @@ def _show_moment(
     away = None if position is None else position - progress.next.position
     is_near = away is not None and abs(away) <= assignment.settings.tolerance
     return {
-        "position": None if position is None else writer.position(position, 4),
-        "deviation": writer.deviation(away) if away is not None and is_near else None,
-        "toGo": writer.position(-away) if away is not None and not is_near else None,
-        "range": None if now["range"] is None else writer.fine(now["range"]),
+        "position": None if position is None else writer.write_position(position, 4),
+        "deviation": writer.write_deviation(away) if away is not None and is_near else None,
+        "toGo": writer.write_position(-away) if away is not None and not is_near else None,
+        "range": None if now["range"] is None else writer.write_small_length(now["range"]),
         "still": min(1.0, now["still"] / assignment.settings.still),
         "message": now["message"],
     }
@@ -190,7 +190,7 @@ def _show_question(asked: Record | None, progress: Progress, writer: AxisWriter)
         "message": _write_sentence(say_halted(event, writer)),
         "steps": []
         if is_question
-        else list(map(_write_sentence, list_what_to_do(progress.after(Resumed()), writer, event))),
+        else list(map(_write_sentence, list_what_to_do(progress.take_event(Resumed()), writer, event))),
         "choices": list(_list_choices(event, writer)) if isinstance(event, Unclear) else [],
     }
 
