@@ -136,7 +136,7 @@ def test_that_nobody_was_reached_stands_in_the_ledger_until_somebody_is(fleet: F
 
 def last_of(fleet: Fleet) -> PastNight:
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
     assert last is not None
     return last
 
@@ -240,8 +240,8 @@ def test_a_night_gives_signs_of_life_in_a_file(fleet: Fleet) -> None:
     seen: list[str] = []
 
     class Curious(Witness):
-        def planned(self, jobs: Sequence[PlannedJob]) -> None:
-            Witness.planned(self, jobs)
+        def note_plan(self, jobs: Sequence[PlannedJob]) -> None:
+            Witness.note_plan(self, jobs)
             seen.append(fleet.file.heartbeat.read_text())
 
     night.spend_night(fleet.file, night.Order(), Curious())

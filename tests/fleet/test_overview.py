@@ -221,7 +221,7 @@ def test_a_run_at_work_is_not_called_interrupted() -> None:
     night = PastNight(NIGHT, None, came_to={State.MADE: 3}, beat=NIGHT + timedelta(minutes=9))
     said = {}
     for minutes in (10, 60):
-        state = state_of("Hall North", CALM, ["x"], night.seen_at(NIGHT + timedelta(minutes=minutes)))
+        state = state_of("Hall North", CALM, ["x"], night.see_at(NIGHT + timedelta(minutes=minutes)))
         said[minutes] = make_overview(state, Language.ENGLISH, Names(find_plugins().standards), ".")
     assert "at work: 3 jobs so far" in said[10]
     assert "interrupted" not in said[10]

@@ -118,7 +118,7 @@ def test_a_clock_that_was_set_back_is_noticed(fleet: Fleet, monkeypatch: pytest.
 def noticed(fleet: Fleet) -> list[About]:
     """Return what the ledger keeps of the last night, for the overview and for Prometheus."""
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
     assert last is not None
     assert last.ended is not None
     return [each.about for each in last.notices]
@@ -156,7 +156,7 @@ def test_a_refusal_does_not_hide_that_the_night_before_was_interrupted(
         fleet.spend()
     with (
         Ledger.open(fleet.file.ledger, "Hall North") as ledger,
-        ledger.night("2026-11-23T02:00:00+00:00", "fleet.yaml") as third,
+        ledger.hold_night("2026-11-23T02:00:00+00:00", "fleet.yaml") as third,
     ):
         assert third.was_interrupted
 
@@ -176,7 +176,7 @@ def test_a_night_that_was_broken_off_is_told_once_with_what_it_came_to(
         fleet.spend()
     (fleet.folder / "elsewhere").rename(fleet.folder / "certificates")
     with Ledger.open(fleet.file.ledger, "Hall North") as ledger:
-        last = ledger.last_night()
+        last = ledger.find_last_night()
     assert last is not None
     assert [each.about for each in last.notices] == [About.BROKEN, About.FOLDER]
     moment = "2026-11-21T02:00:00+00:00"
@@ -300,14 +300,17 @@ def test_a_night_that_gives_no_sign_of_life_is_killed_and_its_place_taken(
 ) -> None:
     killed = []
     address = str(fleet.folder / "ledger.db")
-    with Ledger.open(address, "Hall North") as stuck, stuck.night("2026-11-21T02:00:00+00:00", "fleet.yaml"):
+    with (
+        Ledger.open(address, "Hall North") as stuck,
+        stuck.hold_night("2026-11-21T02:00:00+00:00", "fleet.yaml"),
+    ):
         monkeypatch.setattr(ledger.os, "getpid", lambda: -1)
         monkeypatch.setattr(ledger, "_kill", killed.append)
         monkeypatch.setattr(ledger, "_ATTEMPTS", 1)
         with (
             Ledger.open(address, "Hall North") as second,
             pytest.raises(ledger.TakenError),
-            second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
+            second.hold_night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
         ):
             pass
     assert len(killed) == 1
@@ -318,13 +321,13 @@ def test_a_night_that_lives_is_left_alone(fleet: Fleet, monkeypatch: pytest.Monk
     address = str(fleet.folder / "ledger.db")
     with (
         Ledger.open(address, "Hall North") as first,
-        first.night("2026-11-21T02:00:00+00:00", "x") as at_work,
+        first.hold_night("2026-11-21T02:00:00+00:00", "x") as at_work,
     ):
         at_work.beat("2026-11-21T02:29:00+00:00")
         with (
             Ledger.open(address, "Hall North") as second,
             pytest.raises(ledger.TakenError),
-            second.night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
+            second.hold_night("2026-11-21T02:30:00+00:00", "fleet.yaml"),
         ):
             pass
 

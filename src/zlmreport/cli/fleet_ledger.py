@@ -50,11 +50,11 @@ def _state(fleet: FleetFile) -> FleetState:
     jobs = [job for job in named if not is_retired(job, fleet)]
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         rules = Rules(fleet.keys.interval, partial(is_retired, fleet=fleet))
-        night = ledger.last_night()
+        night = ledger.find_last_night()
         if unmatched and night is None:
             raise InputError(unmatched)
-        seen = night and night.seen_at(dt.datetime.now(dt.UTC))
-        return state_of(fleet.name, ledger.entries(), jobs, seen, rules)
+        seen = night and night.see_at(dt.datetime.now(dt.UTC))
+        return state_of(fleet.name, ledger.list_entries(), jobs, seen, rules)
 
 
 def backup(options: Namespace) -> int:
@@ -63,7 +63,7 @@ def backup(options: Namespace) -> int:
     with Ledger.open(fleet.ledger, fleet.name, create=False) as ledger:
         try:
             options.output.parent.mkdir(parents=True, exist_ok=True)
-            ledger.backup(options.output)
+            ledger.write_backup(options.output)
         except OSError as error:
             message = f"cannot be written: {error.strerror or error}"
             raise AccessError.at(Place(str(options.output)), message) from error

@@ -138,9 +138,9 @@ class Disk:
         look = self._look(file.path)
         if look is None:
             return False
-        return look == file.look or self.digest(file.path) == file.sha256
+        return look == file.look or self.compute_digest(file.path) == file.sha256
 
-    def digest(self, path: str) -> str | None:
+    def compute_digest(self, path: str) -> str | None:
         """Return the digest of a file; None if it cannot be read."""
         if path not in self._digests:
             self._digests[path] = None

@@ -69,7 +69,7 @@ _MORE = Words("{numbers} and {more} more")
 
 def find_vanished(known: Evening) -> tuple[str, ...]:
     """Return the jobs that the ledger knows, whose files are gone, and not on purpose."""
-    there = set(map(known.job_of, known.jobs))
+    there = set(map(known.name_job, known.jobs))
     return tuple(
         job for job in sorted(known.standings) if job not in there and not is_retired(job, known.fleet)
     )

@@ -134,7 +134,7 @@ class PastNight:
         """How long it took."""
         return (self.ended - self.began).total_seconds() if self.ended else None
 
-    def seen_at(self, now: datetime) -> Self:
+    def see_at(self, now: datetime) -> Self:
         """Return the same as it is now: at work if it has not ended, and gave a sign of life lately."""
         is_at_work = self.ended is None and self.beat is not None and now - self.beat < SILENT
         return replace(self, is_at_work=is_at_work)
@@ -223,7 +223,7 @@ class Subject:
         """What tells an axis from others: the machine, and its name."""
         return self.machine, self.axis
 
-    def term(self, due: str) -> str:
+    def name_term(self, due: str) -> str:
         """Return what tells, in the news, that the axis is overdue since a day from any other event."""
         return f"{self.machine}|{self.axis}|{due}"
 
