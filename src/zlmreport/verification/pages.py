@@ -62,7 +62,7 @@ def compare(carrier: Carrier, again: Prints, *, is_signed: bool) -> ComparedPage
 
     `is_signed` says whether it may have what belongs to a signature.
     """
-    return guard(lambda: _Comparison(Prints(carrier), again).compared(is_signed=is_signed), carrier.place)
+    return guard(lambda: _Comparison(Prints(carrier), again).compare(is_signed=is_signed), carrier.place)
 
 
 class _Comparison:
@@ -76,31 +76,31 @@ class _Comparison:
         self._is_drawn_alike = bool(set(self._pages) & set(self._pages_again))
         self._same: dict[tuple[str, str], bool] = {}
 
-    def compared(self, *, is_signed: bool) -> ComparedPages:
+    def compare(self, *, is_signed: bool) -> ComparedPages:
         structure = shape.compare(self._prints.carrier, self._prints_again.traits, is_signed=is_signed)
-        document = (structure, *self._of_document())
-        pages = tuple(self._of_pages())
+        document = (structure, *self._compare_document())
+        pages = tuple(self._compare_pages())
         if all(each.verdict is VerificationVerdict.HOLDS for each in (*pages, *document)):
-            pages = self._seen(pages)
+            pages = self._look_at(pages)
         return ComparedPages(pages, document, self._is_drawn_alike, self._pages == self._pages_again)
 
-    def _seen(self, pages: tuple[CheckedStatement, ...]) -> tuple[CheckedStatement, ...]:
+    def _look_at(self, pages: tuple[CheckedStatement, ...]) -> tuple[CheckedStatement, ...]:
         """Return what is found of pages that are the same on paper, looked at as a viewer shows them."""
         is_alike = list(map(str.__eq__, self._pages, self._pages_again))
         content, again = self._prints.carrier.content, self._prints_again.carrier.content
         differing = raster.compare(content, again, is_alike)
         return tuple(differing.get(number, finding) for number, finding in enumerate(pages))
 
-    def _of_pages(self) -> Iterator[CheckedStatement]:
+    def _compare_pages(self) -> Iterator[CheckedStatement]:
         """Yield a finding for each page; pages that were put in or taken out shift those that follow."""
         matched = SequenceMatcher(None, self._pages, self._pages_again, autojunk=False)
         for kind, first, end, first_again, end_again in matched.get_opcodes():
             common = min(end - first, end_again - first_again)
             for number, number_again in zip(range(first, end), range(first_again, end_again), strict=False):
                 if kind == "equal":
-                    yield self._drawn_with(number, number_again)
+                    yield self._compare_resources(number, number_again)
                 else:
-                    yield self._altered(number, number_again)
+                    yield self._describe_altered(number, number_again)
             for number in range(first + common, end):
                 yield CheckedStatement(
                     _say_page(number), VerificationVerdict.DIFFERS, "is no page of this certificate"
@@ -108,10 +108,10 @@ class _Comparison:
             for number in range(first_again + common, end_again):
                 yield CheckedStatement(_say_page(number), VerificationVerdict.DIFFERS, "is missing")
 
-    def _drawn_with(self, number: int, number_again: int) -> CheckedStatement:
+    def _compare_resources(self, number: int, number_again: int) -> CheckedStatement:
         """Return whether a page of the same strokes is drawn with the same fonts and pictures."""
-        used = self._prints.resources(number)
-        again = self._prints_again.resources(number_again)
+        used = self._prints.list_resources(number)
+        again = self._prints_again.list_resources(number_again)
         differing = [
             name
             for name in (*again, *(name for name in used if name[0] == _COLOURS))
@@ -138,7 +138,7 @@ class _Comparison:
             )
         return self._same[digests]
 
-    def _altered(self, number: int, number_again: int) -> CheckedStatement:
+    def _describe_altered(self, number: int, number_again: int) -> CheckedStatement:
         """Return what is to be said of a page that is not the same, stroke for stroke."""
         subject = _say_page(number)
         if not self._prints.is_framed_like(number, self._prints_again, number_again):
@@ -146,7 +146,7 @@ class _Comparison:
                 subject, VerificationVerdict.DIFFERS, "its size, its frame or its links differ"
             )
         try:
-            drawn, drawn_again = self._prints.marks(number), self._prints_again.marks(number_again)
+            drawn, drawn_again = self._prints.list_marks(number), self._prints_again.list_marks(number_again)
         except (ForeignError, ValueError, RecursionError) as error:
             return CheckedStatement(
                 subject, VerificationVerdict.DIFFERS, f"is drawn as no certificate is: {error}"
@@ -154,7 +154,7 @@ class _Comparison:
         is_same = len(drawn) == len(drawn_again) and all(map(DrawnMark.is_as, drawn, drawn_again))
         if is_same and all(map(DrawnMark.is_where, drawn, drawn_again)):
             return CheckedStatement(subject, VerificationVerdict.HOLDS)
-        words, words_again = self._prints.words(number), self._prints_again.words(number_again)
+        words, words_again = self._prints.list_words(number), self._prints_again.list_words(number_again)
         differences = list(_find_differences(words, words_again))
         if differences:
             return CheckedStatement(
@@ -170,7 +170,7 @@ class _Comparison:
             subject, VerificationVerdict.DIFFERS, "its words are the same, but it is drawn otherwise"
         )
 
-    def _of_document(self) -> Iterator[CheckedStatement]:
+    def _compare_document(self) -> Iterator[CheckedStatement]:
         """Yield what else a document holds, part by part."""
         stated, again = self._prints.parts, self._prints_again.parts
         for key in sorted({*stated, *again}):
@@ -240,18 +240,18 @@ class Prints:
         """How it is built."""
         return frozenset(shape.list_traits(self.carrier))
 
-    def marks(self, number: int) -> list[DrawnMark]:
+    def list_marks(self, number: int) -> list[DrawnMark]:
         """Return what a page draws."""
         if number not in self._marks:
             self._marks[number] = list_marks(self._reader.pages[number], self.of, self._fonts)
         return self._marks[number]
 
-    def words(self, number: int) -> list[str]:
+    def list_words(self, number: int) -> list[str]:
         """Return the words of a page in reading order."""
         text: str = self._reader.pages[number].extract_text()
         return text.split()[:_MOST_WORDS]
 
-    def resources(self, number: int) -> dict[tuple[str, str], Any]:
+    def list_resources(self, number: int) -> dict[tuple[str, str], Any]:
         """Return what a page may draw with, by kind and name."""
         kinds: Any = self._reader.pages[number].get("/Resources", {}).get_object()
         return {
