@@ -52,29 +52,29 @@ class CapturePage:
     def is_awaited(self) -> bool:
         """Tell whether the readings of the job come from a live instrument, and are not all there."""
         try:
-            found = self._assigned()
+            found = self._find_assignment()
         except ZlmreportError:
             return False  # what is wrong with the job is said where it is read
         return found is not None and not _find_progress(found[1], _read_history(found[1])).is_over
 
-    def do(self, request: CaptureRequest) -> None:
+    def carry_out(self, request: CaptureRequest) -> None:
         """Do what a click asks for.
 
         Raises `InputError` if the job is not captured live, or there is nothing of that kind to do.
         """
-        found = self._assigned()
+        found = self._find_assignment()
         if found is None:
             raise InputError.at(PLACE, "the readings of this job are not captured from a live instrument")
         history = _read_history(found[1])
-        self.process.do(request, has_begun=history is not None and history.has_readings)
+        self.process.carry_out(request, has_begun=history is not None and history.has_readings)
 
-    def values(self, language: Language) -> dict[str, Any]:
+    def list_values(self, language: Language) -> dict[str, Any]:
         """Return what the page shows; only that nothing is captured, where the job names no instrument."""
-        found = self._assigned()
+        found = self._find_assignment()
         if found is None:
             return {"isCaptured": False}
         job, assignment = found
-        history, state = _read_history(assignment), self.process.state()
+        history, state = _read_history(assignment), self.process.describe_state()
         progress, writer = _find_progress(assignment, history), AxisWriter(job.axis, language)
         rest = assignment.estimate_remaining_time(progress.taken)
         return {
@@ -99,9 +99,9 @@ class CapturePage:
             "problems": state["problems"],
         }
 
-    def _assigned(self) -> tuple[Job, Assignment] | None:
+    def _find_assignment(self) -> tuple[Job, Assignment] | None:
         """Return the job and what it asks to be captured; None if it names no live instrument."""
-        stamp = Bench(self.path, self.registry).stamp()
+        stamp = Bench(self.path, self.registry).make_stamp()
         if self._known is None or self._known[0] != stamp:
             job = load(self.path, self.registry)
             if find_options_of(job) is None or job.source.instrument is None:

@@ -66,7 +66,7 @@ class CaptureProcess:
     _events: deque[Record] = field(default_factory=lambda: deque(maxlen=_KEPT_LINES))
     _problems: list[str] = field(default_factory=list)
 
-    def do(self, request: CaptureRequest, *, has_begun: bool) -> None:
+    def carry_out(self, request: CaptureRequest, *, has_begun: bool) -> None:
         """Do what a click asks for.
 
         `has_begun`: Whether the journal holds readings: then it is gone on with.
@@ -85,7 +85,7 @@ class CaptureProcess:
             case Step.STOP:
                 self.end()
 
-    def state(self) -> dict[str, Any]:
+    def describe_state(self) -> dict[str, Any]:
         """Return whether it runs, the present moment, what it awaits, and what has happened, as records."""
         with self._lock:
             return {

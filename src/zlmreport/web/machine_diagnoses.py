@@ -35,9 +35,9 @@ _SERIOUS = 0.01
 def answer(bench: MachineBench) -> dict[str, Any]:
     """Return the diagnosis of the machine in all languages, and of which content it is."""
     try:
-        loaded = bench.loaded()
+        loaded = bench.load()
         catalogue = loaded.machine.catalogue
-        diagnosis = diagnose(bench.study(loaded), catalogue)
+        diagnosis = diagnose(bench.make_study(loaded), catalogue)
         planned = plan_next_run(diagnosis, catalogue)
     except ZlmreportError as error:
         return {"problems": [str(each) for each in error.problems]}
@@ -72,7 +72,7 @@ def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language
         "serious": sum(each.probability > _SERIOUS for each in diagnosis.candidates),
         "notExcluded": [],
         "hidden": [
-            {"effects": [name], "names": [names.text(name)], "reason": say(_UNSEEN)}
+            {"effects": [name], "names": [names.name_in(name)], "reason": say(_UNSEEN)}
             for name in diagnosis.not_testable
         ],
         "remarks": [],
@@ -87,7 +87,7 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
     equals = candidate.indistinguishable_from
     return {
         "effect": effect.identifier,
-        "name": names.text(effect.identifier),
+        "name": names.name_in(effect.identifier),
         "title": say(effect.title),
         "argument": effect.identifier,
         "probability": f"{write_percentage(candidate.probability, names.language.decimal_sign)} %",
@@ -99,7 +99,7 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
         "parameters": [collect_parameter(each, names.language) for each in candidate.estimates],
         "explains": say(effect.explains),
         "equals": list(equals),
-        "equalNames": [names.text(each) for each in equals],
+        "equalNames": [names.name_in(each) for each in equals],
         "tell": f"{say(say_remedy(effect, by_name[equals[0]], diagnosis.study))}." if equals else "",
         "remedy": "",
     }
@@ -114,7 +114,7 @@ def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any
             "effect": each.effect,
             "argument": each.effect,
             "removed": False,
-            "name": f"+ {names.text(each.effect)}",
+            "name": f"+ {names.name_in(each.effect)}",
             "before": _write_length(each.before, say),
             "after": _write_length(each.after, say),
             "share": each.after / largest,
