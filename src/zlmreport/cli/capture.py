@@ -122,7 +122,7 @@ def _run_live(live: LiveRun, options: Namespace) -> int:
 
 def _tell(happening: Happening) -> None:
     line = make_visible(happening.line)
-    print(f"  {Colour.YELLOW.of(happening.warning)}  {line}" if happening.warning else line, flush=True)
+    print(f"  {Colour.YELLOW.set(happening.warning)}  {line}" if happening.warning else line, flush=True)
 
 
 def _replace_journal(job: Job, journal: Path) -> Job:
@@ -169,7 +169,7 @@ def tell_planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     plan = assignment(job, registry).plan
     test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     writer = Writer.of(test, Language.ENGLISH)
-    yield f"{Colour.BOLD.of(str(path))}  the job is sound; its readings are still to be captured"
+    yield f"{Colour.BOLD.set(str(path))}  the job is sound; its readings are still to be captured"
     for standard, options in pipeline.choose_standards(job, registry):
         yield from tell_requirements(standard.designation, standard.requirements(test, options), writer)
     yield f"  next: zlmreport capture {show_path(path)}{' --resume' if _has_begun(job) else ''}"
@@ -293,7 +293,7 @@ def _follow_sittings(  # noqa: PLR0913, PLR0917 - of what, where to begin, and w
         show = partial(display.show, follower)
         event: Event | None = None
         try:
-            with display.keys():
+            with display.take_keys():
                 for event in captured(chain([first], readings), follower, journal, clock, show=show):
                     display.tell(event)
         except BaseException:

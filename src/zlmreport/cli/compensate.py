@@ -87,7 +87,7 @@ def run(options: Namespace) -> int:
 
 def _write_heading(job: Job, made: Made) -> str:
     control = f"{say(made.controller.title)}, {made.controller.confidence}"
-    return f"{Colour.BOLD.of(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
+    return f"{Colour.BOLD.set(job.keys.certificate.number)}  axis {job.axis.name}: {control}"
 
 
 def _made(job: Job, registry: Registry, options: Namespace) -> tuple[Made, MeasurementSet]:

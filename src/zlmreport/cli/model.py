@@ -67,11 +67,11 @@ class _Session:
         """Writes values as the certificate does."""
         return Writer.of(self.measurements, Language.ENGLISH)
 
-    def study(self, job: Job | None = None) -> Study:
+    def make_study(self, job: Job | None = None) -> Study:
         """Return the study of the job, or of what it is to become."""
         return Study.of(job or self.job, self.measurements, self.registry.effects, self.sessions)
 
-    def forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
+    def make_forecasts(self, study: Study, history: Sequence[Fitted]) -> tuple[StandardForecast, ...]:
         """Return what the job's standards would say of a corrected axis."""
         return make_forecasts(pipeline.choose_standards(self.job, self.registry), study, history)
 
@@ -95,7 +95,7 @@ def run(options: Namespace) -> int:
 
 def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     _demand_effects(session)
-    fitted = session.study().fitted()
+    fitted = session.make_study().fitted()
     points = find_points_of(fitted.fit, options.at)
     lines = (
         *fit_lines(fitted, session.job),
@@ -107,7 +107,7 @@ def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
 
 
 def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
-    study, effects = session.study(), session.registry.effects
+    study, effects = session.make_study(), session.registry.effects
     with show_progress("diagnosing") as told:
         diagnosis = study.diagnosis(effects, told)
     with show_progress("simulating plans") as told:
@@ -120,9 +120,9 @@ def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
 
 def _tell_history(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:
     _demand_effects(session)
-    study = session.study()
+    study = session.make_study()
     history = study.history()
-    forecasts = session.forecasts(study, history)
+    forecasts = session.make_forecasts(study, history)
     lines = (
         *tell_history(history, forecasts, session.job, session.writer),
         "",
@@ -156,7 +156,7 @@ def _remove(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
 def _build(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     """Build the job's model step by step, and write it into the job at the end."""
     with show_progress("building") as told:
-        built = session.study().built(session.registry.effects, told)
+        built = session.make_study().built(session.registry.effects, told)
     edit = _edit_of(session, built)
     if edit is not None and not options.dry_run:
         edit.write()
@@ -199,15 +199,15 @@ def _try_change(session: _Session, named: NamedEffect | None, removed: tuple[str
     edit = edit_effects(
         session.path, session.job, session.registry, add=[named] if named else [], remove=removed
     )
-    before = session.study().fitted()
-    study = session.study(edit.job)
+    before = session.make_study().fitted()
+    study = session.make_study(edit.job)
     try:
         history = study.history()
     except InputError as error:  # its places are those of the job as it would be
         place = session.job.place_of(_KEY)
         raise InputError(Problem(place, each.message) for each in error.problems) from error
     added = named.choice.identifier if named else ""
-    return ModelChange(edit, added, removed, before, history, session.forecasts(study, history))
+    return ModelChange(edit, added, removed, before, history, session.make_forecasts(study, history))
 
 
 def _write_change(session: _Session, change: ModelChange) -> tuple[Iterable[str], Any]:

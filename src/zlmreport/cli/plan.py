@@ -89,7 +89,7 @@ def run(options: Namespace) -> int:
         print_json(plan_values(job, planned, written))
         return 0
     number, size = job.keys.certificate.number, say(say_size_of_plan(planned))
-    print(f"{Colour.BOLD.of(number)}  axis {job.axis.name}: {size}")
+    print(f"{Colour.BOLD.set(number)}  axis {job.axis.name}: {size}")
     print(*lay_out_sections(plan_sections(job, planned, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:
@@ -195,10 +195,10 @@ def _show_plan(
 
 def _tell_extensions(plan: ExtensionPlan) -> Iterator[str]:
     name, rest = plan.heading
-    yield f"{Colour.BOLD.of(name)}  {rest}"
+    yield f"{Colour.BOLD.set(name)}  {rest}"
     for word, beside, sentences in plan.parts:
         yield ""
-        yield f"{Colour.BOLD.of(word)}  {beside}"
+        yield f"{Colour.BOLD.set(word)}  {beside}"
         for sentence in sentences:
             yield from wrap(sentence)
 

@@ -53,7 +53,7 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     if options.json:
         print_json(collect_circle_plan(job, paths, written))
         return 0
-    print(f"{Colour.BOLD.of(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
+    print(f"{Colour.BOLD.set(number)}  plane {job.axis.name}: {say(say_size_of_circle(paths[0]))}")
     print(*lay_out_sections(lay_out_circle_plan(job, paths, Language.ENGLISH)), sep="\n")
     print()
     if programs and not options.output:

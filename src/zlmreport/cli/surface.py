@@ -75,7 +75,7 @@ def _space_evenly(spans: Sequence[tuple[float, float]], count: int) -> Sequence[
 def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
     unit = plane.axis.position_unit
     where = ", ".join(write_general_number(unit.from_si(line.across)) for line in plane.lines)
-    yield Colour.BOLD.of(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
+    yield Colour.BOLD.set(f"{plane.axis.name} over the plane of {plane.axis.name} and {plane.second}")
     yield f"  {len(plane.lines)} lines, at {plane.second} = {where} {unit.symbol}"
     yield f"  Δ in {plane.axis.deviation_unit.symbol}, positions in {unit.symbol}"
     for line in plane.lines:
@@ -117,7 +117,7 @@ def _tell_interaction(surface: Surface) -> str:
     text = f"{where}: {value} ± {half} {unit.symbol} at the corners"
     if abs(found.value) <= found.expanded_uncertainty:
         return f"{text}; not needed"
-    return f"{text}; {Colour.YELLOW.of('the lines differ in slope')}, and the polynomial misses it"
+    return f"{text}; {Colour.YELLOW.set('the lines differ in slope')}, and the polynomial misses it"
 
 
 def _lay_out_table(plane: Plane, points: Points) -> Iterator[str]:

@@ -65,7 +65,7 @@ class CircularTest:
         first, second = self.nominal.axes
         return AXES.index(first), AXES.index(second)
 
-    def course(self) -> Course:
+    def make_course(self) -> Course:
         """Return where the tool went."""
         first, second = self.axes
         cosine, sine = np.cos(self.angle), np.sin(self.angle)
@@ -76,7 +76,7 @@ class CircularTest:
         position = np.asarray(self.nominal.centre) + self.nominal.radius * sensing
         return Course(position, sensing, motion, self.tool)
 
-    def turns(self) -> Sequence[IntArray]:
+    def list_turns(self) -> Sequence[IntArray]:
         """Return the indices of the readings of each turn, counter-clockwise ones first, in their order."""
         return [
             np.flatnonzero((self.sense == sense) & (self.run == number))
@@ -84,7 +84,7 @@ class CircularTest:
             for number in np.unique(self.run[self.sense == sense])
         ]
 
-    def of(self, kept: BoolArray | IntArray) -> CircularTest:
+    def keep(self, kept: BoolArray | IntArray) -> CircularTest:
         """Return the circle with some of its readings."""
         own = {name: getattr(self, name)[kept] for name in ("angle", "sense", "run", "deviation", "time")}
         return replace(self, **own)

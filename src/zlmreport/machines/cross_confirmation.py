@@ -172,7 +172,7 @@ def _compute_means(circle: CircularTest, way: float) -> tuple[FloatArray, FloatA
 
 def _compute_taken(machine: Machine, corrected: Machine, circle: CircularTest) -> FloatArray:
     """Return what tables take away of a circle, (N,), m."""
-    course = circle.course()
+    course = circle.make_course()
     return np.asarray(predict(machine, course).values - predict(corrected, course).values)
 
 
@@ -187,7 +187,7 @@ def _fit_part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> t
         return 0.0, float("inf")
     model = NoiseModel(CircleNoise(design), np.column_stack([column, beside]), np.zeros((design.count, 0)))
     noise = find_noise(model, went)
-    solved = [model.solved(shape, went) for shape in noise.shapes]
+    solved = [model.solve(shape, went) for shape in noise.shapes]
     values = np.array([float(each[0]) for each, _ in solved])
     variances = noise.sigma**2 * np.array([float(each[0, 0]) for _, each in solved])
     part = float(noise.weights @ values)

@@ -54,7 +54,7 @@ class Machine:
     curves: tuple[AxisErrorCurve, ...]  #: What was measured or stated, in the order of `ERRORS`.
     unmeasured: tuple[Unmeasured, ...]  #: All others of the 21.
 
-    def curve(self, name: str) -> AxisErrorCurve | None:
+    def find_curve(self, name: str) -> AxisErrorCurve | None:
         """Return one of the errors; None if it was not measured."""
         return next((each for each in self.curves if each.name == name), None)
 
@@ -109,11 +109,11 @@ def predict(machine: Machine, course: Course) -> TestPrediction:
             continue
         index = AXES.index(curve.axis)
         place = course.position[:, index]
-        reading = curve.reading(place, course.motion[:, index]) * gain[:, np.newaxis]
+        reading = curve.weigh_nodes(place, course.motion[:, index]) * gain[:, np.newaxis]
         shares[curve.name] = reading @ curve.values
         values = values + shares[curve.name]
         factors.append(reading @ curve.factor)
-        outside |= curve.outside(place) & (np.abs(gain) > 0)
+        outside |= curve.find_outside(place) & (np.abs(gain) > 0)
     bound = np.zeros(count)
     for each in machine.unmeasured:
         # Uniform over the bound: u = bound/√3 (JCGM 100, 4.3.7); a squareness error grows with its axis.

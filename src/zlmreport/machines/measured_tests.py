@@ -35,7 +35,7 @@ class MeasuredCircle:
     readings: MeasurementSet
     kept: IntArray  #: Which of the readings the circle has: those that are not missing.
 
-    def evaluations(self, deviation: FloatArray, registry: Registry) -> tuple[Evaluation, ...]:
+    def evaluate(self, deviation: FloatArray, registry: Registry) -> tuple[Evaluation, ...]:
         """Evaluate other deviations at the same places, (N,), m, by the standards that the job names."""
         values = np.full(len(self.readings.deviation), np.nan)
         values[self.kept] = deviation
@@ -79,7 +79,7 @@ def read_measured_circle(
 def _reckon_times(circle: CircularTest) -> FloatArray:
     """Return times by the feed, the turns in the order of their readings, one after the other."""
     time, begun = np.zeros(len(circle.angle)), 0.0
-    for own in sorted(circle.turns(), key=lambda each: int(each[0])):
+    for own in sorted(circle.list_turns(), key=lambda each: int(each[0])):
         travelled = np.abs(np.unwrap(circle.angle[own]) - circle.angle[own][0])
         time[own] = begun + travelled / circle.nominal.angular_speed
         begun = float(time[own].max()) + _PAUSE

@@ -65,7 +65,7 @@ class MachineFile:
         """The effects of its model, by name."""
         return tuple(each.identifier for each in self.effects)
 
-    def study(self, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
+    def make_study(self, effects: Iterable[CircleEffect] | None = None) -> CircleStudy:
         """Return the study of its circles with the effects of its model, or with others.
 
         Raises `InputError` if it names no circle.

@@ -209,4 +209,4 @@ def machine(path: str | Path) -> Machine:
     """
     registry = find_plugins()
     file = read_machine(Path(path), registry, find_results_in)
-    return Machine(file, registry, file.study())
+    return Machine(file, registry, file.make_study())

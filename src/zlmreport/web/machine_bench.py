@@ -107,7 +107,7 @@ class MachineBench:
         key = (loaded.basis, *(each.identifier for each in chosen))
         with self.lock:
             if key not in self._studies:
-                self._studies[key] = loaded.machine.study(chosen)
+                self._studies[key] = loaded.machine.make_study(chosen)
                 if len(self._studies) > _KEPT:
                     self._studies.popitem(last=False)
             self._studies.move_to_end(key)

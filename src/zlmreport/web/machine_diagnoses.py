@@ -65,7 +65,7 @@ def collect_diagnosis_of(diagnosis: MachineDiagnosis, planned: NextRun, language
         if diagnosis.is_tied
         else {
             "value": MICROMETRE.from_si(diagnosis.noise),
-            "written": say.micrometres(diagnosis.noise),
+            "written": say.write_micrometres(diagnosis.noise),
         },
         "findings": collect_blocks(findings, names),
         "candidates": candidates,
@@ -123,7 +123,7 @@ def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any
 
 
 def _write_length(length: float, say: Sayer) -> str:
-    return f"{say.micrometres(length)} {MICROMETRE.symbol}"
+    return f"{say.write_micrometres(length)} {MICROMETRE.symbol}"
 
 
 _UNSEEN = Words("these circles cannot show it")

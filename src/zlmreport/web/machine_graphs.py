@@ -102,7 +102,7 @@ class _Sides:
             self.way: FloatArray = test.sense
             self.run: IntArray = test.run
             self.place: FloatArray = np.degrees(test.angle) % 360.0
-            self.position: FloatArray = test.course().position
+            self.position: FloatArray = test.make_course().position
         else:
             self.way = np.sign(test.course.motion.sum(axis=1))
             self.run = np.ones(len(test.at), dtype=np.int64)

@@ -192,7 +192,7 @@ class MachineView:
     def _list_error(self, study: CircleStudy | None) -> Iterator[dict[str, str]]:
         if study is None:
             return
-        written = f"{self.say.micrometres(compute_rms_of(study))} {MICROMETRE.symbol}"
+        written = f"{self.say.write_micrometres(compute_rms_of(study))} {MICROMETRE.symbol}"
         yield {"name": self.say(_ERROR), "value": written, "meaning": self.say(_ERROR_IS)}
 
     def _list_effect(self, effect: CircleEffect, study: CircleStudy) -> dict[str, Any]:
@@ -202,7 +202,7 @@ class MachineView:
             "title": self.say(effect.title),
             "equation": split_symbol(effect.equation),
             "parameters": [
-                collect_parameter(each, self.language) for each in study.estimates_of(effect.identifier)
+                collect_parameter(each, self.language) for each in study.list_estimates_of(effect.identifier)
             ],
         }
 
@@ -217,7 +217,7 @@ class MachineView:
                 {
                     "effect": each.effect,
                     "name": name,
-                    "rms": self.say.micrometres(each.rms),
+                    "rms": self.say.write_micrometres(each.rms),
                     "share": each.rms / largest,
                     "left_out": "",
                 }
@@ -231,7 +231,7 @@ class MachineView:
 def collect_parameter(term: EstimatedTerm, language: Language) -> dict[str, Any]:
     """Return a parameter as a page shows it."""
     say, u = Sayer(language), term.expanded_uncertainty
-    value, uncertainty = say.general(term.unit.from_si(term.value)), ""
+    value, uncertainty = say.write_general(term.unit.from_si(term.value)), ""
     if u is not None:
         pair = round_pair(term.unit.from_si(term.value), term.unit.from_si(u), language.decimal_sign)
         value, uncertainty = pair

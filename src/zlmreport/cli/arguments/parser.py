@@ -49,7 +49,7 @@ class CommandParser(argparse.ArgumentParser):
             self._known.extend(name for name in names if name.startswith("--"))
         return action
 
-    def flag(self, name: str, meaning: str) -> None:
+    def add_flag(self, name: str, meaning: str) -> None:
         """Add an option that is there or is not."""
         self.add_argument(name, action="store_true", help=meaning)
 
