@@ -80,7 +80,7 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
     yield f"  Δ in {plane.axis.deviation_unit.symbol}, positions in {unit.symbol}"
     for line in plane.lines:
         design = line.observed.design
-        aside = "; ".join(say(wording.reading_at(design, reading)) for reading in line.aside().tolist())
+        aside = "; ".join(say(wording.reading_at(design, reading)) for reading in line.list_aside().tolist())
         if aside:
             at = f"{plane.second} = {write_general_number(unit.from_si(line.across))} {unit.symbol}"
             yield from wrap(f"set aside, for it stands off from its repeats, at {at}: {aside}")
@@ -102,7 +102,7 @@ def _tell_lines(plane: Plane, points: Points) -> Iterator[str]:
 def _write_equation(surface: Surface) -> str:
     """Return the polynomial in printed units, as it may be given to a control."""
     axis = surface.fit.design.axis
-    found = surface.coefficients().in_units(axis.position_unit, axis.deviation_unit)
+    found = surface.compute_coefficients().in_units(axis.position_unit, axis.deviation_unit)
     powers = [
         (axis.name if along else surface.readings.second, along or across) for along, across in found.powers
     ]

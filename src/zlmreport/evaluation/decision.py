@@ -57,14 +57,14 @@ class DecisionRule:
         uncertainty = parameter.standard_uncertainty if uncertainty_is_complete else None
         if uncertainty is None and self.factor:
             return _UNDECIDED
-        width = self.factor * self._unit(parameter) if self.factor else 0.0
-        conformity = self._conformity(abs(parameter.value), limit, width)
-        if self._turns_when_corrected(parameter, limit, conformity):
+        width = self.factor * self._choose_unit(parameter) if self.factor else 0.0
+        conformity = self._find_conformity(abs(parameter.value), limit, width)
+        if self._is_reversed_by_correction(parameter, limit, conformity):
             conformity = Conformity.UNDECIDED  # by a value that is known to be wrong nothing is stated
         risk = None if uncertainty is None else _compute_risk(parameter, limit, conformity)
         return Decision(conformity, limit - width, limit + width if self.between else limit - width, risk)
 
-    def _turns_when_corrected(self, parameter: Parameter, limit: float, conformity: Conformity) -> bool:
+    def _is_reversed_by_correction(self, parameter: Parameter, limit: float, conformity: Conformity) -> bool:
         """Return whether a value without its known error would have the contrary stated of it."""
         if not parameter.known_error or conformity.conforms is None:
             return False
@@ -72,16 +72,16 @@ class DecisionRule:
         if self.guard is Guard.EXPANDED_UNCERTAINTY:
             unit *= parameter.coverage_factor or 0.0
         corrected = abs(parameter.value + parameter.known_error)
-        right = self._conformity(corrected, limit, self.factor * unit)
+        right = self._find_conformity(corrected, limit, self.factor * unit)
         return right.conforms is not None and right.conforms is not conformity.conforms
 
-    def _unit(self, parameter: Parameter) -> float:
+    def _choose_unit(self, parameter: Parameter) -> float:
         """Return what the guard band is counted in; a known error is in it whole, however it is counted."""
         if self.guard is Guard.EXPANDED_UNCERTAINTY:
             return parameter.expanded_uncertainty or 0.0
         return (parameter.standard_uncertainty or 0.0) + abs(parameter.known_error) / self.factor
 
-    def _conformity(self, amount: float, limit: float, width: float) -> Conformity:
+    def _find_conformity(self, amount: float, limit: float, width: float) -> Conformity:
         tolerated = limit * _ROUNDING_OF_DOUBLES
         if amount <= limit - width + tolerated:
             return Conformity.MET

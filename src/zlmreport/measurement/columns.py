@@ -139,17 +139,17 @@ class Cells:
         try:
             value = parse_number(text, self._sign_of(text))
         except ValueError as error:
-            return self._written_otherwise(row, column, str(error))
+            return self._read_otherwise(row, column, str(error))
         return column.unit.to_si(value) if column.unit else value
 
     def _sign_of(self, text: str) -> DecimalSign:
         """Return the decimal sign of a number: in a workbook, what is stored as a number has a point."""
         return DecimalSign.POINT if self.table.source.of_cells and "," not in text else self.sign
 
-    def _written_otherwise(self, row: Row, column: TextColumn, complaint: str) -> float | None:
+    def _read_otherwise(self, row: Row, column: TextColumn, complaint: str) -> float | None:
         """Return a number with its unit, with thousands, or in degrees, minutes and seconds."""
         text = row.cells[column.index]
-        if DEGREE.symbol in column.units and (angle := self._sexagesimal(text)) is not None:
+        if DEGREE.symbol in column.units and (angle := self._read_sexagesimal(text)) is not None:
             return DEGREE.to_si(angle)
         match = _MEASURED.fullmatch(text)
         unit = column.units.get(match[2].strip().casefold()) if match else None
@@ -167,7 +167,7 @@ class Cells:
         unit = unit or column.unit
         return unit.to_si(value) if unit else value
 
-    def _sexagesimal(self, text: str) -> float | None:
+    def _read_sexagesimal(self, text: str) -> float | None:
         """Return degrees, minutes and seconds as degrees; None if the text is none."""
         match = _SEXAGESIMAL.fullmatch(text)
         if match is None:

@@ -83,11 +83,11 @@ class Row:
     cells: tuple[str, ...]  #: Without quotation marks and the blanks around.
     lying: tuple[tuple[Row, int], ...] = ()  #: Of a column: the line of each cell, and its index in it.
 
-    def spot(self, index: int) -> tuple[int, int]:
+    def locate(self, index: int) -> tuple[int, int]:
         """Return the line and the character, both from 1, at which a cell begins."""
         if self.lying:
             row, column = self.lying[index]
-            return row.spot(min(column, len(row.cells) - 1))
+            return row.locate(min(column, len(row.cells) - 1))
         if self.delimiter == BLANKS or _QUOTE in self.text:
             starts = [start for start, _ in _split_line(self.text, self.delimiter, len(self.cells))]
             return self.line, starts[index] + 1 if index < len(starts) else len(self.text) + 1
@@ -106,7 +106,7 @@ class TextTable:
 
     def place(self, row: Row, index: int) -> Place:
         """Return the place of a cell; of a name that the file does not have, that of the file."""
-        return self.source.place(*row.spot(index)) if row.line else self.source.place()
+        return self.source.place(*row.locate(index)) if row.line else self.source.place()
 
 
 def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[[str], bool]) -> TextTable:
@@ -137,7 +137,7 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
     for index, name in enumerate(header.cells):
         if len(name) > _LONGEST_NAME:
             message = f"{quoted(name)} is too long to be the name of a column; does the table begin here?"
-            raise InputError.at(text.place(*header.spot(index)), message)
+            raise InputError.at(text.place(*header.locate(index)), message)
     units = below.pop(0) if below and is_units(below[0].cells) else None
     below = _find_rows_before(below, options.ends_before, header, text)
     sound = []
@@ -359,14 +359,14 @@ def _find_ragged(row: Row, header: Row, text: TextFile) -> list[Problem]:
         hint = "; is there a decimal comma? Then semicolons part columns" if row.delimiter == "," else ""
         return [
             Problem(
-                text.place(*row.spot(surplus)),
+                text.place(*row.locate(surplus)),
                 f"the row has {found} cells, and the header names {expected} columns{hint}",
             )
         ]
     if found < expected and any(header.cells[found:]):
         return [
             Problem(
-                text.place(*row.spot(found - 1)),
+                text.place(*row.locate(found - 1)),
                 f"the row ends after {found} of {expected} cells; a missing reading is an empty cell, "
                 f"with its {DELIMITERS.get(row.delimiter, 'delimiter')}",
             )

@@ -327,7 +327,7 @@ def _sample_pairs(
         test += (np.sqrt(shared)[..., np.newaxis] * run)[:, :, np.newaxis, :]
         test += means[..., np.newaxis]
         test[:, ~there] = np.nan
-        tests.append(axes.rounded(test) if axes else test)
+        tests.append(axes.round(test) if axes else test)
     return tests[0], tests[1]
 
 

@@ -175,13 +175,13 @@ class StartedMachine:
 
     def position(self, time: float) -> float:
         """Return where the axis is, m or rad, at a time in s from the start of the emulation."""
-        return self._machine.position(self._since_start(time))
+        return self._machine.position(self._measure_time(time))
 
     def conditions(self, time: float) -> dict[str, float]:
         """Return the true conditions at a time in s from the start of the emulation, SI."""
-        return self._machine.conditions(self._since_start(time))
+        return self._machine.conditions(self._measure_time(time))
 
-    def _since_start(self, time: float) -> float:
+    def _measure_time(self, time: float) -> float:
         if not self._is_started:
             return 0.0
         if self._started_at is None:
