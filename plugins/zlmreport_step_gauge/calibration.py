@@ -212,9 +212,9 @@ def _end(table: NamedColumns) -> Place:
 
 
 def _read_face(row: Row, problems: list[Problem]) -> _Listed | None:
-    number = row.integer("face", problems)
-    nominal, calibrated, expanded = (row.number(column, problems) for column in _COLUMNS[2:])
-    side = _SIDES.get(row.text("side").casefold())
+    number = row.read_integer("face", problems)
+    nominal, calibrated, expanded = (row.read_number(column, problems) for column in _COLUMNS[2:])
+    side = _SIDES.get(row.read_text("side").casefold())
     if side is None:
         problems.append(Problem(row.cells["side"].place, "column side: front or back is expected"))
     if expanded is not None and expanded < 0:

@@ -60,7 +60,7 @@ class StepGauge:
         """Numbers of the blocks, rising."""
         return tuple(sorted({face.block for face in self.faces}))
 
-    def face(self, number: int) -> Face | None:
+    def find_face(self, number: int) -> Face | None:
         """Return a face by its number; None if the section does not hold it."""
         return next((face for face in self.faces if face.number == number), None)
 

@@ -73,13 +73,13 @@ def read_initial_points(path: Path) -> InitialPoints:
 
 
 def _point(row: Row, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
-    name = row.text("block").casefold()
+    name = row.read_text("block").casefold()
     if name not in BLOCKS:
         problems.append(Problem(row.cells["block"].place, "column block: begin or end is expected"))
-    point = row.integer("point", problems)
+    point = row.read_integer("point", problems)
     if point is not None and point > POINTS:
         problems.append(Problem(row.cells["point"].place, f"a block has the points 1 to {POINTS}"))
-    values = [row.number(column, problems) for column in ("x", "y", "z")]
+    values = [row.read_number(column, problems) for column in ("x", "y", "z")]
     known = [MILLIMETRE.to_si(value) for value in values if value is not None]
     if name not in BLOCKS or point is None or point > POINTS or len(known) < len(values):
         return None

@@ -28,11 +28,11 @@ class Row:
     place: Place
     cells: dict[str, TextCell]
 
-    def text(self, column: str) -> str:
+    def read_text(self, column: str) -> str:
         """Return what a cell holds; nothing where the table lacks the column."""
         return self.cells[column].text if column in self.cells else ""
 
-    def number(self, column: str, problems: list[Problem]) -> float | None:
+    def read_number(self, column: str, problems: list[Problem]) -> float | None:
         """Return the number in a cell; None, and a problem, where it holds none."""
         cell = self.cells[column]
         try:
@@ -42,9 +42,9 @@ class Row:
             problems.append(Problem(cell.place, f"column {column}: {message}"))
             return None
 
-    def integer(self, column: str, problems: list[Problem]) -> int | None:
+    def read_integer(self, column: str, problems: list[Problem]) -> int | None:
         """Return the positive whole number in a cell; None, and a problem, where it holds none."""
-        value = self.number(column, problems)
+        value = self.read_number(column, problems)
         if value is not None and not (value >= 1 and value.is_integer()):
             cell = self.cells[column]
             problems.append(

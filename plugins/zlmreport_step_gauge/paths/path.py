@@ -55,7 +55,7 @@ class Probing:
     target: Point
     normal: Point
 
-    def away(self, distance: float) -> Point:
+    def place_away(self, distance: float) -> Point:
         """Return the point in front of the face at a distance from it, m."""
         return shift(self.target, self.normal, distance)
 
@@ -109,7 +109,7 @@ class ProbingPath:
     def stops(self) -> tuple[Point, ...]:
         """Where the tip's centre is at the end of each move, m; at a face it has touched it."""
         return tuple(
-            move.to if isinstance(move, Travel) else move.away(self.tip_radius) for move in self.moves
+            move.to if isinstance(move, Travel) else move.place_away(self.tip_radius) for move in self.moves
         )
 
     @property
@@ -127,9 +127,9 @@ class ProbingPath:
     @property
     def duration(self) -> float:
         """Time that the motion takes, s, as if the machine needed none to speed up and slow down."""
-        return sum(self._durations())
+        return sum(self._compute_durations())
 
-    def _durations(self) -> Iterator[float]:
+    def _compute_durations(self) -> Iterator[float]:
         for move, step in zip(self.moves[1:], pairwise(self.stops), strict=True):
             yield math.dist(*step) / (self.measuring_speed if isinstance(move, Probing) else self.speed)
 

@@ -267,23 +267,23 @@ class _Sheets:
         found = collect_results(self._certificate)
         for test, prefix in list_measured(found):
             if test["evaluations"]:  # a line of several may have none of its own
-                self._evaluations(test, self._title(prefix), _name_targets(test["measurements"]))
+                self._add_evaluations(test, self._name_sheets(prefix), _name_targets(test["measurements"]))
         parts = self._certificate.parts or {"": self._certificate}
         for name, part in parts.items():
             for line, measurements in (part.measurements.tests or {"": part.measurements}).items():
-                self._readings(measurements, " ".join(filter(None, (name, line))))
+                self._add_readings(measurements, " ".join(filter(None, (name, line))))
         for name, part in found.get("parts", {"": found}).items():
             if part["model"]["parameters"]:
-                self._model(part["model"], name)
+                self._add_model(part["model"], name)
 
-    def _title(self, prefix: str) -> str:
+    def _name_sheets(self, prefix: str) -> str:
         """Return how the sheets of a test are called: ``{sheet}``, ``{sheet} EYX``, ``{sheet} as found``."""
         names = prefix.rstrip(".").split(".")
         is_before = names[-1] == "as_found"
         title = " ".join(filter(None, ("{sheet}", *(names[:-1] if is_before else names))))
         return self._say(_AS_FOUND).replace("{sheet}", title) if is_before else title
 
-    def _evaluations(self, found: Json, title: str, target: Words) -> None:
+    def _add_evaluations(self, found: Json, title: str, target: Words) -> None:
         missing = ", ".join(_list_missing(found))
         rows = [
             [
@@ -297,7 +297,7 @@ class _Sheets:
             for parameter in evaluation["parameters"]
         ]
         headings = map(self._say, (*_PARAMETER_HEADINGS, *([_INCOMPLETE] if missing else ())))
-        self._sheet(title.format(sheet=self._say(_PARAMETERS)), headings, rows)
+        self._add_sheet(title.format(sheet=self._say(_PARAMETERS)), headings, rows)
         units = found["measurements"]["units"]
         positions = [
             (evaluation["standard"], position)
@@ -316,13 +316,13 @@ class _Sheets:
         ]
         if not table:
             return  # what follows from several lines has no positions
-        sheet = self._sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
+        sheet = self._add_sheet(title.format(sheet=self._say(_POSITIONS)), columns, table)
         drawn = [(2 + index, key) for index, key in enumerate(["target", *keys]) if key in _MEANS]
         of_first = sum(row[0] == table[0][0] for row in table)
         if drawn:
-            self._chart(sheet, drawn, of_first, self._say(target), units)
+            self._add_chart(sheet, drawn, of_first, self._say(target), units)
 
-    def _readings(self, measurements: MeasurementSet, name: str) -> None:
+    def _add_readings(self, measurements: MeasurementSet, name: str) -> None:
         if self._certificate.job and self._certificate.job.keys.agreement.simplified:
             return  # agreed with the customer: a document without them
         axis = measurements.axis
@@ -349,17 +349,17 @@ class _Sheets:
                 measurements.run, measurements.approach, measurements.target, deviations, strict=True
             )
         ]
-        self._sheet(" ".join(filter(None, (self._say(_READINGS), name))), headings, rows)
+        self._add_sheet(" ".join(filter(None, (self._say(_READINGS), name))), headings, rows)
 
-    def _model(self, model: Json, name: str) -> None:
+    def _add_model(self, model: Json, name: str) -> None:
         rows = [
             [each["effect"], each["name"], each["value"], each["unit"], each.get("expanded_uncertainty")]
             for each in model["parameters"]
         ]
         title = " ".join(filter(None, (self._say(_MODEL), name)))
-        self._sheet(title, map(self._say, _MODEL_HEADINGS), rows)
+        self._add_sheet(title, map(self._say, _MODEL_HEADINGS), rows)
 
-    def _sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[_Cell]]) -> Any:
+    def _add_sheet(self, title: str, headings: Iterable[str], rows: Iterable[Sequence[_Cell]]) -> Any:
         from openpyxl.styles import Font  # noqa: PLC0415 (slow to load)
         from openpyxl.utils import get_column_letter  # noqa: PLC0415 (slow to load)
 
@@ -378,7 +378,7 @@ class _Sheets:
         sheet.freeze_panes = "A2"
         return sheet
 
-    def _chart(
+    def _add_chart(
         self, sheet: Any, drawn: Sequence[tuple[int, str]], rows: int, target: str, units: Json
     ) -> None:
         """Add a chart of the means over the targets of the first standard, beside the table."""

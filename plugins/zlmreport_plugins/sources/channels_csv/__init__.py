@@ -125,7 +125,7 @@ class ChannelsCsv:
         own = _find_channel_of(axis.name, channels, options)
         stated = options.units.get(VALUE)
         unit = find_unit_of(own, stated, LENGTH_UNITS, MICROMETRE)
-        track = channels.track(own, unit, LENGTH_UNITS)
+        track = channels.read_track(own, unit, LENGTH_UNITS)
         conditions = dict(_list_conditions(channels, options))
         table = channels.table
         problems = list(dict.fromkeys([*table.problems, *channels.cells.problems]))
@@ -197,7 +197,7 @@ def _is_column_name(text: str, options: ChannelsCsvOptions) -> bool:
 def _find_channel_of(name: str, channels: Channels, options: ChannelsCsvOptions) -> Channel:
     """Return the channel of a test; raise `InputError` with the nearest name if there is none."""
     called = options.channels.get(name, name)
-    found = channels.named(called)
+    found = channels.find(called)
     if found is not None:
         return found
     names = [each.name for each in channels.of.values()]
@@ -219,7 +219,7 @@ def _list_conditions(channels: Channels, options: ChannelsCsvOptions) -> Iterato
         if called is None:
             continue
         kind = CONDITIONS.get(called, _TEMPERATURES)
-        track = channels.track(channel, find_unit_of(channel, None, kind.units, kind.unit), kind.units)
+        track = channels.read_track(channel, find_unit_of(channel, None, kind.units, kind.unit), kind.units)
         yield called, track if called in CONDITIONS else _convert_to_celsius(track, channels, channel)
 
 

@@ -86,7 +86,7 @@ class Channels:
         """The table that they stand in."""
         return self.cells.table
 
-    def named(self, name: str) -> Channel | None:
+    def find(self, name: str) -> Channel | None:
         """Return a channel by its name, with or without its unit; None if there is none."""
         return self.of.get(folded(heading_of(name).name)) or self.of.get(folded(name))
 
@@ -111,7 +111,7 @@ class Channels:
         """How often the channel was read that was read most often."""
         return max((len(channel.moments) for channel in self.of.values()), default=0)
 
-    def track(
+    def read_track(
         self, channel: Channel, unit: Unit | ReadingScale, known: Mapping[str, Unit | ReadingScale]
     ) -> Track:
         """Return the readings of a channel; what is wrong with one is noted."""

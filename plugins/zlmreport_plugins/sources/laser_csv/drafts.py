@@ -80,11 +80,11 @@ class Draft:
     units: dict[str, str] = field(default_factory=dict)
     ignored: list[str] = field(default_factory=list)
 
-    def index(self, what: str) -> int | None:
+    def find_column(self, what: str) -> int | None:
         """Return the place of a column; None if there is none."""
         return list(self.table.meanings).index(what) if what in self.table.meanings else None
 
-    def name(self, index: int) -> str:
+    def name_column(self, index: int) -> str:
         """Return the name of a column."""
         return self.table.header.cells[index]
 
@@ -141,7 +141,7 @@ def note_notation(draft: Draft) -> None:
     words = {
         cell
         for index in measured
-        for cell in table.column(index)
+        for cell in table.list_cells(index)
         if cell and number(cell, table.notation) is None
     }
     if words and all(word.casefold() in _MISSING for word in words):
@@ -159,8 +159,8 @@ def name_unit(what: str, draft: Draft, target: int, *columns: int) -> None:
     if len(named) == 1:
         draft.units[what] = named.pop()
         return
-    values = [abs(value) for index in columns for value in table.numbers(index) if value]
-    travel = [value for value in table.numbers(target) if value is not None]
+    values = [abs(value) for index in columns for value in table.list_numbers(index) if value]
+    travel = [value for value in table.list_numbers(target) if value is not None]
     is_small = bool(values) and max(values) < 0.5 and median(values) < 0.1 and max(travel) - min(travel) >= 5
     if is_small:
         draft.units[what] = "mm"
@@ -174,7 +174,7 @@ def is_unit_known(what: str, draft: Draft, index: int) -> bool:
     """Return whether the table names the unit of a column, and say which one if it spells it otherwise."""
     table = draft.table
     below = table.units.cells[index] if table.units and index < len(table.units.cells) else ""
-    behind = next((cell.lstrip("+-−0123456789.,'’ \u00a0") for cell in table.column(index) if cell), "")
+    behind = next((cell.lstrip("+-−0123456789.,'’ \u00a0") for cell in table.list_cells(index) if cell), "")
     for spelling in (
         read_heading(table.header.cells[index]).bracket or "",
         below.strip("()[] "),

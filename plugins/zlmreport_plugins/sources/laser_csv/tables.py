@@ -115,13 +115,13 @@ class FoundTable:
             -self.layout.header_rows,
         )
 
-    def column(self, index: int) -> list[str]:
+    def list_cells(self, index: int) -> list[str]:
         """Return the cells of a column."""
         return [row.cells[index] if index < len(row.cells) else "" for row in self.rows]
 
-    def numbers(self, index: int) -> list[float | None]:
+    def list_numbers(self, index: int) -> list[float | None]:
         """Return the numbers of a column; None for a cell that holds none."""
-        return [number(cell, self.notation) for cell in self.column(index)]
+        return [number(cell, self.notation) for cell in self.list_cells(index)]
 
 
 def list_texts(file: Path) -> Iterator[FoundText]:

@@ -87,7 +87,7 @@ def list_remarks(sections: Mapping[str, RtlSection], problems: list[Problem]) ->
             if said:
                 yield introduction.given(text="; ".join(said))
     if "ENVIRONMENT" in sections:
-        for entry in sections["ENVIRONMENT"].entries():
+        for entry in sections["ENVIRONMENT"].list_entries():
             try:
                 remark = _say_recorded(entry)
             except ValueError as error:
@@ -209,7 +209,7 @@ def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContex
 
 def _find_told_kind(text: TextFile, parts: Mapping[str, RtlSection]) -> tuple[str, Place] | None:
     """Return the kind that the file's header or else its suffix tells, and where."""
-    entry = parts["HEADER"].value("filetype") if "HEADER" in parts else None
+    entry = parts["HEADER"].find_entry("filetype") if "HEADER" in parts else None
     if entry and entry.value:
         return entry.value.casefold(), entry.line.place
     suffix = text.source.name.rpartition(".")[2].casefold()

@@ -79,11 +79,11 @@ def _draw_wire(plate: Plate, above: dict[str, FloatArray], magnified: float) -> 
     ground = _project_places(_list_corners(plate), np.zeros(5), magnified)
     curves = [Curve("", Role.BAND_LIMIT, *ground)]
     for names, role in _KINDS:
-        lines = [_project_places(plate.places(name), above[name], magnified) for name in names]
+        lines = [_project_places(plate.lay_stations(name), above[name], magnified) for name in names]
         curves.append(Curve(_write_notation(names), role, *_join_in_one(lines)))
     notes = []
     for name in LINES:
-        places, heights = plate.places(name), above[name]
+        places, heights = plate.lay_stations(name), above[name]
         x, y = _project_places(places, heights, magnified)
         for index in _choose_told(name, heights, above):
             notes.append(Note(float(x[index]), float(y[index]), _number(heights[index])))
@@ -117,12 +117,12 @@ def _plan(plate: Plate, above: dict[str, FloatArray]) -> Panel:
     written: list[FloatArray] = []
     sides = np.array(plate.sides)
     for names, role in _KINDS:
-        lines = [_write_millimetres(plate.places(name)) for name in names]
+        lines = [_write_millimetres(plate.lay_stations(name)) for name in names]
         curves.append(
             Curve(_write_notation(names), role, *_join_in_one([(each[:, 0], each[:, 1]) for each in lines]))
         )
     for name in (*EDGES, *DIAGONALS, *CENTRE_LINES):
-        for place, height in zip(plate.places(name), above[name], strict=True):
+        for place, height in zip(plate.lay_stations(name), above[name], strict=True):
             # Where lines meet they tell the same height; where they come near, the first one is told.
             if any(np.abs((place - other) / sides).max() < _NEAR for other in written):
                 continue
