@@ -66,7 +66,7 @@ class StepGauge:
 
 
 @dataclass(frozen=True, slots=True)
-class Location:
+class GaugeLocation:
     """Where a step gauge lies in the coordinates of the machine."""
 
     #: begin and end: C1 and C2: centres of the first and the last block of the section, m.

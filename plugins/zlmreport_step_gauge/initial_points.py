@@ -26,7 +26,7 @@ import numpy as np
 
 from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Place, Problem, read_only_floats
 from zlmreport.plugin.source import SourceFile
-from zlmreport_step_gauge.tables import Row, read_named_columns
+from zlmreport_step_gauge.tables import NamedRow, read_named_columns
 
 #: The names of the two blocks in files, in the order of the arrays.
 BLOCKS = ("begin", "end")
@@ -72,7 +72,7 @@ def read_initial_points(path: Path) -> InitialPoints:
     return InitialPoints(read_only_floats(coordinates), table.text.place(), table.source)
 
 
-def _point(row: Row, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
+def _point(row: NamedRow, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
     name = row.read_text("block").casefold()
     if name not in BLOCKS:
         problems.append(Problem(row.cells["block"].place, "column block: begin or end is expected"))

@@ -40,7 +40,7 @@ from zlmreport_step_gauge.probed import (
     say_wrong_side,
 )
 from zlmreport_step_gauge.set_up import GaugeSetUp
-from zlmreport_step_gauge.tables import Row, read_measured, read_named_columns
+from zlmreport_step_gauge.tables import NamedRow, read_measured, read_named_columns
 
 _TABLE = ("face", "cycle", "x", "y", "z")
 _NORMAL = ("i", "j", "k")
@@ -60,7 +60,7 @@ def read_table(path: Path, gauge: StepGauge, direction: Direction | None) -> Poi
 
 
 def _read_row(
-    row: Row, gauge: StepGauge, direction: Direction | None, problems: list[Problem]
+    row: NamedRow, gauge: StepGauge, direction: Direction | None, problems: list[Problem]
 ) -> ProbedPoint | None:
     face, cycle = row.read_integer("face", problems), row.read_integer("cycle", problems)
     if any(row.read_text(column) for column in _TABLE[2:]):

@@ -22,8 +22,8 @@ from zlmreport.plugin import MILLIMETRE, AccessError, InputError, Place, Problem
 from zlmreport.plugin.extension import Job, JournalFile, take_names, unwritable
 from zlmreport_step_gauge.keys import MachineKeys, StepGaugeKeys
 from zlmreport_step_gauge.machines.session import (
-    Connection,
     MachineError,
+    ServerConnection,
     Session,
     UnreadableError,
     is_missed_face,
@@ -45,7 +45,7 @@ _FINGERPRINT = "# path "
 Key = tuple[int, int]
 
 
-class Journal:
+class PointJournal:
     """A journal that is open; leave it as a context manager.
 
     Raises `AccessError` if it cannot be written, another run writes it, or the result is there already;
@@ -197,7 +197,7 @@ def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
     was probed on another path.
     """
     whole = probing.planned.path
-    with Journal(probing.result, whole) as journal:
+    with PointJournal(probing.result, whole) as journal:
         watcher.note_begin(len(journal.done), len(whole.probings))
         path = find_remaining(probing.planned, journal.done)
         missed: dict[Probing, MachineError] = {}
@@ -209,11 +209,11 @@ def run_probing(probing: LiveProbing, watcher: Watcher) -> Path:
 
 
 def _probe(
-    path: ProbingPath, machine: MachineKeys, journal: Journal, watcher: Watcher
+    path: ProbingPath, machine: MachineKeys, journal: PointJournal, watcher: Watcher
 ) -> dict[Probing, MachineError]:
     """Make the moves of a path; return the faces that were missed."""
     missed: dict[Probing, MachineError] = {}
-    with Connection(machine.host, machine.port) as connection:
+    with ServerConnection(machine.host, machine.port) as connection:
         session = Session(connection, machine.timeout, watcher.note_told)
         with _stop_on_interrupt(session):
             session.begin(write_beginning(path, machine.tool))

@@ -28,7 +28,7 @@ _ERROR = re.compile(
 _ITEM = re.compile(r"\s*(?P<name>[A-Za-z][A-Za-z0-9_.]*)\((?P<values>[^()]*)\)\s*(?:,|$)")
 
 
-class Kind(StrEnum):
+class LineKind(StrEnum):
     """What a line of the server is; the value is its sign."""
 
     ACKNOWLEDGED = "&"
@@ -42,7 +42,7 @@ class Answer:
     """A line of the server: to which command, what it is, and what it says."""
 
     tag: str
-    kind: Kind
+    kind: LineKind
     text: str = ""
 
 
@@ -73,14 +73,14 @@ def read_answer(line: str) -> Answer:
     """Return what a line says.
 
     >>> read_answer("00120 # X(1.5)")
-    Answer(tag='00120', kind=<Kind.DATA: '#'>, text='X(1.5)')
+    Answer(tag='00120', kind=<LineKind.DATA: '#'>, text='X(1.5)')
 
     Raises `UnreadableError` if it is no answer.
     """
     found = _LINE.fullmatch(line)
     if found is None:
         raise UnreadableError(f"{line[:60]!r} is no answer of I++ DME")
-    return Answer(found["tag"], Kind(found["kind"]), found["text"] or "")
+    return Answer(found["tag"], LineKind(found["kind"]), found["text"] or "")
 
 
 def read_error(text: str) -> MachineError:
@@ -168,7 +168,7 @@ class Session:
     `event`: Is told what the server sends unasked, as it is written.
     """
 
-    def __init__(self, connection: Connection, timeout: float, event: Callable[[str], None]) -> None:
+    def __init__(self, connection: ServerConnection, timeout: float, event: Callable[[str], None]) -> None:
         self._connection = connection
         self._timeout = timeout
         self._event = event
@@ -220,14 +220,16 @@ class Session:
                 continue  # of AbortE, whose own end is of no matter
             elif answer.tag != tag:
                 self._raise_misunderstood(f"an answer to {answer.tag} where one to {tag} is expected")
-            elif answer.kind is Kind.ACKNOWLEDGED and not is_acknowledged:
+            elif answer.kind is LineKind.ACKNOWLEDGED and not is_acknowledged:
                 is_acknowledged = True
                 until = time.monotonic() + self._timeout
-            elif answer.kind is Kind.ACKNOWLEDGED or not (is_acknowledged or answer.kind is Kind.ERROR):
+            elif answer.kind is LineKind.ACKNOWLEDGED or not (
+                is_acknowledged or answer.kind is LineKind.ERROR
+            ):
                 self._raise_misunderstood(f"{answer.kind.value} at the wrong place in the answers to {tag}")
-            elif answer.kind is Kind.DATA:
+            elif answer.kind is LineKind.DATA:
                 outcome.data.append(answer.text)
-            elif answer.kind is Kind.ERROR:
+            elif answer.kind is LineKind.ERROR:
                 is_acknowledged = True  # an order that makes no sense may be refused at once
                 outcome.errors.append(self._make_error(answer))
             else:
@@ -256,7 +258,7 @@ class Session:
 
     def _take_event(self, answer: Answer) -> None:
         """Tell what was sent unasked; an error that is in the way ends the session."""
-        if answer.kind is Kind.ERROR:
+        if answer.kind is LineKind.ERROR:
             error = self._make_error(answer)
             if error.is_in_the_way:
                 self.fail(error)
@@ -284,7 +286,7 @@ _LONGEST_LINE = 65536
 _PATIENCE = 10.0
 
 
-class Connection:
+class ServerConnection:
     """Lines to and from a server.
 
     Raises `AccessError` if it cannot be reached; here and in every method, with what the operator can do.

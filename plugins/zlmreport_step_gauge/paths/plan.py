@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from zlmreport.plugin import MICROMETRE, MILLIMETRE, InputError, Place, Problem
 from zlmreport.plugin.extension import Job
 from zlmreport_step_gauge.calibration import cut_section, read_calibration
-from zlmreport_step_gauge.gauge import Face, Location, Side, StepGauge
+from zlmreport_step_gauge.gauge import Face, GaugeLocation, Side, StepGauge
 from zlmreport_step_gauge.initial_points import read_initial_points
 from zlmreport_step_gauge.keys import ProbingPathKeys, StepGaugeKeys
 from zlmreport_step_gauge.location import locate
@@ -69,7 +69,7 @@ class _Stations:
 def plan_path(  # noqa: PLR0913 - a gauge, where it lies, and how, for whom
     gauge: StepGauge,
     section: StepGauge,
-    location: Location,
+    location: GaugeLocation,
     settings: PathSettings,
     *,
     size: tuple[float, float],

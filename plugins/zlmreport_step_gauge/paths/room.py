@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from zlmreport.plugin import MILLIMETRE, FloatArray, InputError, Problem, read_only_floats
-from zlmreport_step_gauge.gauge import Location, StepGauge
+from zlmreport_step_gauge.gauge import GaugeLocation, StepGauge
 from zlmreport_step_gauge.paths.path import Move, Point, Probing, ProbingPath
 
 #: How many moves a message names; one that fails mostly fails at every block.
@@ -126,7 +126,7 @@ class GaugeFrame:
     axes: FloatArray
 
     @classmethod
-    def of(cls, location: Location) -> GaugeFrame:
+    def of(cls, location: GaugeLocation) -> GaugeFrame:
         """Return the frame of a location."""
         along = np.array(location.direction)
         upward = np.array(location.upward) - np.dot(location.upward, along) * along

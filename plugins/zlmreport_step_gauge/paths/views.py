@@ -48,7 +48,7 @@ class Touch:
 
 
 @dataclass(frozen=True, slots=True)
-class Note:
+class PlacedText:
     """A text at a place, (2,) mm; `side` is that of the face whose number it is, None for anything else."""
 
     text: Words
@@ -68,7 +68,7 @@ class View:
     way: FloatArray  #: (n, 2): Where the moves end.
     touches: tuple[Touch, ...]  #: The measuring moves.
     arrows: FloatArray  #: (k, 2, 2): The machine's axes.
-    notes: tuple[Note, ...]  #: Numbers of faces, names of axes.
+    notes: tuple[PlacedText, ...]  #: Numbers of faces, names of axes.
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,11 +141,11 @@ def _view_in_machine(planned: PlannedPath) -> View:
     origin = corners[0] if volume else drawn.min(axis=0) - [1.8 * length, 0.0]
     tips = origin + length * eye.see(np.eye(3)) / MILLIMETRE.from_si(1.0)
     notes = [
-        Note(same_in_all_languages(name), origin + 1.3 * (tip - origin))
+        PlacedText(same_in_all_languages(name), origin + 1.3 * (tip - origin))
         for name, tip in zip("XYZ", tips, strict=True)
     ]
     if planned.settings.safe_position is not None:
-        notes.append(Note(_SAFE, eye.see(way[0])))
+        notes.append(PlacedText(_SAFE, eye.see(way[0])))
     return View(
         heading=_IN_THE_MACHINE,
         base=base,
@@ -181,7 +181,7 @@ def _draw_touches(planned: PlannedPath, eye: _Eye) -> Iterator[Touch]:
         yield Touch(_find_side(probing), start, end, MILLIMETRE.from_si(path.tip_radius))
 
 
-def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
+def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[PlacedText]:
     """Yield the numbers of faces: on the right side of the base, or from above beside the blocks."""
     boxes = planned.obstacles
     away = MILLIMETRE.to_si(_NUMBERS_AWAY)
@@ -192,7 +192,7 @@ def _place_numbers(planned: PlannedPath, eye: _Eye) -> Iterator[Note]:
     for probing in _list_probings(planned):
         along = planned.frame.to_gauge(probing.target)[0]
         at = eye.see(np.array(_move_into(planned, (along, across, upward))))
-        yield Note(same_in_all_languages(str(probing.face)), at, _find_side(probing))
+        yield PlacedText(same_in_all_languages(str(probing.face)), at, _find_side(probing))
 
 
 def _list_probings(planned: PlannedPath) -> Iterator[Probing]:

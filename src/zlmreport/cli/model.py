@@ -25,7 +25,7 @@ from zlmreport.document.subjects.forecast import StandardForecast, make_forecast
 from zlmreport.document.writer import Writer
 from zlmreport.errors import AccessError, InputError, Place, Problem, ZlmreportError, did_you_mean
 from zlmreport.files import Document, read, say_reason, write
-from zlmreport.job.edit import Edit, NamedEffect, edit_effects
+from zlmreport.job.edit import Edit, WrittenEffect, edit_effects
 from zlmreport.job.extends import JOB
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
@@ -175,7 +175,7 @@ def _edit_of(session: _Session, built: Built) -> Edit | None:
     return edit_effects(session.path, session.job, session.registry, add=named, remove=removed)
 
 
-def _name_as_in_a_job(effect: Effect, session: _Session) -> NamedEffect:
+def _name_as_in_a_job(effect: Effect, session: _Session) -> WrittenEffect:
     """Return an effect as a job names it: a formula of its candidates as it stands there."""
     job, registry = session.job, session.registry
     place = Place("zlmreport model build")
@@ -194,7 +194,7 @@ _ACTIONS = {
 }
 
 
-def _try_change(session: _Session, named: NamedEffect | None, removed: tuple[str, ...]) -> ModelChange:
+def _try_change(session: _Session, named: WrittenEffect | None, removed: tuple[str, ...]) -> ModelChange:
     """Return a change of the model with what it does; nothing is written."""
     edit = edit_effects(
         session.path, session.job, session.registry, add=[named] if named else [], remove=removed

@@ -28,7 +28,7 @@ from zlmreport.machines.curve import (
     make_measured_curve,
     with_scale_error,
 )
-from zlmreport.machines.keys import LineKeys, StatedKeys
+from zlmreport.machines.keys import ErrorLineKeys, StatedKeys
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, ErrorLine
 from zlmreport.machines.machine import find_unit_of
 from zlmreport.measurement.arrays import FloatArray
@@ -51,7 +51,7 @@ _BESIDE = {"U": "X", "V": "Y", "W": "Z"}
 _AT_POSITIONS = {Acts.AT_EACH_POSITION, Acts.AT_EACH_APPROACH, Acts.IN_TIME}
 
 
-def find_line_of(at: LineKeys | None) -> ErrorLine:
+def find_line_of(at: ErrorLineKeys | None) -> ErrorLine:
     """Return where an error was measured."""
     if at is None:
         return ErrorLine({})
@@ -80,7 +80,7 @@ def find_error_of(job: Job) -> str:
 def find_line_of_job(job: Job) -> ErrorLine:
     """Return where the others stood while a job measured."""
     at = job.keys.measurement.at
-    return find_line_of(LineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
+    return find_line_of(ErrorLineKeys.model_validate({key: at[key] for key in _PLACES & at.keys()}))
 
 
 def _say_meant(name: str) -> str:
@@ -244,7 +244,7 @@ def make_curve_of_certificate(path: Path, place: Place, opened: Opened) -> AxisE
             place, f"{path.name}: {quoted(name)} is none of the 21 errors of three linear axes"
         )
     unit = find_unit_of(name)
-    line = find_line_of(LineKeys.model_validate(found.measurements.at or {}))
+    line = find_line_of(ErrorLineKeys.model_validate(found.measurements.at or {}))
     own = next((each for of in found.evaluations for each in of.parameters if each.symbol == name), None)
     if name in SQUARENESS:
         if own is None or own.expanded_uncertainty is None:

@@ -64,7 +64,7 @@ class CircleRemainder:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class EffectStep:
     """An effect that came into the model."""
 
     effect: str
@@ -83,7 +83,7 @@ class MachineDiagnosis:
     p_value: PValue
     candidates: tuple[CircleCandidate, ...]
     found: tuple[str, ...]  #: What belongs in, first the one to add first; nothing that has an equal.
-    steps: tuple[Step, ...]
+    steps: tuple[EffectStep, ...]
     remainder: CircleRemainder | None
     not_testable: tuple[str, ...]
     catalogue: tuple[CircleEffect, ...]  #: All effects that were thought of.
@@ -142,7 +142,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
         range(len(stages)), key=lambda index: (round(stages[index].worth - NAMED * (index > 0), 9), -index)
     )
     found: list[str] = []
-    steps: list[Step] = []
+    steps: list[EffectStep] = []
     is_tied = False
     for before, after in pairwise(stages[: chosen + 1]):
         leader = before.leader
@@ -151,7 +151,7 @@ def diagnose(study: CircleStudy, catalogue: Sequence[CircleEffect]) -> MachineDi
             break
         found.append(leader.effect.identifier)
         steps.append(
-            Step(
+            EffectStep(
                 leader.effect.identifier,
                 compute_rms_of(before.study),
                 compute_rms_of(after.study),

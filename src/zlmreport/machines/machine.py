@@ -8,7 +8,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from zlmreport.machines.course import Course
+from zlmreport.machines.course import ToolCourse
 from zlmreport.machines.curve import AxisErrorCurve
 from zlmreport.machines.kinematics import ERRORS, SQUARENESS, Chain, ErrorLine, Point, weights
 from zlmreport.measurement.arrays import BoolArray, FloatArray
@@ -96,7 +96,7 @@ class TestPrediction:
         return 2.0 * self.standard_uncertainty
 
 
-def predict(machine: Machine, course: Course) -> TestPrediction:
+def predict(machine: Machine, course: ToolCourse) -> TestPrediction:
     """Return what the axes predict along a course, with its covariance."""
     count = len(course.position)
     tool = machine.tool if course.tool is None else course.tool
@@ -128,7 +128,7 @@ def predict(machine: Machine, course: Course) -> TestPrediction:
 
 
 def _compute_gain(
-    name: str, machine: Machine, curve: AxisErrorCurve | None, course: Course, tool: FloatArray | Point
+    name: str, machine: Machine, curve: AxisErrorCurve | None, course: ToolCourse, tool: FloatArray | Point
 ) -> FloatArray:
     """Return what one unit of an error makes of the sensed deviation, shape (N,)."""
     line = curve.line if curve else ErrorLine({})

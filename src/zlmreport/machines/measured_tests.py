@@ -13,7 +13,7 @@ from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.job.job import Job
 from zlmreport.job.loading import load
 from zlmreport.machines.axis_errors import find_error_of, find_line_of_job
-from zlmreport.machines.course import CircularTest, Course, StraightTest
+from zlmreport.machines.course import CircularTest, StraightTest, ToolCourse
 from zlmreport.machines.kinematics import SQUARENESS
 from zlmreport.measurement.arrays import FloatArray, IntArray
 from zlmreport.measurement.circle import NominalCircle
@@ -113,5 +113,5 @@ def _read_line(name: str, job: Job, measurements: MeasurementSet) -> StraightTes
     freedom = max(int(n.sum() - np.count_nonzero(there)), 1)
     squares = float(np.nansum((values[there] - means[:, np.newaxis]) ** 2))
     scatter = np.sqrt(squares / freedom / n[there])
-    course = Course(position[there], sensing[there], motion[there], line.tool if any(line.tool) else None)
+    course = ToolCourse(position[there], sensing[there], motion[there], line.tool if any(line.tool) else None)
     return StraightTest(name, course, at[there], means, scatter)

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from zlmreport.machines.course import CircularTest, Course
+from zlmreport.machines.course import CircularTest, ToolCourse
 from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
 from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.machine import Machine, predict
@@ -269,7 +269,7 @@ def study_bare(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy
     tools = [
         np.tile(machine.tool if each.tool is None else each.tool, (len(each.position), 1)) for each in courses
     ]
-    together = Course(
+    together = ToolCourse(
         np.concatenate([each.position for each in courses]),
         np.concatenate([each.sensing for each in courses]),
         np.concatenate([each.motion for each in courses]),

@@ -34,7 +34,7 @@ _PATIENCE = 10.0
 _INTERRUPTED = 130
 
 
-class Step(StrEnum):
+class CaptureAction(StrEnum):
     """What a click on the page asks for."""
 
     BEGIN = "begin"  #: Take readings, from the beginning or where they ended.
@@ -73,16 +73,16 @@ class CaptureProcess:
 
         Raises `InputError` where there is no capture to order something, or one is under way already.
         """
-        match Step(request.step):
-            case Step.BEGIN:
+        match CaptureAction(request.step):
+            case CaptureAction.BEGIN:
                 self._begin("--steered", *(["--resume"] if has_begun else []))
-            case Step.RETAKE:
+            case CaptureAction.RETAKE:
                 self._begin("--steered", "--resume", "--retake", request.text)
-            case Step.CLOSE:
+            case CaptureAction.CLOSE:
                 self._begin("--end")
-            case Step.ORDER:
+            case CaptureAction.ORDER:
                 self._order(request.text)
-            case Step.STOP:
+            case CaptureAction.STOP:
                 self.end()
 
     def describe_state(self) -> dict[str, Any]:

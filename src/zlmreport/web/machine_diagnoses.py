@@ -10,7 +10,13 @@ from typing import Any
 from zlmreport.errors import ZlmreportError
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import write_percentage
-from zlmreport.machines.diagnosis import CircleCandidate, MachineDiagnosis, Step, compute_rms_of, diagnose
+from zlmreport.machines.diagnosis import (
+    CircleCandidate,
+    EffectStep,
+    MachineDiagnosis,
+    compute_rms_of,
+    diagnose,
+)
 from zlmreport.machines.planning import NextRun, plan_next_run
 from zlmreport.machines.subjects.findings import (
     lay_out_absence,
@@ -105,7 +111,7 @@ def _make_candidate(candidate: CircleCandidate, diagnosis: MachineDiagnosis, nam
     }
 
 
-def _list_stairs(steps: Sequence[Step], names: Naming) -> Iterator[dict[str, Any]]:
+def _list_stairs(steps: Sequence[EffectStep], names: Naming) -> Iterator[dict[str, Any]]:
     """Yield the steps by which the error falls, as a staircase shows them."""
     say = Sayer(names.language)
     largest = max((each.before for each in steps), default=0.0) or 1.0

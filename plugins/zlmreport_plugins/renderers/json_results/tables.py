@@ -94,7 +94,7 @@ _CLOCK = re.compile(rb"(<dcterms:modified[^>]*>)[^<]*")
 
 
 @dataclass(frozen=True, slots=True)
-class Value:
+class TableValue:
     """A number: whose it is, what it is, its unit; `target` is None beside the table by position."""
 
     standard: str
@@ -125,7 +125,7 @@ class CsvRenderer:
         return table.getvalue().encode()
 
 
-def list_values(certificate: Certificate) -> Iterator[Value]:
+def list_values(certificate: Certificate) -> Iterator[TableValue]:
     """Yield every number of the evaluations and of the error model."""
     found = collect_results(certificate)
     for test, prefix in list_measured(found):
@@ -133,7 +133,7 @@ def list_values(certificate: Certificate) -> Iterator[Value]:
         for evaluation in test["evaluations"]:
             yield from _list_values_of_evaluation(evaluation, unit, prefix)
         for contributor in _list_missing(test):
-            yield Value("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
+            yield TableValue("", contributor, None, f"{prefix}uncertainty.missing", 1.0, _NO_UNIT)
     for part in found.get("parts", {"": found}).values():
         yield from _list_values_of_model(part["model"])
 
@@ -164,7 +164,7 @@ def make_harmless(text: str) -> str:
     return f"'{text}" if text.startswith(_FORMULA) else text
 
 
-def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[Value]:
+def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iterator[TableValue]:
     standard = evaluation["standard"]
     for parameter in evaluation["parameters"]:
         numbers = {key: parameter[key] for key in _OF_PARAMETER if key in parameter}
@@ -173,24 +173,24 @@ def _list_values_of_evaluation(evaluation: Json, unit: str, prefix: str) -> Iter
         }
         for key, value in numbers.items():
             own = _NO_UNIT if key in _WITHOUT_UNIT else parameter["unit"]
-            yield Value(standard, parameter["symbol"], None, prefix + key, value, own)
+            yield TableValue(standard, parameter["symbol"], None, prefix + key, value, own)
     for position in evaluation["positions"]:
         for key, value in position.items():
             if key != "target":
                 own = _NO_UNIT if key.startswith("n_") else unit
-                yield Value(standard, key, position["target"], prefix + key, value, own)
+                yield TableValue(standard, key, position["target"], prefix + key, value, own)
 
 
-def _list_values_of_model(model: Json) -> Iterator[Value]:
+def _list_values_of_model(model: Json) -> Iterator[TableValue]:
     for parameter in model["parameters"]:
         symbol = f"{parameter['effect']}.{parameter['name']}"
         for key in ("value", "expanded_uncertainty"):
             if parameter.get(key) is not None:
-                yield Value("", symbol, None, key, parameter[key], parameter["unit"])
+                yield TableValue("", symbol, None, key, parameter[key], parameter["unit"])
     unit = model["error"].get("unit", "")
     for key, value in model["error"].items():
         if not isinstance(value, str):
-            yield Value("", "error", None, key, value, _NO_UNIT if key in _WITHOUT_UNIT else unit)
+            yield TableValue("", "error", None, key, value, _NO_UNIT if key in _WITHOUT_UNIT else unit)
 
 
 class XlsxRenderer:

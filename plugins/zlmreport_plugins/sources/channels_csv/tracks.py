@@ -63,7 +63,7 @@ class Channel:
 
 
 @dataclass(frozen=True, slots=True)
-class Track:
+class ChannelTrack:
     """Readings of one channel in the order of time."""
 
     time: FloatArray  #: (N,): s from the beginning of the test, rising.
@@ -113,7 +113,7 @@ class Channels:
 
     def read_track(
         self, channel: Channel, unit: Unit | ReadingScale, known: Mapping[str, Unit | ReadingScale]
-    ) -> Track:
+    ) -> ChannelTrack:
         """Return the readings of a channel; what is wrong with one is noted."""
         begins = self.begins
         times: list[float] = []
@@ -132,7 +132,7 @@ class Channels:
             times.append(time)
             values.append(value)
             places.append(self.table.place(each.row, each.index))
-        return Track(np.array(times), np.array(values, dtype=np.float64), tuple(places))
+        return ChannelTrack(np.array(times), np.array(values, dtype=np.float64), tuple(places))
 
 
 def _say_out_of_order(channel: Channel, before: Place, *, is_same: bool) -> str:

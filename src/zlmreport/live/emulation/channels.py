@@ -25,7 +25,7 @@ _KEPT, _AWAITED = 1 << 16, 1.0
 _CERTAIN = 3
 
 
-class Channel(Protocol):
+class HostLine(Protocol):
     """A line to whoever reads the emulated instrument."""
 
     address: str  #: As a job names it: a path, or ``socket://host:number``.
@@ -215,7 +215,7 @@ _BEAT = 0.01
 
 def serve(
     emulator: Emulator,
-    channel: Channel,
+    channel: HostLine,
     troubles: Troubles,
     *,
     is_over: Callable[[], bool] = lambda: False,

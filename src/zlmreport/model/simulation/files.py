@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from zlmreport.errors import InputError, Problem
-from zlmreport.job.simulation import CourseKeys, NoiseKeys, SimulationFile
+from zlmreport.job.simulation import CourseKeys, SimulatedNoiseKeys, SimulationFile
 from zlmreport.language import Language
 from zlmreport.measurement.approach import Approach
 from zlmreport.measurement.arrays import FloatArray, read_only_floats
@@ -108,7 +108,7 @@ def _read_course(name: str, keys: CourseKeys) -> ConditionCourse:
     )
 
 
-def _read_noise(keys: NoiseKeys, unit: Unit) -> SimulatedNoise:
+def _read_noise(keys: SimulatedNoiseKeys, unit: Unit) -> SimulatedNoise:
     return SimulatedNoise(
         **{name: value if name in _NO_DEVIATIONS else unit.to_si(value) for name, value in keys}
     )
