@@ -55,7 +55,7 @@ def read_initial_points(path: Path) -> InitialPoints:
     problems = table.problems
     coordinates = np.full((len(BLOCKS), POINTS, 3), np.nan)
     for row in table.rows:
-        found = _point(row, problems)
+        found = _read_point(row, problems)
         if found is None:
             continue
         block, point, place, values = found
@@ -72,7 +72,7 @@ def read_initial_points(path: Path) -> InitialPoints:
     return InitialPoints(read_only_floats(coordinates), table.text.place(), table.source)
 
 
-def _point(row: NamedRow, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
+def _read_point(row: NamedRow, problems: list[Problem]) -> tuple[int, int, Place, list[float]] | None:
     name = row.read_text("block").casefold()
     if name not in BLOCKS:
         problems.append(Problem(row.cells["block"].place, "column block: begin or end is expected"))

@@ -218,10 +218,10 @@ def arithmetic(statistics: PositionStatistics) -> Arithmetic:
     stands for what is not defined: at the ends of the section there is no neighbour to interpolate with.
     """
     forward, backward = (
-        equations.interpolated(each) for each in (statistics.mean_positive, statistics.mean_negative)
+        equations.interpolate(each) for each in (statistics.mean_positive, statistics.mean_negative)
     )
     of_forward, of_backward = (
-        2 * equations.interpolated(each) for each in (statistics.s_positive, statistics.s_negative)
+        2 * equations.interpolate(each) for each in (statistics.s_positive, statistics.s_negative)
     )
     reversal = equations.reversal_error(forward, backward)
     columns = {

@@ -28,7 +28,7 @@ from zlmreport.document.subjects.doubts import find_doubts_of_runs
 from zlmreport.errors import InputError, Problem
 from zlmreport.evaluation import traceability
 from zlmreport.evaluation.correction.corrections import correct, drop_excluded, find_corrections_of
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate, name_adoption
 from zlmreport.evaluation.evaluation import Evaluation
 from zlmreport.evaluation.likely_units import find_doubts, find_unlikely_limits
@@ -335,7 +335,7 @@ def evaluate_all(
     `budget`: Of the set-up; without it the job's own.
     """
     stated = job.keys.decision_rule
-    rule = decision_rule(stated.rule, stated.guard_band_factor)
+    rule = make_decision_rule(stated.rule, stated.guard_band_factor)
     budget = budget or make_budget_of_job(job, measurements, registry)
     chosen = choose_standards(job, registry)
     bare = [
@@ -347,7 +347,7 @@ def evaluate_all(
     complete: list[Evaluated] = []
     for (standard, _), evaluation in zip(chosen, add_uncertainty(bare, budget, trials), strict=True):
         reported = check_information(find_information_asked_by(standard), job, measurements, budget)
-        with_verdicts = decided(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
+        with_verdicts = with_decisions(replace(evaluation, findings=(*evaluation.findings, *reported)), rule)
         complete.append(Evaluated(with_verdicts, (), budget))
     return tuple(complete)
 

@@ -13,7 +13,7 @@ from zlmreport.fleet import night
 from zlmreport.fleet.issuing import What
 from zlmreport.fleet.making import Failed, MadeCertificate, Task
 from zlmreport.fleet.records import State
-from zlmreport.fleet.state import state_of
+from zlmreport.fleet.state import describe_state
 
 HANGING = """\
 import time
@@ -102,7 +102,7 @@ def test_what_is_set_aside_is_tried_again_when_a_template_changes(stopping: Flee
 def test_what_is_set_aside_still_needs_somebody(stopping: Fleet) -> None:
     stopping.spend()
     stopping.spend()
-    state = state_of("Hall North", stopping.entries(), ["jobs/x.yaml"], None)
+    state = describe_state("Hall North", stopping.entries(), ["jobs/x.yaml"], None)
     assert [each.entry.number for each in state.failures] == ["CAL-X"]
     assert state.counts["failed"] == 1
 

@@ -18,7 +18,7 @@ from zlmreport.fleet.ledger import Ledger
 from zlmreport.fleet.making import Task
 from zlmreport.fleet.night import MissingError
 from zlmreport.fleet.records import About, PastNight, State
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.language import Language
 
 
@@ -71,9 +71,9 @@ def test_the_overview_counts_what_is_gone(fleet: Fleet) -> None:
     (fleet.folder / "jobs/x.yaml").unlink()
     fleet.spend()
     jobs = [f"jobs/{stem}.yaml" for stem in "vwyz"]
-    state = state_of("Hall North", fleet.entries(), jobs, None)
+    state = describe_state("Hall North", fleet.entries(), jobs, None)
     assert state.counts == {"made": 0, "unchanged": 4, "draft": 0, "failed": 0, "vanished": 1}
-    retired = state_of("Hall North", fleet.entries(), jobs, None, Rules(None, lambda job: "x" in job))
+    retired = describe_state("Hall North", fleet.entries(), jobs, None, Rules(None, lambda job: "x" in job))
     assert retired.counts["vanished"] == 0
 
 
@@ -287,7 +287,7 @@ def test_an_interval_that_comes_late_is_told_at_once(fleet: Fleet, monkeypatch: 
 
 def test_the_overview_lists_by_when_axes_are_to_be_measured(fleet: Fleet) -> None:
     now = night_of("2027-12-01")
-    state = state_of("Hall North", fleet.entries(), ["jobs/x.yaml"], now, Rules(365))
+    state = describe_state("Hall North", fleet.entries(), ["jobs/x.yaml"], now, Rules(365))
     assert [(term.due.isoformat(), term.is_over) for term in state.terms] == [("2027-11-18", True)]
 
 

@@ -186,7 +186,7 @@ class Nmtba:
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the two diagrams."""
-        return _figures(evaluation)
+        return _draw_figures(evaluation)
 
 
 _RUNS_FOR_A_SCATTER = 2
@@ -271,7 +271,7 @@ def _find_lacking_a_direction(statistics: PositionStatistics) -> BoolArray:
     return lacks & statistics.is_bidirectional[..., np.newaxis]
 
 
-def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield both diagrams, as far as the test defines what they show."""
     graphs = _Graphs(evaluation)
     yield graphs.draw_means()

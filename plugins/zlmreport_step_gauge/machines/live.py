@@ -92,7 +92,7 @@ def _emulate(values: Mapping[str, Any], host: CommandHost) -> int:
     return host.serve(server, STANDARD_PORT, announced, lambda: server.is_gone)
 
 
-def _number(text: str) -> float:
+def _read_number(text: str) -> float:
     try:
         value = float(text)
     except ValueError:
@@ -130,11 +130,15 @@ EMULATE = Command(
             "scale-error",
             "E",
             "error of the machine along the gauge, micrometres a metre; 0 without it",
-            _number,
+            _read_number,
             0.0,
         ),
         CommandOption(
-            "noise", "U", "standard deviation of a coordinate, micrometres; 0.05 without it", _number, 0.05
+            "noise",
+            "U",
+            "standard deviation of a coordinate, micrometres; 0.05 without it",
+            _read_number,
+            0.05,
         ),
         CommandOption(
             "point-fault",

@@ -81,11 +81,11 @@ def _make_files(planned: PlannedPath, language: Language) -> dict[str, str]:
 
     return {
         "path.svg": draw_path(planned, language),
-        "path.csv": "".join(f"{line}\n" for line in _rows(planned.path)),
+        "path.csv": "".join(f"{line}\n" for line in _make_rows(planned.path)),
     }
 
 
-def _rows(path: ProbingPath) -> Iterator[str]:
+def _make_rows(path: ProbingPath) -> Iterator[str]:
     yield "# moves of the tip's centre, and the points of the surface that measuring moves lead to, mm"
     yield "move,kind,face,cycle,x,y,z,i,j,k"
     for number, move in enumerate(path.moves, start=1):

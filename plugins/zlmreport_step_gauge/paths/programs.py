@@ -20,30 +20,30 @@ _LONGEST_NAME = 32
 _NOT_PLAIN = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
-def coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
+def write_coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
     """Write a point, m, in mm; zero has no sign.
 
-    >>> coordinates((0.290865, -1e-9, 0.4), 3)
+    >>> write_coordinates((0.290865, -1e-9, 0.4), 3)
     ('290.865', '0.000', '400.000')
     """
     x, y, z = (_write_fixed(MILLIMETRE.from_si(at), decimals) for at in point)
     return x, y, z
 
 
-def direction(vector: Point) -> tuple[str, str, str]:
+def write_direction(vector: Point) -> tuple[str, str, str]:
     """Write a unit vector.
 
-    >>> direction((0.0006, -0.99999982, 0.0))
+    >>> write_direction((0.0006, -0.99999982, 0.0))
     ('0.0006000', '-0.9999998', '0.0000000')
     """
     i, j, k = (_write_fixed(each, _DIRECTION_DIGITS) for each in vector)
     return i, j, k
 
 
-def plain(text: str) -> str:
+def write_plain(text: str) -> str:
     """Return a user's text as every language takes it: short, ASCII, without quotes.
 
-    >>> plain("CAL-2026's")
+    >>> write_plain("CAL-2026's")
     'CAL-2026_s'
     """
     return _NOT_PLAIN.sub("_", text)[:_LONGEST_NAME]
@@ -75,11 +75,11 @@ def write_beginning(path: ProbingPath, tool: str | None) -> Iterator[str]:
     yield "Home()"
     if tool is not None:
         yield f'ChangeTool("{tool}")'
-    yield f"SetProp(Tool.GoToPar.Speed({_number(path.speed)}))"
-    yield f"SetProp(Tool.PtMeasPar.Speed({_number(path.measuring_speed)}))"
-    yield f"SetProp(Tool.PtMeasPar.Approach({_number(path.approach)}))"
-    yield f"SetProp(Tool.PtMeasPar.Search({_number(path.search)}))"
-    yield f"SetProp(Tool.PtMeasPar.Retract({_number(path.retract)}))"
+    yield f"SetProp(Tool.GoToPar.Speed({_write_number(path.speed)}))"
+    yield f"SetProp(Tool.PtMeasPar.Speed({_write_number(path.measuring_speed)}))"
+    yield f"SetProp(Tool.PtMeasPar.Approach({_write_number(path.approach)}))"
+    yield f"SetProp(Tool.PtMeasPar.Search({_write_number(path.search)}))"
+    yield f"SetProp(Tool.PtMeasPar.Retract({_write_number(path.retract)}))"
     yield "OnPtMeasReport(X(), Y(), Z(), IJK())"
 
 
@@ -90,16 +90,16 @@ def write_command(move: Move) -> str:
     IJK, and what it reports is the centre of the tip.
     """
     if isinstance(move, Travel):
-        return f"GoTo({_write_at(coordinates(move.to, _DECIMALS))})"
-    normal = ", ".join(direction(move.normal))
-    return f"PtMeas({_write_at(coordinates(move.target, _DECIMALS))}, IJK({normal}))"
+        return f"GoTo({_write_at(write_coordinates(move.to, _DECIMALS))})"
+    normal = ", ".join(write_direction(move.normal))
+    return f"PtMeas({_write_at(write_coordinates(move.target, _DECIMALS))}, IJK({normal}))"
 
 
 def _write_at(texts: tuple[str, str, str]) -> str:
     return ", ".join(f"{axis}({text})" for axis, text in zip("XYZ", texts, strict=True))
 
 
-def _number(length: float) -> str:
+def _write_number(length: float) -> str:
     return f"{MILLIMETRE.from_si(length):.9g}"
 
 
@@ -143,7 +143,7 @@ def _write_mv_ms(path: ProbingPath, options: MvMsOptions) -> Iterator[str]:
 
 
 def _write_mv_ms_line(word: str, point: Point, options: MvMsOptions) -> str:
-    return " ".join([word, *(f"{each:>11}" for each in coordinates(point, options.decimals)), ";"])
+    return " ".join([word, *(f"{each:>11}" for each in write_coordinates(point, options.decimals)), ";"])
 
 
 _SECONDS_A_MINUTE = 60.0
@@ -183,10 +183,10 @@ class Dmis:
 
 
 def _write_dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
-    name = plain(path.number)
+    name = write_plain(path.number)
     yield f"DMISMN/'{name}',4.0"
     yield f"FILNAM/'{name}'"
-    yield f"$$ {plain(path.gauge)}, {len(path.probings)} points"
+    yield f"$$ {write_plain(path.gauge)}, {len(path.probings)} points"
     yield "UNITS/MM,ANGDEC"
     yield f"DID(OUT)=DEVICE/STOR,'{name}.dmo'"
     yield "OPEN/DID(OUT),FDATA,DMIS,OUTPUT"
@@ -204,14 +204,14 @@ def _write_dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
         if isinstance(move, Probing):
             yield from _write_measured(move, options)
         else:
-            yield f"GOTO/{','.join(coordinates(move.to, options.decimals))}"
+            yield f"GOTO/{','.join(write_coordinates(move.to, options.decimals))}"
     yield "CLOSE/DID(OUT)"
     yield "ENDFIL"
 
 
 def _write_measured(probing: Probing, options: DmisOptions) -> Iterator[str]:
     label = f"F{probing.face:03d}_{probing.cycle}"
-    where = ",".join([*coordinates(probing.target, options.decimals), *direction(probing.normal)])
+    where = ",".join([*write_coordinates(probing.target, options.decimals), *write_direction(probing.normal)])
     yield f"F({label})=FEAT/POINT,CART,{where}"
     yield f"MEAS/POINT,F({label}),1"
     yield f"PTMEAS/CART,{where}"

@@ -81,11 +81,11 @@ def run(options: Namespace) -> int:
             return _run_live(live, options)
     if options.journal:
         job = _replace_journal(job, options.journal)
-    asked = assignment(job, registry)
+    asked = find_assignment(job, registry)
     if options.end:
         _close(job, asked, options.job)
         return 0
-    display = _display(options)(job, asked)
+    display = _choose_display(options)(job, asked)
     resume = options.resume or bool(options.retake)
     words = TypedAnswers(options.answer, options.retake)
     capture(job, asked, registry, display, options.job, resume=resume, words=words)
@@ -94,7 +94,7 @@ def run(options: Namespace) -> int:
     return 0
 
 
-def _display(options: Namespace) -> Callable[[Job, Assignment], Display]:
+def _choose_display(options: Namespace) -> Callable[[Job, Assignment], Display]:
     """Return where the capture is shown."""
     if options.steered:
         return SteeredLines
@@ -144,7 +144,7 @@ def _close(job: Job, asked: Assignment, path: Path) -> None:
     print(f"next: zlmreport {show_path(path)}")
 
 
-def assignment(job: Job, registry: Registry) -> Assignment:
+def find_assignment(job: Job, registry: Registry) -> Assignment:
     """Return what a job asks to be captured; raise `InputError` if it is nothing, or makes no sense."""
     return make_assignment_of(job, propose(job, pipeline.choose_standards(job, registry)).plan)
 
@@ -160,13 +160,13 @@ def awaits_capture(job: Job) -> bool:
 def demand_capturable(job: Job, registry: Registry) -> None:
     """Refuse a job whose certificate would lack something, or whose capture makes no sense."""
     demand_mandatory_items(job)
-    assignment(job, registry)
+    find_assignment(job, registry)
     find_instrument_of(job)
 
 
 def tell_planned(path: Path, job: Job, registry: Registry) -> Iterator[str]:
     """Yield the lines on a job that awaits its capture: what its standards ask of the test as planned."""
-    plan = assignment(job, registry).plan
+    plan = find_assignment(job, registry).plan
     test = make_as_measured(job.axis, plan.method, plan.targets, plan.runs)
     writer = Writer.of(test, Language.ENGLISH)
     yield f"{Colour.BOLD.set(str(path))}  the job is sound; its readings are still to be captured"
@@ -179,7 +179,7 @@ def capture_if_watched(job: Job, registry: Registry, path: Path) -> None:
     """Capture what a job awaits if somebody sits at the terminal; if not, its data source says what to do."""
     if not is_watched() or job.source.instrument is None or not awaits_capture(job):
         return
-    asked = assignment(job, registry)
+    asked = find_assignment(job, registry)
     capture(job, asked, registry, LiveDisplay(job, asked), path, resume=_has_begun(job))
 
 

@@ -337,7 +337,7 @@ def show_panel(
     visit = progress.next
     yield ""
     yield f"next   {writer.name_visit(visit)} {writer.say(SIDES[visit.approach])}"
-    yield f"now    {_now(reading, follower, assignment, writer)}"
+    yield f"now    {_write_moment(reading, follower, assignment, writer)}"
     done, planned = progress.taken, len(progress.visits)
     full = round(_BAR * done / planned)
     bar = "█" * full + "░" * (_BAR - full)
@@ -345,7 +345,9 @@ def show_panel(
     yield f"done   {bar}  {done} of {planned}, {planned - done} to go, {rest}"
 
 
-def _now(reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter) -> str:
+def _write_moment(
+    reading: LiveReading, follower: Follower, assignment: Assignment, writer: AxisWriter
+) -> str:
     if not reading.is_usable and reading.message:
         return reading.message
     progress, status, settings = follower.progress, follower.status, assignment.settings

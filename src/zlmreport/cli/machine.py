@@ -60,7 +60,7 @@ def _predict(machine: MachineFile, registry: Registry, _: Namespace) -> tuple[It
     sections = [
         lay_out_errors(machine.machine, _SAY, is_full=False),
         lay_out_space(machine.machine, _SAY),
-        *(tests.test_section(each, _SAY) for each in compared),
+        *(tests.lay_out_test(each, _SAY) for each in compared),
     ]
     return _lay_out(machine, sections), collect_prediction(machine.machine, compared)
 
@@ -129,7 +129,7 @@ def _build(machine: MachineFile, _registry: Registry, options: Namespace) -> tup
         edit_effects(machine, (*machine.effect_names, *found.found))
     sections = [
         findings.lay_out_verdict(found, _SAY),
-        findings.step_section(found, _SAY),
+        findings.lay_out_steps(found, _SAY),
         findings.lay_out_model(found.complete, _SAY),
     ]
     return _lay_out(machine, sections), build_values(found)

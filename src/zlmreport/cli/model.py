@@ -10,14 +10,14 @@ from typing import Any
 
 from zlmreport import pipeline
 from zlmreport.cli.model_build import build_lines
-from zlmreport.cli.model_lines import change_lines, fit_lines, point_lines, tell_diagnosis, tell_history
+from zlmreport.cli.model_lines import change_lines, fit_lines, tell_diagnosis, tell_history, write_point_lines
 from zlmreport.cli.model_values import (
     ModelChange,
     change_values,
     collect_history,
     find_points_of,
     fit_values,
-    point_values,
+    list_point_values,
 )
 from zlmreport.cli.terminal import lay_out_table, print_json, show_path, show_progress
 from zlmreport.document.subjects.diagnosis import write_effect_argument
@@ -99,11 +99,11 @@ def _fit(session: _Session, options: Namespace) -> tuple[Iterable[str], Any]:
     points = find_points_of(fitted.fit, options.at)
     lines = (
         *fit_lines(fitted, session.job),
-        *point_lines(points, session.job.axis),
+        *write_point_lines(points, session.job.axis),
         "",
         _say_next("diagnose", session),
     )
-    return lines, fit_values(fitted) | point_values(points, session.job.axis)
+    return lines, fit_values(fitted) | list_point_values(points, session.job.axis)
 
 
 def _diagnose(session: _Session, _: Namespace) -> tuple[Iterable[str], Any]:

@@ -42,7 +42,7 @@ def fit_lines(fitted: Fitted, job: Job) -> Iterator[str]:
     yield from lay_out_sections(map(_drop_unused_columns, fit_sections(fitted, _ENGLISH)))
 
 
-def point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
+def write_point_lines(points: PredictedPoints | None, axis: Axis) -> Iterator[str]:
     """Yield a table of the deviation at the positions, a column for each direction."""
     if points is None:
         return

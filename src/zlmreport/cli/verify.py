@@ -112,10 +112,10 @@ def _tell_lines(path: Path, found: Verification) -> Iterator[str]:
     yield from lay_out_table(
         [
             (say(_PARTS["signature"]), _COLOURS[signature.verdict].set(make_visible(say(signature.detail)))),
-            *_summary(say(_PARTS["files"]), found.files, stated, say),
+            *_say_summary(say(_PARTS["files"]), found.files, stated, say),
             *_tell_numbers(found.values, say),
-            *_summary(say(_PARTS["pages"]), found.pages, pages, say),
-            *_summary(say(_PARTS["document"]), found.document, parts, say),
+            *_say_summary(say(_PARTS["pages"]), found.pages, pages, say),
+            *_say_summary(say(_PARTS["document"]), found.document, parts, say),
             *((note, Colour.YELLOW.set(make_visible(say(remark)))) for remark in found.remarks),
         ],
         indent="  ",
@@ -145,7 +145,7 @@ def _tell_verdict(found: Verification, say: _Say) -> str:
     return f"{Colour.RED.set(outcome)}: {say(differences)}"
 
 
-def _summary(
+def _say_summary(
     label: str, findings: Sequence[CheckedStatement], what: Words, say: _Say
 ) -> Iterator[tuple[str, str]]:
     """Yield how many findings hold, and each that does not."""
@@ -183,7 +183,7 @@ def _tell_numbers(values: Sequence[ComparedValue], say: _Say) -> Iterator[tuple[
         for value in values
         if value.verdict is VerificationVerdict.DIFFERS and not _is_of_parameter(value)
     ]
-    yield from list(_summary("", elsewhere, given, say))[1:]
+    yield from list(_say_summary("", elsewhere, given, say))[1:]
 
 
 def _own_words(texts: Sequence[QuotedText], say: _Say) -> Iterator[str]:

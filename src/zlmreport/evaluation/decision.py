@@ -91,7 +91,7 @@ class DecisionRule:
         return below if amount <= limit + tolerated else above
 
 
-def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
+def make_decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
     """Return a rule.
 
     Parameters
@@ -111,7 +111,7 @@ def decision_rule(identifier: str, factor: float = 1.0) -> DecisionRule:
     }[identifier]
 
 
-def decided(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
+def with_decisions(evaluation: Evaluation, rule: DecisionRule) -> Evaluation:
     """Return an evaluation with what the rule says of every parameter that has a limit."""
     complete = evaluation.uncertainty_is_complete
     undecided = {symbol for each in evaluation.findings for symbol in each.undecided}

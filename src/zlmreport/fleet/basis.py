@@ -209,12 +209,12 @@ def find_program_versions(
         packages.setdefault(name, set()).add(point.module.partition(".")[0])
         releases[name] = point.dist.version if point.dist else ""
     found = {
-        name: f"{releases.get(name, '')} {_digest(_list_code_of(sorted(own)))}"
+        name: f"{releases.get(name, '')} {_compute_digest(_list_code_of(sorted(own)))}"
         for name, own in packages.items()
     }
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
     for path in dict.fromkeys(each.resolve() for each in (*named, *files)):
-        found[str(path)] = f" {_digest([path])}"
+        found[str(path)] = f" {_compute_digest([path])}"
     combined = hashlib.sha256(repr(sorted(found.items())).encode()).hexdigest()
     return {**dict(sorted(found.items())), _ALL: f" {combined[:16]}"}
 
@@ -246,7 +246,7 @@ def _list_code_of(packages: Iterable[str]) -> Iterator[Path]:
             yield Path(spec.origin)
 
 
-def _digest(files: Iterable[Path]) -> str:
+def _compute_digest(files: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     for path in files:
         digest.update(path.name.encode() + b"\0" + path.read_bytes())

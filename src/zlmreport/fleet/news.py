@@ -87,7 +87,7 @@ def find_news_of(state: FleetState, language: Language) -> Iterator[News]:
         yield News(NewsKind.DRAFT, f"{entry.job}|{entry.number}", f"{entry.number}: {entry.message}")
 
 
-def digest(fleet: FleetFile, news: Sequence[News]) -> Message:
+def write_digest(fleet: FleetFile, news: Sequence[News]) -> Message:
     """Return news as a message, kind by kind: ``Hall North: 1 failed, 2 changed``."""
     language = fleet.keys.language
     counted = Counter(each.kind for each in news)

@@ -22,11 +22,11 @@ from zlmreport.fleet.ledger import Ledger, Night, Standing
 from zlmreport.fleet.making import Failed, Limits, Task, digest_defaults
 from zlmreport.fleet.news import (
     Ways,
-    digest,
     find_news_of,
     find_news_of_job,
     find_news_of_night,
     find_ways_of,
+    write_digest,
 )
 from zlmreport.fleet.notices import (
     find_left_documents,
@@ -38,7 +38,7 @@ from zlmreport.fleet.notices import (
 )
 from zlmreport.fleet.plan import Due, Evening, PlannedJob, find_reasons, plan
 from zlmreport.fleet.records import About, NewsKind, NightNotice, PastNight, State, compute_due_date
-from zlmreport.fleet.state import Rules, state_of
+from zlmreport.fleet.state import Rules, describe_state
 from zlmreport.fleet.workers import Cluster, Pool
 from zlmreport.job.fleet import FleetFile, find_jobs, is_retired, list_job_files
 from zlmreport.language import Words, same
@@ -151,7 +151,7 @@ def spend_night(fleet: FleetFile, order: Order, watch: Watch) -> None:
                 rules = Rules(fleet.keys.interval, lambda job: is_retired(job, fleet))
                 names = [known.name_job(path) for path in known.jobs]
                 now = PastNight(began, None, noticed)
-                state = state_of(fleet.name, ledger.list_entries(), names, now, rules)
+                state = describe_state(fleet.name, ledger.list_entries(), names, now, rules)
                 night.report(tuple(find_news_of(state, language)))
             _tell(fleet, night, ways, watch, last)
             night.notice((*noticed, *ways.untold.values()))
@@ -211,7 +211,7 @@ def _tell(fleet: FleetFile, night: Night, ways: Ways, watch: Watch, last: PastNi
     untold = [each.english for each in last.notices if each.about is About.UNTOLD] if last else []
     for way in ways.list_for(Occasion.DIGEST):
         news = night.list_untold(way.name, was_tried=any(way.name in each for each in untold))
-        if news and ways.tell(way, digest(fleet, news), watch.note_notice):
+        if news and ways.tell(way, write_digest(fleet, news), watch.note_notice):
             night.tell(way.name)
 
 

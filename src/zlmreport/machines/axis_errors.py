@@ -311,12 +311,16 @@ def _read_stated(
     u = float(unit.to_si(stated.expanded_uncertainty)) / 2.0
     source = stated.source or "stated"
     if name in SQUARENESS:
-        number = _number(value)
+        number = _read_number(value)
         if number is None:
             problems.append(Problem(node.place, f"{name}: a number is expected, arc seconds, such as 2.5"))
             return None
         return AxisErrorCurve(name, np.zeros(1), np.array([unit.to_si(number)]), np.eye(1) * u, line, source)
-    pairs = [(_number(at), _number(each)) for at, each in value.items()] if isinstance(value, Mapping) else []
+    pairs = (
+        [(_read_number(at), _read_number(each)) for at, each in value.items()]
+        if isinstance(value, Mapping)
+        else []
+    )
     places = [at for at, _ in pairs if at is not None]
     values = [each for _, each in pairs if each is not None]
     if (
@@ -338,7 +342,7 @@ def _read_stated(
     return AxisErrorCurve(name, np.array(places) / 1e3, unit.to_si(np.array(values)), own, line, source)
 
 
-def _number(value: Any) -> float | None:
+def _read_number(value: Any) -> float | None:
     """Return a number, or what reads as one."""
     try:
         number = float(value.text if isinstance(value, Scalar) else value)

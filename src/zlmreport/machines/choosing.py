@@ -7,7 +7,13 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.forms import CircleForm, find_best_of_kinds, form_at, list_forms_of, make_whole_form
+from zlmreport.machines.forms import (
+    CircleForm,
+    find_best_of_kinds,
+    list_forms_of,
+    make_form_at,
+    make_whole_form,
+)
 from zlmreport.machines.machine import Machine
 from zlmreport.machines.study import Chosen, CircleStudy, study_bare
 from zlmreport.measurement.arrays import FloatArray
@@ -88,7 +94,7 @@ def refine_form(study: CircleStudy, effect: CircleEffect, form: CircleForm) -> C
     best = form.searched
 
     def of(searched: Searched) -> CircleForm:
-        return form_at(effect, study.design, searched, form)
+        return make_form_at(effect, study.design, searched, form)
 
     values_of = _list_refined_values(study, effect)
     for place in [*values_of] * (_SWEEPS if len(values_of) > 1 else 1):
@@ -145,7 +151,7 @@ def _compute_tangents(
     for place in places:
         step = _STEP * abs(form.searched[place])
         ends = [
-            form_at(
+            make_form_at(
                 effect,
                 study.design,
                 _move_value(form.searched, place, form.searched[place] + way * step),

@@ -19,7 +19,7 @@ from zlmreport.errors import InputError, Place
 from zlmreport.machines.course import CircularTest
 from zlmreport.machines.cross_making import CrossMade
 from zlmreport.machines.cross_tables import compensate_machine
-from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
+from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.measured_tests import MeasuredCircle, read_test
 from zlmreport.machines.noise import CircleNoise, NoiseModel, find_noise
@@ -178,7 +178,7 @@ def _compute_taken(machine: Machine, corrected: Machine, circle: CircularTest) -
 
 def _fit_part(changes: Sequence[CircularTest], taken: Sequence[FloatArray]) -> tuple[float, float]:
     """Return what part of the tables went, and its U; U is infinite where the circles do not see them."""
-    design = thinned(changes)
+    design = make_thinned_design(changes)
     column = design.thin(np.concatenate(taken))
     went = design.thin(np.concatenate([each.deviation for each in changes]))
     beside = np.column_stack(list(_list_free(design)))

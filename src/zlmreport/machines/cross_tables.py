@@ -57,7 +57,7 @@ def plan_tables(machine: Machine, place: Place, step: float | None = None) -> Cr
         if worth:
             taken += [each.name for each in worth]
             stretch = _find_stretch(machine, moving, worth, place)
-            tables.append(_make_table((moving, off), worth, _rows(stretch, step)))
+            tables.append(_make_table((moving, off), worth, _make_rows(stretch, step)))
     if not tables:
         raise InputError.at(
             place,
@@ -82,7 +82,7 @@ def _is_acting_across(error: str, moving: str, off: str) -> bool:
     return error == f"E{off}{moving}"
 
 
-def _rows(stretch: tuple[float, float, float], step: float | None) -> FloatArray:
+def _make_rows(stretch: tuple[float, float, float], step: float | None) -> FloatArray:
     """Return rows over a stretch, equally far apart: as stated, or at measured places and between them."""
     low, high, spacing = stretch
     count = max(round((high - low) / (step or spacing)), 1)

@@ -52,7 +52,7 @@ def clear_of_reversals(circle: CircularTest) -> CircularTest:
     return circle.keep(kept) if np.count_nonzero(kept) >= 0.8 * len(kept) else circle
 
 
-def thinned(circles: Sequence[CircularTest]) -> ThinnedDesign:
+def make_thinned_design(circles: Sequence[CircularTest]) -> ThinnedDesign:
     """Return the design of circles with fewer readings: means of neighbours in time."""
     fine = join_side_by_side(circles)
     turns = len(fine.turns)

@@ -220,7 +220,7 @@ def _lay_out_sections(material: _Material, registry: Registry, say: Sayer) -> It
         candidates = findings.lay_out_candidates(diagnosis, say)
         if candidates:
             yield candidates
-        steps = findings.step_section(diagnosis, say)
+        steps = findings.lay_out_steps(diagnosis, say)
         if steps:
             yield steps
     yield from _test_sections(material.by_axes, material.complete, say)
@@ -232,7 +232,7 @@ def _test_sections(
     """Yield a section for each test, a circle beside the model's effects, too."""
     with_effects = {each.name: each for each in complete}
     for each in by_axes:
-        yield tests.test_section(with_effects.get(each.name, each), say)
+        yield tests.lay_out_test(with_effects.get(each.name, each), say)
 
 
 def _list_facts(machine: MachineFile, say: Sayer) -> Facts:

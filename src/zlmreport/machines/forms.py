@@ -44,7 +44,9 @@ def make_whole_form(effect: CircleEffect, design: ThinnedDesign, searched: Searc
     return CircleForm(searched, tuple(each for each in thin if np.any(each.column)))
 
 
-def form_at(effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: CircleForm) -> CircleForm:
+def make_form_at(
+    effect: CircleEffect, design: ThinnedDesign, searched: Searched, like: CircleForm
+) -> CircleForm:
     """Return the terms of a form at other searched values."""
     by_name = {each.name: each for each in effect.terms(design.fine, searched)}
     terms = (by_name[each.name] for each in like.terms)

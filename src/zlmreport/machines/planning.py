@@ -17,7 +17,7 @@ import numpy as np
 
 from zlmreport.language import Language, Words
 from zlmreport.machines.course import CircularTest
-from zlmreport.machines.design import thinned
+from zlmreport.machines.design import make_thinned_design
 from zlmreport.machines.diagnosis import MachineDiagnosis
 from zlmreport.machines.forms import make_plain_form, make_whole_form
 from zlmreport.machines.noise import CircleNoise, NoiseModel, Whitened
@@ -146,7 +146,7 @@ def _compute_least_decision(
 ) -> float:
     """Return the least probability, over pairs, with which a run more tells effects apart."""
     study = diagnosis.complete
-    design = thinned([*study.design.circles, circle])
+    design = make_thinned_design([*study.design.circles, circle])
     base = np.concatenate(
         [
             np.zeros((design.count, 0)),

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from zlmreport.machines.course import CircularTest, ToolCourse
-from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, thinned
+from zlmreport.machines.design import ThinnedDesign, clear_of_reversals, make_thinned_design
 from zlmreport.machines.forms import CircleForm
 from zlmreport.machines.machine import Machine, predict
 from zlmreport.machines.noise import CircleNoise, NoiseFound, NoiseModel, Whitened, find_noise
@@ -264,7 +264,7 @@ def list_said_estimates(estimates: Sequence[EstimatedTerm]) -> list[Estimate]:
 def study_bare(machine: Machine, circles: Sequence[CircularTest]) -> CircleStudy:
     """Return the study of circles with an empty model."""
     circles = [clear_of_reversals(each) for each in circles]
-    design = thinned(circles)
+    design = make_thinned_design(circles)
     courses = [each.make_course() for each in circles]
     tools = [
         np.tile(machine.tool if each.tool is None else each.tool, (len(each.position), 1)) for each in courses

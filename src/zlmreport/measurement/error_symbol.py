@@ -106,7 +106,7 @@ def find_letter_of(axis: str) -> str:
     return letter if letter and letter in LINEAR_AXES + ROTARY_AXES else ""
 
 
-def _known() -> dict[str, ErrorSymbol]:
+def _list_known() -> dict[str, ErrorSymbol]:
     """Return every error of a linear axis, the positioning of rotary ones, and the squareness of two axes."""
     found = []
     for axis in LINEAR_AXES:
@@ -126,4 +126,4 @@ def _known() -> dict[str, ErrorSymbol]:
     return symbols
 
 
-_KNOWN = _known()
+_KNOWN = _list_known()

@@ -130,7 +130,7 @@ def read_table(text: TextFile, options: FileTableLayout, names_column: Callable[
             "semicolons or tabs, or by blanks if the job says 'delimiter: blanks'",
         )
     problems: list[Problem] = []
-    rows = list(_rows(content, delimiter, text, problems))
+    rows = list(_list_rows(content, delimiter, text, problems))
     if options.transposed:
         rows = _turn_rows(rows)
     header, below = _find_header(rows, options, text)
@@ -315,7 +315,7 @@ def _split_header(header: str, delimiter: str) -> Sequence[str]:
         return ()
 
 
-def _rows(
+def _list_rows(
     content: Sequence[tuple[int, str]], delimiter: str, text: TextFile, problems: list[Problem]
 ) -> Iterator[Row]:
     """Yield the rows that hold something; what is wrong with another is noted, of the first one raised."""

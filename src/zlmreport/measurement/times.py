@@ -51,7 +51,7 @@ def make_time_reader(cells: Cells, column: TextColumn | None) -> ReadTime:
         if not text:
             return math.nan
         found = read_moment(text)
-        if found is None or _kind(found) != _kind(beginning):
+        if found is None or _find_kind(found) != _find_kind(beginning):
             like = quoted(first)
             cells.note(row, column, f"{quoted(text)} is no time written like the first one, {like}")
             return None
@@ -124,7 +124,7 @@ def _write_usual(text: str) -> str:
     return _ONE_DIGIT.sub(_PADDED, text)
 
 
-def _kind(found: dt.datetime) -> tuple[bool, bool]:
+def _find_kind(found: dt.datetime) -> tuple[bool, bool]:
     return found.tzinfo is None, found.year == _NO_DATE
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from zlmreport.document.figures.figure import Figure
 from zlmreport.errors import InputError, Place, Problem
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate as evaluate_by
 from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
 from zlmreport.evaluation.report import collect_position_columns, report_evaluation
@@ -99,7 +99,7 @@ class Result:
     def evaluation(self) -> Evaluation:
         """The same in SI, with findings, for those who go further down; no part of the stable interface."""
         bare = evaluate_by(self._standard, self.data.measurements, self._options, self._limits)
-        return decided(bare, decision_rule(self._rule))
+        return with_decisions(bare, make_decision_rule(self._rule))
 
     @cached_property
     def arithmetic(self) -> Arithmetic:
@@ -292,7 +292,11 @@ def evaluate(
     if decision_rule != "simple":
         checked(DecisionRuleKeys, {"rule": decision_rule}, _NAME)
     result = Result(
-        data, chosen, options, convert_tolerances_to_si(limits, chosen, data.measurements.axis), decision_rule
+        data,
+        chosen,
+        options,
+        convert_tolerances_to_si(limits, chosen, data.measurements.axis),
+        decision_rule,
     )
     _ = result.arithmetic  # what cannot be evaluated fails here, and not when it is looked at
     return result

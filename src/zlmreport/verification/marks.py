@@ -156,7 +156,7 @@ def _transform(pen: _Pen, *values: Any) -> None:
     pen.change_state(matrix=_multiply(_take_numbers(values), pen.state.matrix))
 
 
-def _style(name: str) -> Callable[..., None]:
+def _make_style(name: str) -> Callable[..., None]:
     def draw(pen: _Pen, *values: Any) -> None:
         others = tuple(each for each in pen.state.style if each[0] != name)
         pen.change_state(style=tuple(sorted((*others, (name, repr(values))))))
@@ -300,7 +300,7 @@ _OPERATORS: dict[bytes, Callable[..., None]] = {
     b"Q": _restore,
     b"cm": _transform,
     b"w": _set("width"),
-    **{name.encode(): _style(name) for name in "JjMd"},
+    **{name.encode(): _make_style(name) for name in "JjMd"},
     b"gs": _set_graphics_state,
     b"rg": _set_colour("fill", "rgb"),
     b"RG": _set_colour("stroke", "rgb"),

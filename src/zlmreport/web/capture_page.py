@@ -86,7 +86,7 @@ class CapturePage:
             "subject": job.axis.subject.in_language(language),
             "file": self.path.name,
             "journal": assignment.options.journal.name,
-            "visits": list(_rows(progress, history, writer)),
+            "visits": list(_list_rows(progress, history, writer)),
             "next": None if progress.is_over else progress.next.number,
             "taken": progress.taken,
             "minutes": round(rest / _SECONDS_A_MINUTE),
@@ -120,7 +120,7 @@ def _find_progress(assignment: Assignment, history: History | None) -> Progress:
     return history.progress if history else Progress.begin(assignment.visits, assignment.datum)
 
 
-def _rows(progress: Progress, history: History | None, writer: AxisWriter) -> Iterator[dict[str, Any]]:
+def _list_rows(progress: Progress, history: History | None, writer: AxisWriter) -> Iterator[dict[str, Any]]:
     """Yield the visits in their order, each with the reading that counts."""
     events = [each.event for each in history.entries] if history else []
     read = {each.visit.number: each for each in events if isinstance(each, Recorded)}
@@ -134,11 +134,11 @@ def _rows(progress: Progress, history: History | None, writer: AxisWriter) -> It
             "target": writer.write_position(visit.position),
             "deviation": writer.write_deviation(reading.deviation) if reading else "",
             "range": writer.write_small_length(reading.mean.range) if reading else "",
-            "state": _state(number, progress, is_read=reading is not None),
+            "state": _describe_state(number, progress, is_read=reading is not None),
         }
 
 
-def _state(number: int, progress: Progress, *, is_read: bool) -> str:
+def _describe_state(number: int, progress: Progress, *, is_read: bool) -> str:
     if not progress.is_over and number == progress.next.number:
         return "next"
     if is_read:

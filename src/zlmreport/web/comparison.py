@@ -96,7 +96,7 @@ class ComparedTests:
         if all(each.day for each in tests):
             tests.sort(key=lambda each: each.day or dt.date.min)  # stable: those of one day stay as named
         shown = {
-            "tests": [_test(each, here, language) for each in tests],
+            "tests": [_list_test(each, here, language) for each in tests],
             "standards": list(_compare_standards(tests, here, language)),
             "models": list(_compare_models(tests, self.bench.registry.effects, language)),
         }
@@ -135,7 +135,7 @@ def _demand_same_axis(own: Job, other: Job) -> None:
         )
 
 
-def _test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
+def _list_test(test: _Test, here: _Test, language: Language) -> dict[str, Any]:
     """Return a test: its name and day, its means over the axis, and how they differ from those here."""
     axis, means = here.job.axis, test.means
     at = test.measurements.target_positions

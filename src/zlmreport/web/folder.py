@@ -198,7 +198,7 @@ def look_at(row: JobRow, path: Path, registry: Registry) -> tuple[JobRow, tuple[
             readings = pipeline.read(part, registry)
             files += _list_known_paths(readings.provenance.files)
             evaluated += pipeline.evaluate_all(part, readings, registry)
-        row = replace(row, state=_state(evaluated))
+        row = replace(row, state=_find_state(evaluated))
     except ZlmreportError as error:
         return _describe_failing(row, files, error)
     try:
@@ -252,7 +252,7 @@ def _describe_row(row: JobRow, job: Job) -> JobRow:
     )
 
 
-def _state(evaluated: Sequence[Evaluated]) -> JobState:
+def _find_state(evaluated: Sequence[Evaluated]) -> JobState:
     """Return what the decisions on limits come to, the worst of them."""
     decisions = (one.decision for each in evaluated for one in each.evaluation.parameters)
     marks = (STATEMENTS[each.conformity][0].name for each in decisions if each is not None)

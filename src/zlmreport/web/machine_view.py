@@ -22,8 +22,8 @@ from zlmreport.machines.subjects.saying import Sayer
 from zlmreport.machines.subjects.tests import (
     describe_stretch,
     lay_out_sizes,
+    lay_out_test,
     make_failure_notice,
-    test_section,
 )
 from zlmreport.measurement.units import MICROMETRE
 from zlmreport.model.effects.circle_effect import CircleEffect
@@ -35,7 +35,7 @@ from zlmreport.web.machine_graphs import collect_graph, collect_model, collect_r
 from zlmreport.web.machine_tables import list_offered_tables
 from zlmreport.web.naming import Naming
 from zlmreport.web.panels import split_symbol
-from zlmreport.web.view import SHOWN, say_done_by, step
+from zlmreport.web.view import SHOWN, list_step, say_done_by
 
 _MOST_FAILURES = 3
 
@@ -108,7 +108,7 @@ class MachineView:
                 "tables": list_offered_tables(self.bench, loaded, self.language),
             },
             "asked": [],
-            "steps": [step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
+            "steps": [list_step(each, self.language, names) for each in reversed(entries[-SHOWN:])],
             **{
                 name: None if each is None else names.name_in(self.say(say_done_by(each)))
                 for name, each in zip((UNDO, REDO), back, strict=True)
@@ -185,7 +185,7 @@ class MachineView:
 
     def _list_test(self, found: ComparedTest) -> list[dict[str, Any]]:
         """Return a test in numbers, but for where it fails, which the page says elsewhere."""
-        section: Section = test_section(found, self.say)
+        section: Section = lay_out_test(found, self.say)
         elsewhere = make_failure_notice([found], self.say)
         return collect_blocks((each for each in section.blocks if each != elsewhere), self.names)
 

@@ -61,7 +61,7 @@ def make_view(bench: Bench, loaded: Loaded, language: Language) -> dict[str, Any
         "others": panels.list_other_effects(),
         "excluded": panels.list_excluded(),
         "offered": list_offered(bench, loaded, language),
-        "steps": [step(each, language, names) for each in reversed(entries[-SHOWN:])],
+        "steps": [list_step(each, language, names) for each in reversed(entries[-SHOWN:])],
         "asked": [
             {
                 "key": each.key,
@@ -130,7 +130,7 @@ def collect_closer(bench: Bench, loaded: Loaded, ends: tuple[float, float]) -> d
     }
 
 
-def step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
+def list_step(entry: JournalStep, language: Language, names: Naming) -> dict[str, str]:
     """Return a step as people read it: when, and what."""
     words = say_done_by(entry)
     if entry.action in {UNDO, REDO}:

@@ -27,7 +27,7 @@ from zlmreport.document.blocks import (
 )
 from zlmreport.document.certificate.document import Certificate, Letterhead, PageWords, Party
 from zlmreport.document.figures.figure import Arrow, Band, Bracket, Curve, Figure, Panel, Readings, Role
-from zlmreport.evaluation.decision import decided, decision_rule
+from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate
 from zlmreport.evaluation.evaluation import (
     Arithmetic,
@@ -168,7 +168,9 @@ def evaluation(readings: MeasurementSet) -> Evaluation:
     """The sample standard's evaluation, with a limit that is kept and one that is not."""
     unit = readings.axis.deviation_unit
     limits = {"M": unit.to_si(20.0), "R_fwd": unit.to_si(1.5)}
-    return decided(evaluate(SampleStandard(), readings, Options(), limits), decision_rule("simple"))
+    return with_decisions(
+        evaluate(SampleStandard(), readings, Options(), limits), make_decision_rule("simple")
+    )
 
 
 def figure(result: Evaluation, key: str = "means") -> Figure:

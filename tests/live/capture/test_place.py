@@ -14,7 +14,7 @@ from live.capture.moves import SETTINGS, Axis, following, happened, kinds, liste
 from live.capture.wandering import trial
 from zlmreport.live.capture.events import Mean, Presumed, Recorded, Unclear
 from zlmreport.live.capture.motion import Programme, Route
-from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill, _Guess, _merged
+from zlmreport.live.capture.place import PlaceInProgram, TargetStandstill, _Guess, _merge
 from zlmreport.live.ports.reading import LiveReading
 from zlmreport.measurement.approach import Approach
 from zlmreport.model.planning.methods import Method
@@ -143,7 +143,7 @@ def stop(number: int, heading: Approach | None = UP, time: float = 0.0) -> Targe
 
 def test_explanations_that_end_alike_weigh_together() -> None:
     guess = _Guess(0, log(0.25), None, 0, 0)
-    assert exp(_merged([guess, guess]).weight) == pytest.approx(0.5)
+    assert exp(_merge([guess, guess]).weight) == pytest.approx(0.5)
 
 
 def test_an_operator_is_believed_who_names_a_visit_that_nothing_speaks_for() -> None:

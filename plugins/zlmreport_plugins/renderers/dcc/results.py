@@ -31,10 +31,10 @@ from zlmreport.plugin.renderer import (
 from zlmreport.plugin.standard import Conformity
 from zlmreport_plugins.renderers.dcc.administrative import (
     AdministrativeWriter,
+    find_state,
     make_equipment,
     make_influences,
     make_software,
-    state,
 )
 from zlmreport_plugins.renderers.dcc.elements import (
     CONDITION,
@@ -145,10 +145,10 @@ def _make_results_of_measurement(certificate: Certificate, job: Job, named: str)
     """Yield the results of one measurement; `named` is what its document calls it."""
     writer, before = AdministrativeWriter(certificate.language), job.as_found
     work, found = (job.keys.as_found.work if job.keys.as_found else None), certificate.evaluations_as_found
-    after = state("after", work, writer)
+    after = find_state("after", work, writer)
     tests = [_Test(after, certificate.evaluations, certificate.budget, job, found, named)]
     if before:
-        tests.insert(0, _Test(state("before", work, writer), found, certificate.budget_as_found, before))
+        tests.insert(0, _Test(find_state("before", work, writer), found, certificate.budget_as_found, before))
     tests += (
         _Test(
             None,

@@ -16,7 +16,7 @@ from zlmreport.plugin.table import (
 )
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.columns import read_heading
-from zlmreport_plugins.sources.laser_csv.meanings import READING, number
+from zlmreport_plugins.sources.laser_csv.meanings import READING, read_number
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
 #: What stands for a missing reading, in lower case.
@@ -109,7 +109,7 @@ def place_table(draft: Draft) -> None:
     if below:
         beginning = _strip_number_at_end(first_cell(below[0].cells)[:_LONGEST_BEGINNING].strip())
         data = (first_cell(row.cells).casefold() for row in table.rows)
-        is_clear = beginning and number(beginning, table.notation) is None
+        is_clear = beginning and read_number(beginning, table.notation) is None
         if is_clear and not any(each.startswith(beginning.casefold()) for each in data):
             keys["ends_before"] = beginning
         elif not table.layout.is_transposed:
@@ -142,7 +142,7 @@ def note_notation(draft: Draft) -> None:
         cell
         for index in measured
         for cell in table.list_cells(index)
-        if cell and number(cell, table.notation) is None
+        if cell and read_number(cell, table.notation) is None
     }
     if words and all(word.casefold() in _MISSING for word in words):
         draft.keys["missing"] = sorted(words)

@@ -176,7 +176,7 @@ _GROUPS = re.compile(r"[1-9][0-9]{0,2}(?:[.,'’ \u00a0\u202f][0-9]{3})+")
 
 
 @lru_cache(maxsize=65536)
-def number(cell: str, notation: Notation) -> float | None:
+def read_number(cell: str, notation: Notation) -> float | None:
     """Return the number that a cell holds in a notation, its unit left out; None for anything else.
 
     >>> german = Notation(DecimalSign.COMMA, ".")

@@ -13,7 +13,7 @@ from zlmreport.plugin import Approach
 from zlmreport_plugins.sources.laser_csv import questions
 from zlmreport_plugins.sources.laser_csv.drafts import Draft
 from zlmreport_plugins.sources.laser_csv.layouts import find_senses
-from zlmreport_plugins.sources.laser_csv.meanings import number
+from zlmreport_plugins.sources.laser_csv.meanings import read_number
 from zlmreport_plugins.sources.laser_csv.options import names_direction, read_direction, run_and_direction
 from zlmreport_plugins.sources.laser_csv.tables import FoundTable
 
@@ -148,7 +148,7 @@ def _list_stacked(table: FoundTable) -> Iterator[tuple[dict[str, Any], Approach 
             return
         header, before = again, max(last, again.line - 3)
         for row in rows:
-            if at < len(row.cells) and number(row.cells[at], table.notation) is not None:
+            if at < len(row.cells) and read_number(row.cells[at], table.notation) is not None:
                 last = row.line
             elif last > header.line:
                 break

@@ -26,7 +26,7 @@ from zlmreport_plugins.sources.laser_csv.meanings import (
     are_positions,
     find_meaning,
     find_reading_of,
-    number,
+    read_number,
 )
 from zlmreport_plugins.sources.laser_csv.options import COLUMN_NAMES, run_and_direction
 from zlmreport_plugins.sources.laser_csv.passes import draft_of_parts, tell_passes
@@ -207,7 +207,7 @@ def _draft_other_columns(draft: Draft) -> None:
             draft.ignored.append(name)
             draft.asks.append(questions.TIME_ASKED.format(name=repr(name), example=repr(cells[0])))
         elif what is None and (
-            any(number(cell, table.notation) is None for cell in cells)
+            any(read_number(cell, table.notation) is None for cell in cells)
             or find_meaning(name) is not None
             or not cells
         ):
@@ -222,7 +222,7 @@ def _draft_other_columns(draft: Draft) -> None:
 
 
 def _is_time(cells: Sequence[str], notation: Notation) -> bool:
-    return all(number(cell, notation) is not None or moment(cell) is not None for cell in cells[:1])
+    return all(read_number(cell, notation) is not None or moment(cell) is not None for cell in cells[:1])
 
 
 def _ask_for_kind(draft: Draft, axis: str) -> None:

@@ -171,7 +171,7 @@ class RenishawRtl:
         """Read a test file; raise `InputError` with every defect and its place."""
         text = read_text(options.file, options.encoding)
         parts = split_sections(text, (_TARGETS, _DEVIATIONS))
-        kind = _kind(text, parts, context)
+        kind = _find_kind(text, parts, context)
         unit = _find_deviation_unit(options, context)
         targets = read_target_positions(parts[_TARGETS])
         problems: list[Problem] = []
@@ -191,7 +191,7 @@ class RenishawRtl:
         )
 
 
-def _kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContext) -> str:
+def _find_kind(text: TextFile, parts: Mapping[str, RtlSection], context: SourceContext) -> str:
     """Return the kind of file, rtl or rta, which must be that of the axis."""
     own = next(kind for kind, axis_kind in _KINDS.items() if axis_kind is context.axis.kind)
     kind, place = _find_told_kind(text, parts) or (own, text.place())

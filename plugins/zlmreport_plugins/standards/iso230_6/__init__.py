@@ -162,7 +162,7 @@ class Iso230Part6:
 
     def figures(self, evaluation: Evaluation, options: DiagonalOptions) -> Iterable[Figure]:  # noqa: ARG002 - no key of its own
         """Return the mean deviations along body diagonals, and along those of faces."""
-        return _figures(evaluation)
+        return _draw_figures(evaluation)
 
 
 def squareness(
@@ -257,7 +257,7 @@ def _check_whole(tests: Mapping[str, MeasurementSet], space: SpaceKeys) -> Itera
     yield Finding(_OVER_WHOLE, said, met=False)
 
 
-def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     tests = evaluation.measurements.tests
     for key, names, title in (("body", BODY, _OF_BODY), ("faces", FACE, _OF_FACES)):
         shown = [name for name in names if name in tests]

@@ -128,7 +128,7 @@ class VdiGuideline:
 
     def figures(self, evaluation: Evaluation, options: Options) -> Iterable[Figure]:  # noqa: ARG002 - no keys of its own
         """Return the guideline's two diagrams."""
-        return _figures(evaluation)
+        return _draw_figures(evaluation)
 
 
 _RUNS = 5
@@ -194,7 +194,7 @@ def positions(statistics: PositionStatistics, k: int) -> dict[str, FloatArray]:
     return {"U": reversal_span(statistics), "Ps": position_spread(statistics, k)}
 
 
-def _figures(evaluation: Evaluation) -> Iterator[Figure]:
+def _draw_figures(evaluation: Evaluation) -> Iterator[Figure]:
     """Yield both diagrams, as far as the test defines what they show."""
     graphs = _Graphs(evaluation)
     yield graphs.draw_means()

@@ -8,7 +8,14 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
-from zlmreport.cli.arguments.parser import JSON_HELP, CommandParser, add_jobs, point, read_port, read_position
+from zlmreport.cli.arguments.parser import (
+    JSON_HELP,
+    CommandParser,
+    add_jobs,
+    read_point,
+    read_port,
+    read_position,
+)
 from zlmreport.errors import did_you_mean
 from zlmreport.version import __version__
 
@@ -364,7 +371,7 @@ def surface(command: str) -> CommandParser:
     parser.add_argument(
         "--at",
         metavar="P,R",
-        type=point,
+        type=read_point,
         action="append",
         default=[],
         help="a point: positions of the axis under test and of the second one, mm (--at=-20,130 for one that "

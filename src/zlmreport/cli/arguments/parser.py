@@ -129,7 +129,7 @@ def read_position(text: str) -> float:
     return position
 
 
-def point(text: str) -> tuple[float, float]:
+def read_point(text: str) -> tuple[float, float]:
     """Read two positions, parted by a comma."""
     along, _, across = text.partition(",")
     try:

@@ -128,7 +128,7 @@ class PlaceInProgram:
         for guess in self._guesses:
             for after in self._explain(guess, stop, route):
                 found[after.place, after.is_told, after.files].append(after)
-        merged = [_merged(alike) for alike in found.values()]
+        merged = [_merge(alike) for alike in found.values()]
         best = max(each.weight for each in merged)
         self._guesses = [
             replace(each, weight=each.weight - best) for each in merged if each.weight > best + _HOPELESS
@@ -375,7 +375,7 @@ def _is_clear(odds: Mapping[int | None, float], best: int | None) -> bool:
     return 1 - odds[best] <= _DOUBT and others <= _DOUBT_OF_OTHERS
 
 
-def _merged(alike: Sequence[_Guess]) -> _Guess:
+def _merge(alike: Sequence[_Guess]) -> _Guess:
     """Return the best of explanations that end alike, with the weight of all."""
     best = max(alike, key=lambda each: each.weight)
     return replace(best, weight=best.weight + log(sum(exp(each.weight - best.weight) for each in alike)))

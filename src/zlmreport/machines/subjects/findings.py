@@ -203,7 +203,7 @@ def lay_out_parameters(estimates: Iterable[EstimatedTerm], say: Sayer) -> Table:
     return make_plain_table(say(_PARAMETERS), columns, rows)
 
 
-def step_section(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
+def lay_out_steps(diagnosis: MachineDiagnosis, say: Sayer) -> Section | None:
     """Return how the error fell as the effects came in, one by one; None where none did."""
     rows = [
         (each.effect, *map(say.write_micrometres, (each.before, each.after, each.noise)))

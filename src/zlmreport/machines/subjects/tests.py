@@ -60,13 +60,13 @@ def _write_both_senses(numbers: Iterable[StandardNumbers], say: Sayer) -> tuple[
     return "", ""
 
 
-def test_section(found: ComparedTest, say: Sayer) -> Section:
+def lay_out_test(found: ComparedTest, say: Sayer) -> Section:
     """Return one test: what it is, sizes and numbers, what explains it, where it fails, its curves."""
     title = f"{found.name}: {say(write_title_of(found.test))}"
-    return Section(f"test-{found.name}", title, tuple(_test_blocks(found, say)))
+    return Section(f"test-{found.name}", title, tuple(_lay_out_test_blocks(found, say)))
 
 
-def _test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
+def _lay_out_test_blocks(found: ComparedTest, say: Sayer) -> Iterator[Block]:
     yield lay_out_numbers(found, say)
     for words, shares in ((_OF_AXES, found.of_axes), (_OF_EFFECTS, found.of_effects)):
         listed = _list_shares(shares, say)

@@ -176,14 +176,14 @@ def make_basis_of_model(curve: ErrorCurve, fitted: FittedModel) -> TableBasis:
     scatter = _estimate_scatter(left) or ReadingScatter(fitted.fit.rms, 0.0, fitted.fit.degrees)
     beyond, imitated = (
         part_directions(values, is_bidirectional=curve.is_bidirectional)
-        for values in (fitted.sign * _both(_compute_means(left)), _compute_imitated(fitted))
+        for values in (fitted.sign * _fill_in_both(_compute_means(left)), _compute_imitated(fitted))
     )
     own = scatter.single**2 / curve.runs
     parts = tuple(
         _make_part(rest, columns, own)
         for rest, columns in zip(beyond, np.moveaxis(imitated, -2, 0), strict=True)
     )
-    explained = _both(_compute_means(measurements.deviations())) - _both(_compute_means(left))
+    explained = _fill_in_both(_compute_means(measurements.deviations())) - _fill_in_both(_compute_means(left))
     rest = join_directions(np.stack([part.trust * each for part, each in zip(parts, beyond, strict=True)]))
     kept = _interpolate(curve.positions, rest)
     return TableBasis(
@@ -212,7 +212,7 @@ def _compute_means(deviations: FloatArray) -> FloatArray:
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
-def _both(means: FloatArray) -> FloatArray:
+def _fill_in_both(means: FloatArray) -> FloatArray:
     """Return means with those of the other direction where one was not measured."""
     return np.where(np.isfinite(means), means, means[::-1])
 
@@ -272,5 +272,5 @@ def _compute_imitated(fitted: FittedModel) -> FloatArray:
     for column in fitted.fit.base(fitted.observed.design).T:
         every = np.full(len(measurements.deviation), np.nan)
         every[fitted.observed.reading] = column
-        columns.append(np.nan_to_num(_both(_compute_means(measurements.arranged(every)))))
+        columns.append(np.nan_to_num(_fill_in_both(_compute_means(measurements.arranged(every)))))
     return np.array(columns).reshape(-1, 2, len(measurements.target_positions))

@@ -190,10 +190,10 @@ def write_readings_table(measurements: MeasurementSet, remarks: Sequence[str]) -
 
 def _write_numbers(values: FloatArray, digits: int) -> list[str]:
     """Write numbers without trailing zeros; a missing one is an empty cell."""
-    return ["" if np.isnan(value) else _number(value, digits) for value in values.tolist()]
+    return ["" if np.isnan(value) else _write_number(value, digits) for value in values.tolist()]
 
 
-def _number(value: float, digits: int) -> str:
+def _write_number(value: float, digits: int) -> str:
     text = f"{value:.{digits}f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text
 

@@ -115,14 +115,14 @@ def observe(description: Description, design: Design, systematic: FloatArray) ->
 def _simulate_logs(description: Description, design: Design) -> dict[str, FloatArray]:
     return {
         name: read_only_floats(
-            compute_logged_course(course, design.conditions[name], description.seed, _number_of(name))
+            compute_logged_course(course, design.conditions[name], description.seed, _choose_number(name))
         )
         for name, course in description.conditions.items()
         if course.is_logged
     }
 
 
-def _number_of(condition: str) -> int:
+def _choose_number(condition: str) -> int:
     """Return a number that belongs to a condition whatever others are there."""
     known = list(CONDITIONS)
     return known.index(condition) if condition in known else int.from_bytes(condition.encode(), "big")
