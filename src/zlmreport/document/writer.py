@@ -43,7 +43,7 @@ class Marks:
             frozenset(key for each in keys.external for key in each.keys),
         )
 
-    def after(self, *keys: str) -> str:
+    def write_after(self, *keys: str) -> str:
         """Return the marks behind the name of what comes from these keys: ``' †'``; empty for most.
 
         `keys`: Dotted. A group is marked if anything in it is somebody else's, and a key if its group is.

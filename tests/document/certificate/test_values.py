@@ -89,5 +89,5 @@ def test_there_are_columns_for_what_is_stated(stated: dict[str, bool], columns: 
 
     values = Values.of([found], SCRIBE)
 
-    assert len(values.columns()) == columns
-    assert all(len(values.cells(each)) + 2 == columns for each in found.parameters)
+    assert len(values.list_columns()) == columns
+    assert all(len(values.list_cells(each)) + 2 == columns for each in found.parameters)

@@ -41,7 +41,7 @@ def test_values_stand_so_far_outside_the_nominal_circle_as_they_are_large():
     assert 0.0 in grid.ticks
     assert grid.ticks[0] <= -3.0
     assert grid.ticks[-1] >= 3.0
-    assert float(grid.radius(grid.ticks[0])) > 0
+    assert float(grid.compute_radius(grid.ticks[0])) > 0
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0, 3e4])

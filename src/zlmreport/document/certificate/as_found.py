@@ -273,7 +273,7 @@ def lay_out_limits(pairs: Sequence[Pair], writer: Writer) -> Iterator[Table]:
     columns = (
         Column(writer.say(Words("Symbol"))),
         Column(
-            writer.say(Words("Limit")) + writer.marks.after("evaluate.tolerances"),
+            writer.say(Words("Limit")) + writer.marks.write_after("evaluate.tolerances"),
             writer.deviation_unit.symbol,
             Align.RIGHT,
         ),

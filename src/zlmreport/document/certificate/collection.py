@@ -158,13 +158,13 @@ def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
         for evaluation in part.evaluations:
             own = replace(values, writer=Writer.of(evaluation.measurements, writer.language, writer.marks))
             rows = tuple(
-                (Symbol(each.quantity.notation), writer.say(each.quantity.name), *own.cells(each))
+                (Symbol(each.quantity.notation), writer.say(each.quantity.name), *own.list_cells(each))
                 for each in _choose_in_brief(evaluation)
             )
             heading = _GROUP.given(subject=part.subtitle, designation=evaluation.designation)
             groups.append(RowGroup(rows, writer.say(heading), section=_name_key_of_first(name, part)))
     return Table(
-        writer.say(_SUMMARY), values.columns(), tuple(each for each in groups if each.rows), dense=True
+        writer.say(_SUMMARY), values.list_columns(), tuple(each for each in groups if each.rows), dense=True
     )
 
 

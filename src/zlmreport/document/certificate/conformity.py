@@ -129,7 +129,7 @@ def _say_source_of_limits(evaluations: Sequence[Evaluation], writer: Writer) -> 
         for each in limited
         if each.specification
     )
-    mark = writer.marks.after("evaluate.specification")
+    mark = writer.marks.write_after("evaluate.specification")
     return _SPECIFICATION.given(names=names if some else next(iter(named)), mark=mark)
 
 
@@ -165,7 +165,7 @@ def lay_out_statements(evaluations: Sequence[Evaluation], writer: Writer) -> Ite
         Column(writer.say(Words("Symbol"))),
         Column(writer.say(Words("Amount")), unit, Align.RIGHT),
         Column(
-            writer.say(Words("Limit TL")) + writer.marks.after("evaluate.tolerances"),
+            writer.say(Words("Limit TL")) + writer.marks.write_after("evaluate.tolerances"),
             unit,
             Align.RIGHT,
         ),

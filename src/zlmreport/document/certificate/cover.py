@@ -151,14 +151,14 @@ def _say_as_found(job: Job, writer: Writer) -> Iterator[Block]:
 
 def _lay_out_results(pages: Sequence[tuple[Evaluated, ...]], writer: Writer, *, dense: bool) -> Table:
     values = Values.of((page[0].evaluation for page in pages), writer)
-    columns = values.columns()
+    columns = values.list_columns()
     groups = tuple(
         RowGroup(
             tuple(
                 (
                     Symbol(parameter.quantity.notation),
                     writer.say(parameter.quantity.name),
-                    *values.cells(parameter),
+                    *values.list_cells(parameter),
                 )
                 for parameter in _choose_in_brief(page[0].evaluation)
             ),

@@ -166,14 +166,14 @@ def say_parameters(evaluation: Evaluation) -> Words:
 
 def _lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     values = Values.of([evaluation], writer, with_interval=True)
-    columns = values.columns(Words("Parameter and what it means"))
+    columns = values.list_columns(Words("Parameter and what it means"))
     groups = []
     for group, (heading, note) in _GROUPS.items():
         rows = tuple(
             (
                 Symbol(parameter.quantity.notation),
                 Explained(writer.say(parameter.quantity.name), writer.say(parameter.quantity.meaning)),
-                *values.cells(parameter),
+                *values.list_cells(parameter),
             )
             for parameter in evaluation.parameters
             if parameter.quantity.group is group

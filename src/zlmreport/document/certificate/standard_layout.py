@@ -309,7 +309,7 @@ def _list_numbers(evaluation: Evaluation, writer: Writer) -> list[object]:
     """Return what is printed of an evaluation, but for its limits."""
     without_limits = Values(writer, has_uncertainty=True, has_limits=False)
     parameters = [
-        (each.quantity.notation, each.quantity.group, without_limits.cells(each))
+        (each.quantity.notation, each.quantity.group, without_limits.list_cells(each))
         for each in evaluation.parameters
     ]
     return [parameters, *results.lay_out_by_position(evaluation, writer)]
@@ -328,10 +328,10 @@ def _list_shortfalls(evaluations: Sequence[Evaluation], writer: Writer) -> Itera
 def lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
     """Return all parameters by a standard: a row each, what repeats apart from what scatters."""
     values = Values.of([evaluation], writer, with_interval=True)
-    headings = values.columns()
+    headings = values.list_columns()
     groups = (
         tuple(
-            (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.cells(each))
+            (Symbol(each.quantity.notation), writer.say(each.quantity.name), *values.list_cells(each))
             for each in evaluation.parameters
             if each.quantity.group is group
         )

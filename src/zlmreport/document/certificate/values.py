@@ -50,15 +50,15 @@ class Values:
             is_mixed(parameters, writer),
         )
 
-    def columns(self, parameter: Words = _PARAMETER) -> tuple[Column, ...]:
+    def list_columns(self, parameter: Words = _PARAMETER) -> tuple[Column, ...]:
         """Return the headings of a row's symbol, of its parameter, and of what `cells` are."""
-        return tuple(self._columns(parameter))
+        return tuple(self._make_columns(parameter))
 
-    def cells(self, parameter: Parameter) -> tuple[Cell, ...]:
+    def list_cells(self, parameter: Parameter) -> tuple[Cell, ...]:
         """Return how large a parameter is, cell by cell."""
-        return tuple(self._cells(parameter))
+        return tuple(self._make_cells(parameter))
 
-    def _columns(self, parameter: Words) -> Iterator[Column]:
+    def _make_columns(self, parameter: Words) -> Iterator[Column]:
         say, unit = self.writer.say, "" if self.is_mixed else self.writer.deviation_unit.symbol
         yield Column(say(_SYMBOL))
         yield Column(say(parameter))
@@ -69,22 +69,24 @@ class Values:
         if self.has_interval:
             yield Column(say(_AXIS), unit, Align.RIGHT)
         if self.has_limits:
-            yield Column(say(_LIMIT) + self.writer.marks.after("evaluate.tolerances"), unit, Align.RIGHT)
+            yield Column(
+                say(_LIMIT) + self.writer.marks.write_after("evaluate.tolerances"), unit, Align.RIGHT
+            )
             yield Column(say(_CONFORMITY))
 
-    def _cells(self, parameter: Parameter) -> Iterator[Cell]:
+    def _make_cells(self, parameter: Parameter) -> Iterator[Cell]:
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
-        yield self._with_unit(value, parameter)
+        yield self._add_unit(value, parameter)
         if self.has_uncertainty:
-            yield self._with_unit(uncertainty, parameter)
+            yield self._add_unit(uncertainty, parameter)
             yield write_coverage_factor(parameter, self.writer)
         if self.has_interval:
-            yield self._with_unit(write_interval(parameter, self.writer), parameter)
+            yield self._add_unit(write_interval(parameter, self.writer), parameter)
         if self.has_limits:
-            yield self._with_unit(limit(parameter, self.writer), parameter)
+            yield self._add_unit(limit(parameter, self.writer), parameter)
             yield conformity.make_verdict_cell(parameter, self.writer)
 
-    def _with_unit(self, number: str, parameter: Parameter) -> str:
+    def _add_unit(self, number: str, parameter: Parameter) -> str:
         """Write the unit beside a number, where the column has none."""
         if not self.is_mixed or number == NOTHING:
             return number

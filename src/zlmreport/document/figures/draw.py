@@ -367,11 +367,11 @@ def draw(figure: Figure, language: Language, canvas: Canvas) -> None:
     for shape in draw_figure_shapes(layout):
         match shape:
             case Outline():
-                pen.outline(shape)
+                pen.draw_outline(shape)
             case PointMarks():
-                pen.marks(shape)
+                pen.draw_marks(shape)
             case Lettering():
-                pen.lettering(shape)
+                pen.set_lettering(shape)
 
 
 def to_svg(figure: Figure, language: Language) -> str:
@@ -391,9 +391,9 @@ class _Pen:
         self._canvas = canvas
         self._height = height
 
-    def outline(self, outline: Outline) -> None:
+    def draw_outline(self, outline: Outline) -> None:
         """Draw an outline."""
-        places = self._places(np.concatenate(outline.parts), outline.frame).tolist()
+        places = self._place(np.concatenate(outline.parts), outline.frame).tolist()
         segments: list[Segment] = []
         begin = 0
         for part in outline.parts:
@@ -407,9 +407,9 @@ class _Pen:
         if segments:
             self._canvas.outline(outline.kind, segments, outline.stroke, outline.fill)
 
-    def marks(self, marks: PointMarks) -> None:
+    def draw_marks(self, marks: PointMarks) -> None:
         """Draw all marks as one outline of many parts."""
-        places = self._places(marks.points, marks.frame)
+        places = self._place(marks.points, marks.frame)
         places = places[np.isfinite(places).all(axis=1)]
         segments: list[tuple[Segment, ...]] = []
         for operator, points in _SHAPES[marks.mark]:
@@ -420,7 +420,7 @@ class _Pen:
             drawn = [segment for mark in zip(*segments, strict=True) for segment in mark]
             self._canvas.outline(marks.kind, drawn, marks.stroke, marks.fill)
 
-    def lettering(self, lettering: Lettering) -> None:
+    def set_lettering(self, lettering: Lettering) -> None:
         """Set a label."""
         placed = lettering.placed
         cosine, sine = math.cos(math.radians(placed.angle)), math.sin(math.radians(placed.angle))
@@ -436,7 +436,7 @@ class _Pen:
         ]
         self._canvas.text(lettering.kind, runs, lettering.colour, placed.angle)
 
-    def _places(self, points: FloatArray, frame: Frame | None) -> FloatArray:
+    def _place(self, points: FloatArray, frame: Frame | None) -> FloatArray:
         """Return where points lie on the canvas, shape (N, 2)."""
         if frame is not None:
             points = (points - (frame.x_scale.lower, frame.y_scale.lower)) * (

@@ -70,14 +70,14 @@ class PolarGrid:
         """From circle to circle."""
         return self.ticks[1] - self.ticks[0] if len(self.ticks) > 1 else 0.0
 
-    def radius(self, value: FloatArray | float) -> FloatArray:
+    def compute_radius(self, value: FloatArray | float) -> FloatArray:
         """Return the distance from the middle, in the unit of the values."""
         return np.asarray(value) - self.base
 
-    def around(self, angle: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def place_around(self, angle: FloatArray, value: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return where values over angles, °, are drawn."""
         radians = np.radians(angle)
-        radius = self.radius(value)
+        radius = self.compute_radius(value)
         return radius * np.cos(radians), radius * np.sin(radians)
 
     def scale(self, side: float) -> AxisScale:
@@ -108,17 +108,17 @@ def place_on_circle(panel: Panel, grid: PolarGrid) -> Panel:
     """Return the panel with everything where it is drawn; what has no place on a circle is left out."""
 
     def placed(curve: Curve) -> Curve:
-        x, y = grid.around(curve.x, curve.y)
+        x, y = grid.place_around(curve.x, curve.y)
         return replace(curve, x=x, y=y)
 
     curves = [placed(curve) for curve in panel.curves]
     for band in panel.bands:
         for limit in (band.lower, band.upper):
-            x, y = grid.around(band.x, limit)
+            x, y = grid.place_around(band.x, limit)
             curves.append(Curve(band.notation, band.role, x, y))
     readings = []
     for each in panel.readings:
-        x, y = grid.around(each.x, each.y)
+        x, y = grid.place_around(each.x, each.y)
         readings.append(replace(each, x=x, y=y))
     return replace(
         panel, curves=tuple(curves), readings=tuple(readings), bands=(), arrows=(), brackets=(), levels=()
@@ -134,12 +134,12 @@ def find_largest_square(box: Box) -> Box:
 
 def draw_polar_grid(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Shape]:
     """Yield the circles and rays behind the curves; the nominal circle is drawn as zero is elsewhere."""
-    outermost = float(grid.radius(grid.ticks[-1]))
+    outermost = float(grid.compute_radius(grid.ticks[-1]))
     for value in grid.ticks:
         yield _draw_circle("zero" if value == 0 else "grid", grid, value, frame)
     rays = []
     for direction in map(math.radians, _DIRECTIONS):
-        inner = float(grid.radius(grid.ticks[0]))
+        inner = float(grid.compute_radius(grid.ticks[0]))
         ends = np.outer([inner, outermost], [math.cos(direction), math.sin(direction)])
         rays.append([tuple(point) for point in frame.points(ends[:, 0], ends[:, 1]).tolist()])
     yield join_lines("grid", rays, GRID)
@@ -153,14 +153,14 @@ def draw_direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterato
     """Yield a point on the nominal circle at each direction that has a name."""
     if panel.directions:
         angles = np.array([angle for angle, _ in panel.directions])
-        points = np.column_stack(grid.around(angles, np.zeros_like(angles)))
+        points = np.column_stack(grid.place_around(angles, np.zeros_like(angles)))
         yield PointMarks(
             "direction", points, PointShape.DISC, MARK_SIZES[PointShape.DISC], RIM, Fill(INK), frame
         )
 
 
 def _draw_circle(kind: str, grid: PolarGrid, value: float, frame: Frame) -> Outline:
-    radius = float(grid.radius(value))
+    radius = float(grid.compute_radius(value))
     points = frame.points(radius * np.cos(_AROUND), radius * np.sin(_AROUND))
     return Outline(kind, (points,), ZERO if kind == "zero" else GRID)
 
@@ -170,11 +170,11 @@ def place_grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[L
     names = dict(panel.directions)
     told_at = math.radians(_TOLD_AT)
     for value, text in zip(grid.ticks, grid.labels, strict=True):
-        radius = float(grid.radius(value))
+        radius = float(grid.compute_radius(value))
         x, y = frame.x_point(radius * math.cos(told_at)), frame.y_point(radius * math.sin(told_at))
         label = make_plain_label(text, TICK_TEXT_SIZE)
         yield Lettering("circle", PlacedLabel(label, x - label.width / 2, y - label.rise), INK)
-    outermost = float(grid.radius(grid.ticks[-1]))
+    outermost = float(grid.compute_radius(grid.ticks[-1]))
     for degrees in _DIRECTIONS:
         across, up = (round(part(math.radians(degrees)), 9) for part in (math.cos, math.sin))
         label = make_plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
