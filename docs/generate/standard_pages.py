@@ -42,7 +42,7 @@ def text() -> str:
     own = [
         standard
         for standard in registry.standards
-        if registry.origin(STANDARD, standard.identifier).distribution == "zlmreport"
+        if registry.find_origin(STANDARD, standard.identifier).distribution == "zlmreport"
     ]
     return "\n\n".join(part for standard in own for part in _section(standard))
 

@@ -282,7 +282,7 @@ def evaluate_tests(
 
 def find_programs(job: Job, registry: Registry) -> Programs:
     """Return the programs that make the document of a job."""
-    return GENERATOR, registry.versions(job)
+    return GENERATOR, registry.list_versions(job)
 
 
 def _find_doubts_of_extensions(job: Job, measurements: MeasurementSet, registry: Registry) -> Iterator[Words]:
@@ -428,7 +428,7 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     carriers = [each for each in renderers if carries_attachments(each)]
     others = [each for each in renderers if each not in carriers]
     is_asked_for = any(each.identifier == RESULTS for each in others)
-    if carriers and not is_asked_for and RESULTS in registry.identifiers(RENDERER):
+    if carriers and not is_asked_for and RESULTS in registry.list_identifiers(RENDERER):
         others.append(registry.renderer(RESULTS))
     contents = {each.identifier: each.render(certificate) for each in others}
     if carriers:

@@ -81,7 +81,7 @@ def _tell_lines(looked: Looked, path: Path) -> Iterator[str]:
         for question in looked.proposal.asks:
             yield from wrap(question)
     yield ""
-    yield from looked.block(path.name)
+    yield from looked.write_block(path.name)
 
 
 def _summarise(read: MeasurementSet) -> str:

@@ -23,7 +23,7 @@ def run(options: Namespace) -> int:
 
 def list_plugins(registry: Registry) -> Iterator[str]:
     """Yield the lines on all plugins, kind by kind."""
-    offers = registry.offers()
+    offers = registry.list_offers()
     for kind in KINDS:
         yield Colour.BOLD.set(f"{kind.label}s")
         rows = [

@@ -229,7 +229,7 @@ def name_programs_of(job: Job, formats: Iterable[str], registry: Registry) -> fr
     keys: list[tuple[kinds.Kind[Any], str]] = [(kinds.SOURCE, each.identifier) for each in job.sources]
     keys.extend((kinds.STANDARD, choice.identifier) for part in job.parts for choice in part.standards)
     keys.extend((kinds.RENDERER, identifier) for identifier in formats)
-    plugins = [registry.origin(kind, identifier) for kind, identifier in keys]
+    plugins = [registry.find_origin(kind, identifier) for kind, identifier in keys]
     names = {plugin.distribution or plugin.module for plugin in plugins}
     return frozenset(names | {OWN} | ({_ALL} if any(part.effects for part in job.parts) else set()))
 

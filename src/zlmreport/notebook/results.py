@@ -135,7 +135,7 @@ class Result:
     def parameters(self) -> tuple[Value, ...]:
         """The parameters that this test defines, in the order of the standard."""
         if self._limits or "evaluation" in self.__dict__:
-            return tuple(map(self._value, self.evaluation.parameters))
+            return tuple(map(self._make_value, self.evaluation.parameters))
         found, unit = self.arithmetic.parameters, self.data.measurements.axis.deviation_unit
         return tuple(
             Value(
@@ -148,7 +148,7 @@ class Result:
             if not isnan(found[each.symbol])
         )
 
-    def _value(self, parameter: Parameter) -> Value:
+    def _make_value(self, parameter: Parameter) -> Value:
         unit = parameter.quantity.unit_or(self.data.measurements.axis.deviation_unit)
         expanded, limit, decision = parameter.expanded_uncertainty, parameter.limit, parameter.decision
         return Value(

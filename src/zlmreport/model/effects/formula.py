@@ -132,7 +132,7 @@ class FormulaEffect(Effect):
         """Return where the search for parameters begins of which not every value in a range makes sense."""
         found: dict[str, Search | FloatArray] = {}
         for name, each in self.keys.parameters.items():
-            values = self.formula.sensible(name)
+            values = self.formula.list_sensible(name)
             if each.instead and self._is_other(each):
                 found[name] = np.array(each.instead.values) / self.formula.units[name].per_si
             elif values is not None:
@@ -254,7 +254,7 @@ class FormulaEffect(Effect):
         """Return why physics and the log of a test forbid values of parameters, SI."""
         rise = find_logged_rise(design)
         for name, value in values.items():
-            low, high = self.formula.possible(name, rise)
+            low, high = self.formula.bound(name, rise)
             possible = self.keys.parameters[name].possible if name in self.keys.parameters else None
             if possible is not None and not low <= value <= high:
                 return possible.because
@@ -296,7 +296,7 @@ class FormulaEffect(Effect):
         keys = {name: getattr(axis, name) for name in AXIS_KEYS} | {"turn": 2 * np.pi}
         found = {}
         for parameter in (*self.linear, *self.searched):
-            value = self.formula.stated(parameter.name, keys)
+            value = self.formula.find_stated(parameter.name, keys)
             if value is not None:
                 whole = self.keys.parameters[parameter.name].search is Search.WHOLE_NUMBER
                 found[parameter.name] = float(round(value)) if whole else value
@@ -304,7 +304,7 @@ class FormulaEffect(Effect):
 
     def columns(self, design: Design, theta: FloatArray) -> FloatArray:
         """Return what each linear parameter is multiplied with."""
-        return self.formula.values(self._list_readings(design), self._name_searched(theta))
+        return self.formula.compute_values(self._list_readings(design), self._name_searched(theta))
 
     def find_shortest_wave(self, along: Design, theta: FloatArray) -> float:
         """Return the length of the shortest wave at rising positions, m or rad; infinite without any."""

@@ -56,7 +56,7 @@ def find_plugins(
         if point.name in off:
             disabled.append(point.name)
             continue
-        plugin = Plugin(point.name, point.module, *releases.of(point))
+        plugin = Plugin(point.name, point.module, *releases.find(point))
         candidates.append(PluginCandidate(plugin, point.load, (kind, point.name) if kind else None))
     named = [Path(name) for name in environment.get(FILES, "").split(os.pathsep) if name]
     from_files: list[PluginCandidate] = []
@@ -87,7 +87,7 @@ class _Releases:
     def __init__(self) -> None:
         self._known: dict[int, tuple[str, str]] = {}
 
-    def of(self, point: EntryPoint) -> tuple[str, str]:
+    def find(self, point: EntryPoint) -> tuple[str, str]:
         """Return the distribution of an entry point and its version."""
         if point.dist is None:
             return "", ""
