@@ -111,12 +111,12 @@ def standards_text() -> str:
 
 def programs_text() -> str:
     """Return the keys of each installed writer of part programs."""
-    return _programs_text(find_plugins().programs_for())
+    return _programs_text(find_plugins().list_programs_for())
 
 
 def probing_programs_text() -> str:
     """Return the keys of each installed writer of paths of a probe."""
-    return _programs_text(find_plugins().programs_for(ProbingPath))
+    return _programs_text(find_plugins().list_programs_for(ProbingPath))
 
 
 def extensions_text() -> str:

@@ -101,10 +101,10 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names and correct them; none is set aside."""
     if job.tests:
         return join_lines(job.axis, {name: read_whole(each, registry) for name, each in job.tests.items()})
-    source = registry.source(job.source.identifier)
+    source = registry.find_source(job.source.identifier)
     set_ups = {
         choice.identifier: extension.set_up(job, choice.options)
-        for extension, choice in registry.extensions_of(job)
+        for extension, choice in registry.list_extensions_of(job)
     }
     context = SourceContext(job.axis, job.source.place, set_ups)
     measurements = source.read(job.source.options, context)
@@ -165,7 +165,7 @@ def compose(  # noqa: PLR0913 - what a document is made of
     def describe(writer: Writer) -> list[Described]:
         said = [
             extension.described(job, choice.options, writer)
-            for extension, choice in registry.extensions_of(job)
+            for extension, choice in registry.list_extensions_of(job)
         ]
         return [each for each in said if each]
 
@@ -287,7 +287,7 @@ def find_programs(job: Job, registry: Registry) -> Programs:
 
 def _find_doubts_of_extensions(job: Job, measurements: MeasurementSet, registry: Registry) -> Iterator[Words]:
     """Yield what the extensions of a job doubt of their groups of keys."""
-    for extension, choice in registry.extensions_of(job):
+    for extension, choice in registry.list_extensions_of(job):
         yield from extension.doubts(job, choice.options, measurements)
 
 
@@ -306,7 +306,7 @@ def make_budget_of_job(job: Job, measurements: MeasurementSet, registry: Registr
         return join_budgets(budgets, brought, job.axis.measurand.contributors, negligible)
     own = tuple(
         contribution
-        for extension, choice in registry.extensions_of(job)
+        for extension, choice in registry.list_extensions_of(job)
         for contribution in extension.contributions(job, choice.options, measurements)
     )
     return make_budget_of(job, measurements, own)
@@ -391,7 +391,7 @@ def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]
     """Return the standards that a job names, as they evaluate what was measured, each with its own keys."""
     stated = job.axis.error or job.axis.measurand.identifier
     return [
-        (evaluate_for_error(registry.standard(choice.identifier), stated), choice.options)
+        (evaluate_for_error(registry.find_standard(choice.identifier), stated), choice.options)
         for choice in job.standards
     ]
 
@@ -399,7 +399,7 @@ def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]
 def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
     demand_days_past(job)
-    renderers = [registry.renderer(identifier) for identifier in job.formats]
+    renderers = [registry.find_renderer(identifier) for identifier in job.formats]
     with _collect_garbage_once():
         is_laid_out = any(map(needs_layout, renderers))
         certificate = compose(job, registry, showing=showing, is_laid_out=is_laid_out)
@@ -429,7 +429,7 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     others = [each for each in renderers if each not in carriers]
     is_asked_for = any(each.identifier == RESULTS for each in others)
     if carriers and not is_asked_for and RESULTS in registry.list_identifiers(RENDERER):
-        others.append(registry.renderer(RESULTS))
+        others.append(registry.find_renderer(RESULTS))
     contents = {each.identifier: each.render(certificate) for each in others}
     if carriers:
         attached = [

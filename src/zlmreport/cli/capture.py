@@ -75,7 +75,7 @@ def run(options: Namespace) -> int:
         raise InputError.at(Place("zlmreport capture"), "--answer belongs to --resume: state both")
     registry = find_plugins(files=options.plugin)
     job = load(options.job, registry).line(options.test, Place("zlmreport capture --test"))
-    for extension, choice in registry.extensions_of(job):
+    for extension, choice in registry.list_extensions_of(job):
         live = extension.live(job, choice.options)
         if live:
             return _run_live(live, options)
@@ -217,7 +217,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     else:
         demand_nothing_captured(assignment.options.journal)
     choice = find_instrument_of(job)
-    with registry.instrument(choice.identifier).open(choice.options) as connection:
+    with registry.find_instrument(choice.identifier).open(choice.options) as connection:
         display.wait()
         readings = ReadAhead(connection.readings())
         first = next(readings)  # an instrument that is not there leaves no journal

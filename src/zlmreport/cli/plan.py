@@ -62,7 +62,11 @@ def run(options: Namespace) -> int:
     if own:
         return _show_plan(options, job, registry, own)
     programs = choose_programs(
-        options.program, options.output, job.programs, registry.part_program, registry.programs_for()
+        options.program,
+        options.output,
+        job.programs,
+        registry.find_part_program,
+        registry.list_programs_for(),
     )
     demand_file(options, programs)
     effects = [each for each in registry.effects if is_for(each, job.axis.measurand)]
@@ -75,14 +79,22 @@ def run(options: Namespace) -> int:
             documents = (
                 *make_plan_files(options.output, job, planned),
                 *make_program_files(
-                    options.output, number, partial(write_program_of, motion), programs, registry.part_program
+                    options.output,
+                    number,
+                    partial(write_program_of, motion),
+                    programs,
+                    registry.find_part_program,
                 ),
             )
         else:
             of_run = f"{number}-run-{options.run}"
             subject = partial(_find_motion_of_run, motion, options.run)
             documents = make_program_files(
-                options.output, of_run, partial(write_program_of, subject), programs, registry.part_program
+                options.output,
+                of_run,
+                partial(write_program_of, subject),
+                programs,
+                registry.find_part_program,
             )
     written = write_new(documents)
     if options.json:
@@ -147,7 +159,7 @@ def _plan_of_extension(
     job: Job, registry: Registry
 ) -> tuple[Extension, ExtensionChoice, ExtensionPlan] | None:
     """Return the plan of the first extension of a job that plans its test; None if none does."""
-    for extension, choice in registry.extensions_of(job):
+    for extension, choice in registry.list_extensions_of(job):
         plan = extension.plan(job, choice.options)
         if plan:
             return extension, choice, plan
@@ -162,8 +174,8 @@ def _show_plan(
 ) -> int:
     """Write and print a plan."""
     extension, choice, plan = found
-    find = partial(registry.part_program, takes=extension.takes)
-    known = registry.programs_for(extension.takes) if extension.takes else ()
+    find = partial(registry.find_part_program, takes=extension.takes)
+    known = registry.list_programs_for(extension.takes) if extension.takes else ()
     programs = choose_programs(options.program, options.output, choice.programs, find, known)
     number = job.keys.certificate.number
     documents: tuple[Document, ...] = ()

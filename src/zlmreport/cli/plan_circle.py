@@ -27,7 +27,11 @@ from zlmreport.plugin.registry import Registry
 def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
     """Write and print the path of a circular test: a program for each control and each feed."""
     programs = choose_programs(
-        options.program, options.output, job.programs, registry.part_program, registry.programs_for()
+        options.program,
+        options.output,
+        job.programs,
+        registry.find_part_program,
+        registry.list_programs_for(),
     )
     demand_file(options, programs)
     keys, number = job.keys, job.keys.certificate.number
@@ -47,7 +51,7 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
             "-".join(parts),
             partial(_write_program, registry, of_run),
             programs,
-            registry.part_program,
+            registry.find_part_program,
         )
     written = write_new(tuple(documents))
     if options.json:
@@ -69,7 +73,7 @@ def _write_program(registry: Registry, path: CirclePath, program: PartProgram, c
     """Return the program of a circle; raise `InputError` where its writer writes none."""
     write = find_circle_writer(program)
     if write is None:
-        known = [each.identifier for each in registry.programs_for() if find_circle_writer(each)]
+        known = [each.identifier for each in registry.list_programs_for() if find_circle_writer(each)]
         raise InputError.at(
             choice.place, f"{program.identifier} writes no circles; these do: {', '.join(known) or 'none'}"
         )

@@ -126,14 +126,14 @@ def _make_sections(state: FleetState, cells: CellWriter) -> Iterator[OverviewSec
     nothing = "" if needed else cells.say(words.NOTHING if state.jobs else words.NO_NIGHT)
     yield OverviewSectionContext("needs", cells.say(words.NEEDS), nothing, "calm", needed)
     if state.terms:
-        soon = _DUE.of(_list_terms(state.soon, cells), cells)
+        soon = _DUE.lay_out(_list_terms(state.soon, cells), cells)
         nothing = "" if state.soon else cells.say(words.NOTHING_DUE.given(days=SOON.days))
         tables = (render(soon),) if state.soon else ()
         yield OverviewSectionContext("due", cells.say(words.DUE_SOON), nothing, "calm", tables)
     common = find_shared(state.effects)
     if common:
         found = [(OverviewCellContext(each.axis, note=each.type), [each]) for each in common]
-        tables = (render(_SHARED.of(found, cells)),)
+        tables = (render(_SHARED.lay_out(found, cells)),)
         yield OverviewSectionContext("shared", cells.say(words.SHARED), "", "", tables)
     shown = (render(make_tools(state, cells)), render(list_machines(state, cells))) if state.trends else ()
     yield OverviewSectionContext("machines", cells.say(words.MACHINES), "", "", shown)
@@ -155,7 +155,7 @@ class _Table(Generic[T]):
     columns: tuple[tuple[Words, Callable[[CellWriter, T], OverviewCellContext]], ...]
     style: str = ""
 
-    def of(
+    def lay_out(
         self, groups: Iterable[tuple[OverviewCellContext, Iterable[T]]], cells: CellWriter
     ) -> OverviewTableContext:
         """Return the table of groups, each with its first cell and what its rows are about."""
@@ -272,14 +272,14 @@ def list_needs(state: FleetState, cells: CellWriter) -> Iterator[OverviewTableCo
         (OverviewCellContext(each.entry.job, note=each.entry.of_axis), [each]) for each in state.failures
     ]
     tables = (
-        _NOTICED.of(noticed, cells),
-        _FAILED.of(failed, cells),
-        _NOT_MET.of(_list_axes(state.not_met, cells), cells),
-        _UNDECIDED.of(_list_axes(state.undecided, cells), cells),
-        _CHANGED.of(_list_axes(state.changed, cells), cells),
-        _DRIFTING.of(_list_drifts(state.drifting, cells), cells),
-        _OVERDUE.of(_list_terms(state.overdue, cells), cells),
-        _DRAFTS.of([(cells.write_issued(each), [each]) for each in state.drafts], cells),
+        _NOTICED.lay_out(noticed, cells),
+        _FAILED.lay_out(failed, cells),
+        _NOT_MET.lay_out(_list_axes(state.not_met, cells), cells),
+        _UNDECIDED.lay_out(_list_axes(state.undecided, cells), cells),
+        _CHANGED.lay_out(_list_axes(state.changed, cells), cells),
+        _DRIFTING.lay_out(_list_drifts(state.drifting, cells), cells),
+        _OVERDUE.lay_out(_list_terms(state.overdue, cells), cells),
+        _DRAFTS.lay_out([(cells.write_issued(each), [each]) for each in state.drafts], cells),
     )
     return (each for each in tables if each.groups)
 

@@ -30,7 +30,7 @@ class CircleForm:
         """The groups of its terms."""
         return frozenset(each.group or each.name for each in self.terms)
 
-    def of_groups(self, chosen: frozenset[str]) -> CircleForm:
+    def keep_groups(self, chosen: frozenset[str]) -> CircleForm:
         """Return the form with the terms of some groups alone."""
         return CircleForm(
             self.searched, tuple(each for each in self.terms if (each.group or each.name) in chosen)
@@ -64,7 +64,7 @@ def split_parts_of(effect: CircleEffect, whole: CircleForm) -> tuple[CircleForm,
     groups = sorted(whole.groups)
     sizes = {len(groups)} if effect.is_base else {1} if effect.is_single else {1, len(groups)}
     return tuple(
-        whole.of_groups(frozenset(chosen))
+        whole.keep_groups(frozenset(chosen))
         for size in sorted(sizes - {0})
         for chosen in combinations(groups, size)
     )

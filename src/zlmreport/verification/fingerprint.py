@@ -37,7 +37,7 @@ class Fingerprints:
         self._size = 0
         self._streams: dict[int, bytes] = {}
 
-    def of(self, part: PdfObject, without: frozenset[str] = frozenset()) -> str:
+    def compute_digest(self, part: PdfObject, without: frozenset[str] = frozenset()) -> str:
         """Return the digest of an object with all that it leads to, but for what stands under some keys."""
         digest = hashlib.sha256()
         for each in self._list_tokens(part, without):

@@ -123,7 +123,7 @@ class _Comparison:
         return CheckedStatement.of(_say_page(number), f"its {kinds[0]} differ" if kinds else "")
 
     def _is_same_resource(self, name: tuple[str, str], used: Any, again: Any) -> bool:
-        digests = self._prints.of(used), self._prints_again.of(again)
+        digests = self._prints.compute_digest(used), self._prints_again.compute_digest(again)
         if digests not in self._same:
             is_font = name[0] == "/Font"
             self._same[digests] = digests[0] == digests[1] or (
@@ -131,8 +131,8 @@ class _Comparison:
                 and show_the_same(
                     used.get_object(),
                     again.get_object(),
-                    self._prints.of,
-                    self._prints_again.of,
+                    self._prints.compute_digest,
+                    self._prints_again.compute_digest,
                     completely=self._pages == self._pages_again,
                 )
             )
@@ -187,7 +187,7 @@ class _Comparison:
         yield from _check_metadata(self._prints.carrier.metadata, self._prints_again.carrier.metadata)
 
     def _is_same_part(self, stated: Any, again: Any) -> bool:
-        if self._prints.of(stated) == self._prints_again.of(again):
+        if self._prints.compute_digest(stated) == self._prints_again.compute_digest(again):
             return True
         return not self._is_drawn_alike and self._prints.is_like(stated, self._prints_again, again)
 
@@ -207,19 +207,22 @@ class Prints:
         pages = {page.indirect_reference.idnum: number for number, page in enumerate(self._reader.pages, 1)}
         self._fingerprints = Fingerprints(pages, carrier.place)
 
-    def of(self, part: Any) -> str:
+    def compute_digest(self, part: Any) -> str:
         """Return the digest of a part; one that has a number of its own is looked at once."""
         number = getattr(part, "idnum", None)
         if number is None:
-            return self._fingerprints.of(part)
+            return self._fingerprints.compute_digest(part)
         if number not in self._known:
-            self._known[number] = self._fingerprints.of(part)
+            self._known[number] = self._fingerprints.compute_digest(part)
         return self._known[number]
 
     @cached_property
     def pages(self) -> list[str]:
         """Return the digest of each page, of its strokes and links without the fonts and pictures it uses."""
-        return [self._fingerprints.of(page, without=frozenset({"/Resources"})) for page in self._reader.pages]
+        return [
+            self._fingerprints.compute_digest(page, without=frozenset({"/Resources"}))
+            for page in self._reader.pages
+        ]
 
     def is_like(self, part: Any, other: Prints, part_of_other: Any) -> bool:
         """Whether two parts are the same but for places on the pages, which other libraries compute."""
@@ -229,7 +232,7 @@ class Prints:
         """Whether two pages are the same but for what they draw, and for the places of their links."""
         page, page_of_other = self._reader.pages[number], other._reader.pages[number_of_other]
         digests = (
-            prints._fingerprints.of(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
+            prints._fingerprints.compute_digest(each, without=_DRAWN)  # noqa: SLF001 - another of its kind
             for prints, each in ((self, page), (other, page_of_other))
         )
         links = [_read_links(each) for each in (page, page_of_other)]
@@ -243,7 +246,7 @@ class Prints:
     def list_marks(self, number: int) -> list[DrawnMark]:
         """Return what a page draws."""
         if number not in self._marks:
-            self._marks[number] = list_marks(self._reader.pages[number], self.of, self._fonts)
+            self._marks[number] = list_marks(self._reader.pages[number], self.compute_digest, self._fonts)
         return self._marks[number]
 
     def list_words(self, number: int) -> list[str]:

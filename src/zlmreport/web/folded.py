@@ -37,7 +37,7 @@ class _Wave:
     fit: Fit
     place: int  #: Of the effect among those of the model.
 
-    def at(self, design: Design) -> FloatArray:
+    def compute(self, design: Design) -> FloatArray:
         """Return what the effect makes of readings, m or rad, shape (N,)."""
         effect, solution = self.fit.model.terms[self.place].effect, self.fit.solution
         columns = effect.columns(design, solution.thetas[self.place])
@@ -45,7 +45,7 @@ class _Wave:
 
     def compute_along(self, positions: FloatArray, approach: Approach) -> FloatArray:
         """Return what the effect makes of readings at positions in one direction, m or rad, shape (M,)."""
-        return self.at(place_at_positions(self.fit.design, positions, approach))
+        return self.compute(place_at_positions(self.fit.design, positions, approach))
 
     def find_period(self) -> float | None:
         """Return after which length the effect repeats, m or rad; None if it does not."""
@@ -95,7 +95,7 @@ def fold(bench: Bench, loaded: Loaded, named: str, language: Language) -> dict[s
     title = _WITHIN.given(period=length, unit=along.symbol)
     return {
         "x": collect_drawn_values(along.from_si(observed.design.position % period)),
-        "y": collect_drawn_values(unit.from_si(left + wave.at(observed.design))),
+        "y": collect_drawn_values(unit.from_si(left + wave.compute(observed.design))),
         "direction": np.where(observed.design.direction > 0, 1, -1).tolist(),
         "curves": [
             {

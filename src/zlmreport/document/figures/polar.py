@@ -141,7 +141,7 @@ def draw_polar_grid(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[Sha
     for direction in map(math.radians, _DIRECTIONS):
         inner = float(grid.compute_radius(grid.ticks[0]))
         ends = np.outer([inner, outermost], [math.cos(direction), math.sin(direction)])
-        rays.append([tuple(point) for point in frame.points(ends[:, 0], ends[:, 1]).tolist()])
+        rays.append([tuple(point) for point in frame.place_points(ends[:, 0], ends[:, 1]).tolist()])
     yield join_lines("grid", rays, GRID)
     for level in panel.levels:
         if math.isfinite(level.y):
@@ -161,7 +161,7 @@ def draw_direction_marks(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterato
 
 def _draw_circle(kind: str, grid: PolarGrid, value: float, frame: Frame) -> Outline:
     radius = float(grid.compute_radius(value))
-    points = frame.points(radius * np.cos(_AROUND), radius * np.sin(_AROUND))
+    points = frame.place_points(radius * np.cos(_AROUND), radius * np.sin(_AROUND))
     return Outline(kind, (points,), ZERO if kind == "zero" else GRID)
 
 
@@ -171,15 +171,15 @@ def place_grid_labels(panel: Panel, grid: PolarGrid, frame: Frame) -> Iterator[L
     told_at = math.radians(_TOLD_AT)
     for value, text in zip(grid.ticks, grid.labels, strict=True):
         radius = float(grid.compute_radius(value))
-        x, y = frame.x_point(radius * math.cos(told_at)), frame.y_point(radius * math.sin(told_at))
+        x, y = frame.place_x(radius * math.cos(told_at)), frame.place_y(radius * math.sin(told_at))
         label = make_plain_label(text, TICK_TEXT_SIZE)
         yield Lettering("circle", PlacedLabel(label, x - label.width / 2, y - label.rise), INK)
     outermost = float(grid.compute_radius(grid.ticks[-1]))
     for degrees in _DIRECTIONS:
         across, up = (round(part(math.radians(degrees)), 9) for part in (math.cos, math.sin))
         label = make_plain_label(f"{names.get(degrees, '')} {degrees}°".lstrip(), TICK_TEXT_SIZE)
-        x = frame.x_point(outermost * across) + _ANGLE_GAP * across
-        y = frame.y_point(outermost * up) + _ROOM / 2 * up
+        x = frame.place_x(outermost * across) + _ANGLE_GAP * across
+        y = frame.place_y(outermost * up) + _ROOM / 2 * up
         # Right of the circle it begins there, left of it it ends; above and below it has its middle there.
         shift = 0.0 if across > 0 else label.width * (1.0 if across < 0 else 0.5)
         yield Lettering("ray", PlacedLabel(label, x - shift, y - label.rise), INK)
@@ -192,7 +192,7 @@ def draw_senses(panel: Panel, frame: Frame) -> Iterator[Shape]:
     """
     for curve in panel.curves:
         style = ROLES[curve.role]
-        points = frame.points(curve.x, curve.y)
+        points = frame.place_points(curve.x, curve.y)
         if len(points) < 3 or not curve.notation:
             continue
         at = max(1, int(_SENSE_AT * len(points)))
@@ -206,7 +206,7 @@ def draw_senses(panel: Panel, frame: Frame) -> Iterator[Shape]:
         corners = [tip, base + 0.45 * _HEAD * across, base - 0.45 * _HEAD * across, tip]
         fill = Fill(style.stroke.colour)
         yield Outline("sense", (np.array(corners),), None, fill, is_closed=True)
-        radial = start - np.array([frame.x_point(0.0), frame.y_point(0.0)])
+        radial = start - np.array([frame.place_x(0.0), frame.place_y(0.0)])
         radial = radial / (float(np.hypot(*radial)) or 1.0)
         ends = [tuple(start - 2 * _START * radial), tuple(start + 2 * _START * radial)]
         yield join_lines("start", [ends], EXTENSION)

@@ -137,7 +137,7 @@ class Motion:
                     "takes them, or fewer in plan.targets.positions",
                 )
         rounded = (replace(stop, position=round(stop.position, decimals) + 0.0) for stop in self.stops)
-        return replace(self, stops=tuple(self._from_their_sides(_select_moving(rounded), decimals)))
+        return replace(self, stops=tuple(self._check_sides(_select_moving(rounded), decimals)))
 
     def of_run(self, run: int) -> Motion:
         """Return the motion of one run, for a restart: from the start of the test, and back to it.
@@ -160,7 +160,7 @@ class Motion:
         stops = (start, before, *inside, ProgramStop(start.position))
         return replace(self, stops=tuple(_select_moving(stops)))
 
-    def _from_their_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
+    def _check_sides(self, stops: Iterable[ProgramStop], decimals: int) -> Iterator[ProgramStop]:
         """Yield stops; refuse a reading that no motion in its direction leads to."""
         before = None
         for stop in stops:

@@ -196,7 +196,7 @@ class Question:
         conditions = {name: design.conditions[name] for name in self.list_logs(design)}
         for name, log in first.conditions.items():
             course = design.conditions.get(name, log[:1])
-            change = plan.after.change_of(name) if plan.after else 0.0
+            change = plan.after.compute_change(name) if plan.after else 0.0
             begun = course - course[0] + log[0] + change
             conditions[name] = read_only_floats(np.broadcast_to(begun, len(design.position)))
         return replace(design, conditions=conditions, span=first.span)
