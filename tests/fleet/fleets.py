@@ -76,7 +76,7 @@ class Here:
     def __exit__(self, *_: object) -> None:
         pass
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             yield task, making.make_certificate(task)
 

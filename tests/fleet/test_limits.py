@@ -67,7 +67,7 @@ def test_a_job_that_grows_is_stopped(tmp_path: Path) -> None:
 class Stopping(Here):
     """Stops every job."""
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             yield task, Failed((Problem(Place(str(task.job)), "was stopped"),), is_stopped=True)
 
@@ -115,8 +115,8 @@ def test_a_job_may_take_ten_times_as_long_as_it_ever_took(
     limits = []
 
     class Slow(Here):
-        def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
-            for task, made in super().results(tasks):
+        def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+            for task, made in super().make_all(tasks):
                 limits.append(task.limits.seconds)
                 object.__setattr__(made, "seconds", 300.0)
                 yield task, made

@@ -65,7 +65,7 @@ class Hanging(Here):
 
     stem: str
 
-    def results(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
+    def make_all(self, tasks: Iterable[Task]) -> Iterator[tuple[Task, MadeCertificate | Failed]]:
         for task in tasks:
             hangs = task.job.stem == self.stem
             yield task, report_late(task) if hangs else making.make_certificate(task)
