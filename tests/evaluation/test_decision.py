@@ -12,7 +12,7 @@ import pytest
 from plugins.standards.installed import STANDARDS
 from zlmreport.evaluation.decision import Guard, make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate
-from zlmreport.evaluation.evaluation import Conformity, Decision, Parameter
+from zlmreport.evaluation.evaluation import Conformity, Decision, EvaluatedParameter
 from zlmreport.job.types import Options
 from zlmreport.language import Language
 from zlmreport.testing import bidirectional_test, simulated_test
@@ -30,7 +30,7 @@ OPEN = Conformity.UNDECIDED
 
 def decision(rule: str, value: float, expanded: float | None = EXPANDED, factor: float = 1.0) -> Decision:
     found = make_decision_rule(rule, factor).decide(
-        Parameter(A, value, LIMIT, expanded, None if expanded is None else 2.0)
+        EvaluatedParameter(A, value, LIMIT, expanded, None if expanded is None else 2.0)
     )
     assert found is not None
     return found
@@ -99,14 +99,14 @@ def test_the_guard_band_of_iso_14253_is_counted_in_standard_uncertainties() -> N
 
 @pytest.mark.parametrize("rule", ["guard-band", "iso14253-1", "non-binary"])
 def test_an_uncertainty_that_is_not_complete_decides_nothing(rule: str) -> None:
-    known = Parameter(A, 1e-6, LIMIT, EXPANDED, 2.0)
+    known = EvaluatedParameter(A, 1e-6, LIMIT, EXPANDED, 2.0)
 
     found = make_decision_rule(rule).decide(known, uncertainty_is_complete=False)
     assert found == Decision(OPEN, None, None, None)
 
 
 def test_an_evaluation_says_whether_its_uncertainty_is_complete() -> None:
-    known = (Parameter(A, 1e-6, LIMIT, EXPANDED, 2.0),)
+    known = (EvaluatedParameter(A, 1e-6, LIMIT, EXPANDED, 2.0),)
     evaluation = replace(evaluate(ISO, simulated_test(), Options(), {}), parameters=known)
     found = with_decisions(
         replace(evaluation, uncertainty_is_complete=False), make_decision_rule("guard-band")
@@ -132,7 +132,7 @@ def test_simple_acceptance_needs_no_uncertainty_but_knows_no_risk_without_it() -
 
 
 def test_a_parameter_without_limit_has_no_decision() -> None:
-    assert make_decision_rule("simple").decide(Parameter(A, 1e-6)) is None
+    assert make_decision_rule("simple").decide(EvaluatedParameter(A, 1e-6)) is None
 
 
 def test_a_limit_is_held_against_the_unrounded_value() -> None:
@@ -212,7 +212,8 @@ def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
     measurements = simulated_test()
     evaluation = evaluate(ISO, measurements, Options(), {"A": 1e-6})
     uncertain = tuple(
-        Parameter(each.quantity, each.value, each.limit, EXPANDED, 2.0) for each in evaluation.parameters
+        EvaluatedParameter(each.quantity, each.value, each.limit, EXPANDED, 2.0)
+        for each in evaluation.parameters
     )
     found = with_decisions(replace(evaluation, parameters=uncertain), make_decision_rule("guard-band"))
 
@@ -229,7 +230,7 @@ def test_a_guard_band_wider_than_the_limit_is_a_finding_and_no_crash() -> None:
 def test_a_guard_band_up_to_the_limit_is_no_finding(expanded: float) -> None:
     """As wide as the limit, it leaves one value that conforms: 0."""
     evaluation = evaluate(ISO, simulated_test(), Options(), {})
-    evaluation = replace(evaluation, parameters=(Parameter(A, 0.0, LIMIT, expanded, 2.0),))
+    evaluation = replace(evaluation, parameters=(EvaluatedParameter(A, 0.0, LIMIT, expanded, 2.0),))
 
     assert with_decisions(evaluation, make_decision_rule("guard-band")).findings == evaluation.findings
 
@@ -240,7 +241,7 @@ def test_a_known_error_that_would_turn_a_statement_leaves_it_open(
     rule: str, value: float, known_error: float
 ) -> None:
     """4 µm of which 60 µm are known to be missing exceed 20 µm, and 30 µm with 26 µm too many do not."""
-    uncertain = Parameter(A, value, LIMIT, EXPANDED + abs(known_error), 2.0, known_error=known_error)
+    uncertain = EvaluatedParameter(A, value, LIMIT, EXPANDED + abs(known_error), 2.0, known_error=known_error)
     found = make_decision_rule(rule).decide(uncertain)
 
     assert found is not None
@@ -250,7 +251,7 @@ def test_a_known_error_that_would_turn_a_statement_leaves_it_open(
 
 
 def test_a_known_error_that_turns_nothing_leaves_the_statement() -> None:
-    small = Parameter(A, 10e-6, LIMIT, EXPANDED + 2e-6, 2.0, known_error=2e-6)
+    small = EvaluatedParameter(A, 10e-6, LIMIT, EXPANDED + 2e-6, 2.0, known_error=2e-6)
 
     for rule in ("simple", "guard-band", "non-binary", "iso14253-1"):
         found = make_decision_rule(rule).decide(small)

@@ -37,7 +37,7 @@ from zlmreport.measurement.units import Unit
 from zlmreport.version import __version__
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Finding, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, Finding
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
     from zlmreport.language import Words
@@ -361,7 +361,7 @@ def _measure_terminal() -> int:
     return shutil.get_terminal_size((_USUAL_WIDTH, 0)).columns
 
 
-def _write_value(parameter: Parameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
+def _write_value(parameter: EvaluatedParameter, writer: Writer, *, with_uncertainty: bool) -> tuple[str, ...]:
     """Return a value, and with its uncertainty both as the certificate prints them."""
     return (
         write_with_uncertainty(parameter, writer)
@@ -376,7 +376,7 @@ def _align_on_the_point(numbers: Sequence[str]) -> list[str]:
     return [number + " " * (max(decimals) - own) for number, own in zip(numbers, decimals, strict=True)]
 
 
-def _tell_verdict(parameter: Parameter, writer: Writer) -> str:
+def _tell_verdict(parameter: EvaluatedParameter, writer: Writer) -> str:
     if parameter.decision is None:
         return ""
     _, words = STATEMENTS[parameter.decision.conformity]

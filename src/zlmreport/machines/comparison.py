@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.machines.course import CircularTest, StraightTest
 from zlmreport.machines.design import join_side_by_side
 from zlmreport.machines.machine import Machine, TestPrediction, predict
@@ -40,7 +40,7 @@ class StandardNumbers:
 
     standard: str
     designation: str
-    measured: tuple[Parameter, ...]
+    measured: tuple[EvaluatedParameter, ...]
     predicted: Mapping[str, float]  #: By symbol, m.
     left: Mapping[str, float]
 

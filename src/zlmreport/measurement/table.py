@@ -74,14 +74,14 @@ class FileTableLayout(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class TextRow:
     """A row of a table: a line of its file, or a column of it, where the table lies on its side."""
 
     line: int  #: In the file, from 1; of a row that is no line, that of its first cell.
     text: str  #: The line.
     delimiter: str  #: What parts its cells.
     cells: tuple[str, ...]  #: Without quotation marks and the blanks around.
-    lying: tuple[tuple[Row, int], ...] = ()  #: Of a column: the line of each cell, and its index in it.
+    lying: tuple[tuple[TextRow, int], ...] = ()  #: Of a column: the line of each cell, and its index in it.
 
     def locate(self, index: int) -> tuple[int, int]:
         """Return the line and the character, both from 1, at which a cell begins."""
@@ -99,12 +99,12 @@ class TextTable:
     """A table: a header and rows that have as many cells."""
 
     source: TextFile  #: The file.
-    header: Row  #: The row of names.
-    units: Row | None  #: The row of units below it; None without.
-    rows: tuple[Row, ...]  #: The rows that are sound.
+    header: TextRow  #: The row of names.
+    units: TextRow | None  #: The row of units below it; None without.
+    rows: tuple[TextRow, ...]  #: The rows that are sound.
     problems: tuple[Problem, ...]  #: What is wrong with the others.
 
-    def place(self, row: Row, index: int) -> Place:
+    def place(self, row: TextRow, index: int) -> Place:
         """Return the place of a cell; of a name that the file does not have, that of the file."""
         return self.source.place(*row.locate(index)) if row.line else self.source.place()
 
@@ -197,17 +197,19 @@ def join_whole_lines(content: Sequence[tuple[int, str]]) -> list[tuple[int, str]
     return joined
 
 
-def _find_header(rows: Sequence[Row], options: FileTableLayout, text: TextFile) -> tuple[Row, list[Row]]:
+def _find_header(
+    rows: Sequence[TextRow], options: FileTableLayout, text: TextFile
+) -> tuple[TextRow, list[TextRow]]:
     """Return the row of names, and the rows below it."""
     if options.header:
-        return Row(0, "", "", options.header), list(rows)
+        return TextRow(0, "", "", options.header), list(rows)
     count = options.header_rows
     if len(rows) < count:
         raise InputError.at(text.place(), f"holds no table: there are {count} rows of names to read")
     return join_header(rows[:count]), list(rows[count:])
 
 
-def join_header(rows: Sequence[Row]) -> Row:
+def join_header(rows: Sequence[TextRow]) -> TextRow:
     """Return the row of names; of two, each name made of the upper and the lower cell.
 
     An upper cell holds for those to its right that are empty, but the first, which names the rows.
@@ -232,7 +234,9 @@ def is_units(cells: Sequence[str]) -> bool:
     return are_short and any(cell.casefold() in UNITS for cell in filled)
 
 
-def _find_rows_before(rows: list[Row], beginning: str | None, header: Row, text: TextFile) -> list[Row]:
+def _find_rows_before(
+    rows: list[TextRow], beginning: str | None, header: TextRow, text: TextFile
+) -> list[TextRow]:
     """Return the rows above the one that begins so."""
     if beginning is None:
         return rows
@@ -301,7 +305,7 @@ def _find_delimiter_by_names(header: Sequence[str], names_column: Callable[[str]
     """Return the delimiter by which a header names most known columns; of equals the first."""
 
     def known(delimiter: str) -> int:
-        rows = [Row(1, line, delimiter, tuple(_split_header(line, delimiter))) for line in header]
+        rows = [TextRow(1, line, delimiter, tuple(_split_header(line, delimiter))) for line in header]
         return sum(map(names_column, join_header(rows).cells))
 
     present = [delimiter for delimiter in DELIMITERS if all(delimiter in line for line in header)]
@@ -317,7 +321,7 @@ def _split_header(header: str, delimiter: str) -> Sequence[str]:
 
 def _list_rows(
     content: Sequence[tuple[int, str]], delimiter: str, text: TextFile, problems: list[Problem]
-) -> Iterator[Row]:
+) -> Iterator[TextRow]:
     """Yield the rows that hold something; what is wrong with another is noted, of the first one raised."""
     width = 0
     for number, line in content:
@@ -334,7 +338,7 @@ def _list_rows(
             yield row
 
 
-def _turn_rows(rows: Sequence[Row]) -> list[Row]:
+def _turn_rows(rows: Sequence[TextRow]) -> list[TextRow]:
     """Return the columns of rows as rows; what is short is filled with empty cells."""
     width = max((len(row.cells) for row in rows), default=0)
     turned = []
@@ -342,16 +346,16 @@ def _turn_rows(rows: Sequence[Row]) -> list[Row]:
         cells = tuple(row.cells[index] if index < len(row.cells) else "" for row in rows)
         lying = tuple((row, index) for row in rows)
         if any(cells):
-            turned.append(Row(rows[0].line, "", "", cells, lying))
+            turned.append(TextRow(rows[0].line, "", "", cells, lying))
     return turned
 
 
-def _pad_row(row: Row, width: int) -> Row:
+def _pad_row(row: TextRow, width: int) -> TextRow:
     short = width - len(row.cells)
     return replace(row, cells=(*row.cells, *[""] * short)) if short > 0 and not row.lying else row
 
 
-def _find_ragged(row: Row, header: Row, text: TextFile) -> list[Problem]:
+def _find_ragged(row: TextRow, header: TextRow, text: TextFile) -> list[Problem]:
     """Return what is wrong with the number of cells; empty cells at the end are nobody's mistake."""
     expected, found = len(header.cells), len(row.cells)
     surplus = next((index for index in range(expected, found) if row.cells[index]), None)
@@ -382,7 +386,7 @@ class EnclosureError(ValueError):
         self.column = column
 
 
-def part_line(number: int, line: str, delimiter: str, width: int = 0) -> Row:
+def part_line(number: int, line: str, delimiter: str, width: int = 0) -> TextRow:
     """Return the cells of a line; `width` is how many the first one of a table has that blanks part.
 
     Raises `EnclosureError` if a quotation mark does not enclose its cell.
@@ -391,7 +395,7 @@ def part_line(number: int, line: str, delimiter: str, width: int = 0) -> Row:
         parts = [part for _, part in _split_line(line, delimiter, width)]
     else:
         parts = line.split(delimiter)
-    return Row(number, line, delimiter, tuple(part.strip(_BLANKS) for part in parts))
+    return TextRow(number, line, delimiter, tuple(part.strip(_BLANKS) for part in parts))
 
 
 def _split_line(line: str, delimiter: str, width: int = 0) -> Iterator[tuple[int, str]]:

@@ -13,7 +13,7 @@ from zlmreport.document.figures.figure import Figure
 from zlmreport.errors import InputError, Place, Problem
 from zlmreport.evaluation.decision import make_decision_rule, with_decisions
 from zlmreport.evaluation.evaluate import evaluate as evaluate_by
-from zlmreport.evaluation.evaluation import Arithmetic, Evaluation, Parameter
+from zlmreport.evaluation.evaluation import Arithmetic, EvaluatedParameter, Evaluation
 from zlmreport.evaluation.report import collect_position_columns, report_evaluation
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.evaluation_keys import DecisionRuleKeys, StandardKeys
@@ -148,7 +148,7 @@ class Result:
             if not isnan(found[each.symbol])
         )
 
-    def _make_value(self, parameter: Parameter) -> Value:
+    def _make_value(self, parameter: EvaluatedParameter) -> Value:
         unit = parameter.quantity.unit_or(self.data.measurements.axis.deviation_unit)
         expanded, limit, decision = parameter.expanded_uncertainty, parameter.limit, parameter.decision
         return Value(

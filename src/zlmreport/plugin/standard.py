@@ -62,9 +62,9 @@ from zlmreport.evaluation.evaluation import (
     Change,
     Conformity,
     Finding,
-    Group as QuantityGroup,
     PositionQuantity,
     Quantity,
+    QuantityGroup,
 )
 from zlmreport.evaluation.statistics import (
     PositionStatistics,

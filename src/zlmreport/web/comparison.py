@@ -16,7 +16,7 @@ from zlmreport.document.subjects.fit import make_parameter_rows
 from zlmreport.document.subjects.linked import collect_drawn_values
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
 from zlmreport.errors import InputError, Place, Problem, ZlmreportError
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.job.contradictions import find_last_day
 from zlmreport.job.job import Job
@@ -201,7 +201,7 @@ def _compare_standards(tests: Sequence[_Test], here: _Test, language: Language) 
         }
 
 
-def _make_cell(parameter: Parameter | None, writer: Writer) -> dict[str, Any] | None:
+def _make_cell(parameter: EvaluatedParameter | None, writer: Writer) -> dict[str, Any] | None:
     """Return a parameter and its U as text, and as numbers to be drawn."""
     if parameter is None:
         return None

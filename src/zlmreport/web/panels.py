@@ -22,7 +22,7 @@ from zlmreport.document.subjects.fit import (
     write_deviation,
 )
 from zlmreport.document.writer import NOTHING, Writer, write_with_uncertainty
-from zlmreport.evaluation.evaluation import Parameter
+from zlmreport.evaluation.evaluation import EvaluatedParameter
 from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.language import Language, Words
 from zlmreport.language.formatting import split_spans
@@ -180,7 +180,7 @@ class Panels:
     def _write_deviation(self, value: float | None) -> str:
         return write_deviation(value, self.design.axis, self.language)
 
-    def _make_row(self, parameter: Parameter, forecast: Any) -> dict[str, Any]:
+    def _make_row(self, parameter: EvaluatedParameter, forecast: Any) -> dict[str, Any]:
         writer, quantity = self.writer, parameter.quantity
         value, uncertainty = write_with_uncertainty(parameter, writer)
         by_table, by_model = (quantity.printed_sign * float(value) for value in forecast)

@@ -34,9 +34,9 @@ from zlmreport.evaluation.evaluation import (
     Basis,
     Evaluation,
     Finding,
-    Group,
     PositionQuantity,
     Quantity,
+    QuantityGroup,
 )
 from zlmreport.evaluation.statistics import PositionStatistics
 from zlmreport.job.types import Options
@@ -68,7 +68,7 @@ class SampleStandard:
             Words(
                 "Range of the mean bidirectional deviation", "Spanne der mittleren beidseitigen Abweichung"
             ),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             "max[x̄_{i}] − min[x̄_{i}]",
             Words("The mean error of a part.", "Der mittlere Fehler eines Teils."),
         ),
@@ -76,7 +76,7 @@ class SampleStandard:
             "R_fwd",
             "R↑",
             Words("Unidirectional repeatability", "Einseitige Wiederholpräzision"),
-            Group.RANDOM,
+            QuantityGroup.RANDOM,
             "max[4s_{i}↑]",
             Words("The scatter of parts.", "Die Streuung von Teilen."),
         ),
@@ -84,7 +84,7 @@ class SampleStandard:
             "B",
             "B",
             Words("Reversal value", "Umkehrspanne"),
-            Group.SYSTEMATIC,
+            QuantityGroup.SYSTEMATIC,
             "max[|B_{i}|]",
             Words("The backlash.", "Das Umkehrspiel."),
         ),
@@ -421,8 +421,8 @@ class _Writer:
     def results_table(self) -> Table:
         say = self.say
         headings = {
-            Group.SYSTEMATIC: say("Systematic deviations", "Systematische Abweichungen"),
-            Group.RANDOM: say("Random deviations", "Zufällige Abweichungen"),
+            QuantityGroup.SYSTEMATIC: say("Systematic deviations", "Systematische Abweichungen"),
+            QuantityGroup.RANDOM: say("Random deviations", "Zufällige Abweichungen"),
         }
         groups = []
         for group, heading in headings.items():

@@ -26,7 +26,7 @@ from zlmreport.evaluation.uncertainty.joined_budget import join_budgets
 from zlmreport.language import Words
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation
     from zlmreport.evaluation.uncertainty.budget import Budget, NoBudget
     from zlmreport.job.job import Job
 
@@ -168,7 +168,7 @@ def lay_out_summary(parts: Mapping[str, Certificate], writer: Writer) -> Table:
     )
 
 
-def _choose_in_brief(evaluation: Evaluation) -> tuple[Parameter, ...]:
+def _choose_in_brief(evaluation: Evaluation) -> tuple[EvaluatedParameter, ...]:
     return (
         tuple(each for each in evaluation.parameters if each.limit is not None) or evaluation.parameters[:1]
     )

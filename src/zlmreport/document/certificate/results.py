@@ -28,7 +28,7 @@ from zlmreport.document.blocks import (
 from zlmreport.document.certificate import conformity
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.document.writer import write_uncertainty
-from zlmreport.evaluation.evaluation import Basis, Finding, Group
+from zlmreport.evaluation.evaluation import Basis, Finding, QuantityGroup
 from zlmreport.evaluation.uncertainty.wording import RAISED_TO
 from zlmreport.language import Words
 from zlmreport.language.formatting import write_plain
@@ -64,15 +64,15 @@ class Tested:
 
 
 _GROUPS = {
-    Group.SYSTEMATIC: (
+    QuantityGroup.SYSTEMATIC: (
         Words("Systematic deviations"),
         Words("What repeats from run to run: the average error to expect."),
     ),
-    Group.RANDOM: (
+    QuantityGroup.RANDOM: (
         Words("Random deviations"),
         Words("How far repeated approaches to one position scatter."),
     ),
-    Group.COMPOSITE: (
+    QuantityGroup.COMPOSITE: (
         Words("Composite deviations"),
         Words("Systematic and random deviations together."),
     ),

@@ -26,7 +26,7 @@ from zlmreport.document.certificate.results import Evaluated, make_section_key
 from zlmreport.document.certificate.values import Values, tell_columns_apart
 from zlmreport.document.figures.figure import Figure, Panel
 from zlmreport.document.writer import Writer
-from zlmreport.evaluation.evaluation import Evaluation, Group
+from zlmreport.evaluation.evaluation import Evaluation, QuantityGroup
 from zlmreport.language import Words
 
 #: Heights of graphs, mm: of the main one, of panels beside each other, of any other, of what is no result.
@@ -335,7 +335,7 @@ def lay_out_parameters(evaluation: Evaluation, writer: Writer) -> Table:
             for each in evaluation.parameters
             if each.quantity.group is group
         )
-        for group in Group
+        for group in QuantityGroup
     )
     caption = results.say_parameters(evaluation)
     if evaluation.measurements.axis.measurand.is_position:

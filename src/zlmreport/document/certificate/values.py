@@ -14,7 +14,7 @@ from zlmreport.language.formatting import write_fixed_number, write_plain
 from zlmreport.measurement.units import with_unit
 
 if TYPE_CHECKING:
-    from zlmreport.evaluation.evaluation import Evaluation, Parameter, PositionQuantity, Quantity
+    from zlmreport.evaluation.evaluation import EvaluatedParameter, Evaluation, PositionQuantity, Quantity
 
 _SYMBOL = Words("Symbol")
 _PARAMETER = Words("Parameter")
@@ -54,7 +54,7 @@ class Values:
         """Return the headings of a row's symbol, of its parameter, and of what `cells` are."""
         return tuple(self._make_columns(parameter))
 
-    def list_cells(self, parameter: Parameter) -> tuple[Cell, ...]:
+    def list_cells(self, parameter: EvaluatedParameter) -> tuple[Cell, ...]:
         """Return how large a parameter is, cell by cell."""
         return tuple(self._make_cells(parameter))
 
@@ -74,7 +74,7 @@ class Values:
             )
             yield Column(say(_CONFORMITY))
 
-    def _make_cells(self, parameter: Parameter) -> Iterator[Cell]:
+    def _make_cells(self, parameter: EvaluatedParameter) -> Iterator[Cell]:
         value, uncertainty = write_with_uncertainty(parameter, self.writer)
         yield self._add_unit(value, parameter)
         if self.has_uncertainty:
@@ -86,14 +86,14 @@ class Values:
             yield self._add_unit(limit(parameter, self.writer), parameter)
             yield conformity.make_verdict_cell(parameter, self.writer)
 
-    def _add_unit(self, number: str, parameter: Parameter) -> str:
+    def _add_unit(self, number: str, parameter: EvaluatedParameter) -> str:
         """Write the unit beside a number, where the column has none."""
         if not self.is_mixed or number == NOTHING:
             return number
         return with_unit(number, parameter.quantity.unit_or(self.writer.deviation_unit).symbol)
 
 
-def is_mixed(parameters: Iterable[Parameter], writer: Writer) -> bool:
+def is_mixed(parameters: Iterable[EvaluatedParameter], writer: Writer) -> bool:
     """Return whether parameters have units other than that of what was measured."""
     return any(each.quantity.unit_or(writer.deviation_unit) != writer.deviation_unit for each in parameters)
 
@@ -116,14 +116,14 @@ def tell_columns_apart(
     return writer.say(_TOLD_APART.given(caption=caption, others=named)), ("U", *others)
 
 
-def write_coverage_factor(parameter: Parameter, writer: Writer) -> str:
+def write_coverage_factor(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write k; nothing where there is no uncertainty to cover."""
     if not parameter.expanded_uncertainty or parameter.coverage_factor is None:
         return NOTHING
     return write_fixed_number(parameter.coverage_factor, _DECIMALS_OF_K, writer.language.decimal_sign)
 
 
-def write_interval(parameter: Parameter, writer: Writer) -> str:
+def write_interval(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write where another test of the same plan would find a parameter, with the sign that is printed."""
     if parameter.axis_interval is None:
         return NOTHING
@@ -132,7 +132,7 @@ def write_interval(parameter: Parameter, writer: Writer) -> str:
     return " … ".join(write_rounded_together(end, (ends[1] - ends[0]) / 2, writer)[0] for end in ends)
 
 
-def limit(parameter: Parameter, writer: Writer) -> str:
+def limit(parameter: EvaluatedParameter, writer: Writer) -> str:
     """Write a parameter's limit as the job states it, with no digits added."""
     if parameter.limit is None:
         return NOTHING
