@@ -11,7 +11,7 @@ import pytest
 from zlmreport.plugin import MeasurementSet, same_in_all_languages
 from zlmreport.plugin.extension import Acts, Contribution, Distribution, with_uncertainty
 from zlmreport.plugin.renderer import Budget
-from zlmreport.plugin.standard import evaluate, make_decision_rule, with_decisions
+from zlmreport.plugin.standard import decided, decision_rule, evaluate
 from zlmreport.testing import STANDARD_CHECKS, WorkedExample, bidirectional_test
 from zlmreport_house_standard.ha1 import HouseAcceptance, HouseAcceptanceOptions
 
@@ -47,7 +47,7 @@ def test_worked_example(example: MeasurementSet, symbol: str, weight: float, exp
 
 def test_a_limit_is_held_against_the_value(example: MeasurementSet) -> None:
     bare = evaluate(HouseAcceptance(), example, HouseAcceptanceOptions(), {"D": 10e-6, "W": 5e-6})
-    evaluation = with_decisions(bare, make_decision_rule("simple"))
+    evaluation = decided(bare, decision_rule("simple"))
     conforms = {parameter.quantity.symbol: parameter.conforms for parameter in evaluation.parameters}
     assert conforms == {"D": False, "H": None, "W": True, "T": None}
 

@@ -109,7 +109,7 @@ def quantities_are_worded(standard: Standard, *_more: Any) -> None:
         where = f"{standard.identifier}: {parameter.symbol}"
         expect(
             isinstance(parameter.group, QuantityGroup),
-            f"{where}: group must be a Group, not {parameter.group!r}",
+            f"{where}: group must be a QuantityGroup, not {parameter.group!r}",
         )
         expect(write_plain(parameter.formula).strip(), f"{where}: formula must be the definition as printed")
         expect_words(parameter.meaning, f"{where}: meaning")
