@@ -107,7 +107,7 @@ def counting(patch: pytest.MonkeyPatch, last: int) -> Callable[[], int]:
 
     for owner, name in (
         (files, "push_folder"),
-        (issuing.Laid, "name"),
+        (issuing.Laid, "name_files"),
         (Night, "issue"),
         (Night, "add"),
         (Night, "end"),

@@ -7,7 +7,7 @@ from typing import Any
 from zlmreport.job.types import Options
 from zlmreport.language import Words
 from zlmreport_step_gauge.paths.path import Probing, ProbingPath
-from zlmreport_step_gauge.paths.programs import write_coordinates, write_direction, write_plain
+from zlmreport_step_gauge.paths.programs import coordinates, direction, plain
 from zlmreport_step_gauge.testing import Stated
 
 
@@ -18,14 +18,12 @@ class ExemplaryProbing:
     options: Any = Options
 
     def write(self, path: ProbingPath, _options: Any) -> str:
-        lines = [f"SAY {write_plain(path.gauge)}"]
+        lines = [f"SAY {plain(path.gauge)}"]
         for move in path.moves:
             if isinstance(move, Probing):
-                lines.append(
-                    " ".join(["TOUCH", *write_coordinates(move.target, 4), *write_direction(move.normal)])
-                )
+                lines.append(" ".join(["TOUCH", *coordinates(move.target, 4), *direction(move.normal)]))
             else:
-                lines.append(" ".join(["GO", *write_coordinates(move.to, 4)]))
+                lines.append(" ".join(["GO", *coordinates(move.to, 4)]))
         return "".join(f"{line}\n" for line in lines)
 
 

@@ -32,11 +32,11 @@ from zlmreport_step_gauge.machines.session import (
 from zlmreport_step_gauge.paths.path import Point, Probing, ProbingPath
 from zlmreport_step_gauge.paths.plan import PlannedPath, find_remaining, plan_path_of_job
 from zlmreport_step_gauge.paths.programs import (
+    coordinates,
+    direction,
+    plain,
     write_beginning,
     write_command,
-    write_coordinates,
-    write_direction,
-    write_plain,
 )
 
 _COLUMNS = "face,cycle,x,y,z,i,j,k"
@@ -87,10 +87,10 @@ class PointJournal:
         row = [
             str(probing.face),
             str(probing.cycle),
-            *write_coordinates(centre, 5),
-            *write_direction(probing.normal),
+            *coordinates(centre, 5),
+            *direction(probing.normal),
         ]
-        told = ", ".join(f"{write_plain(name)} {value:.9g}" for name, value in others.items())
+        told = ", ".join(f"{plain(name)} {value:.9g}" for name, value in others.items())
         remark = [f"# face {probing.face}, cycle {probing.cycle}: {told}"] if told else []
         self._append(",".join(row), *remark)
         self.done.add((probing.face, probing.cycle))
@@ -109,7 +109,7 @@ class PointJournal:
 
     def _make_head(self) -> tuple[str, ...]:
         radius = MILLIMETRE.from_si(self._path.tip_radius)
-        what = f"{write_plain(self._path.gauge)}, job {write_plain(self._path.number)}"
+        what = f"{plain(self._path.gauge)}, job {plain(self._path.number)}"
         return (
             f"# {what}; I++ DME, centres of the tip, mm, nominal radius {radius:.6g} mm",
             f"{_FINGERPRINT}{digest_path(self._path)}",

@@ -20,30 +20,30 @@ _LONGEST_NAME = 32
 _NOT_PLAIN = re.compile(r"[^A-Za-z0-9 ._+-]")
 
 
-def write_coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
+def coordinates(point: Point, decimals: int) -> tuple[str, str, str]:
     """Write a point, m, in mm; zero has no sign.
 
-    >>> write_coordinates((0.290865, -1e-9, 0.4), 3)
+    >>> coordinates((0.290865, -1e-9, 0.4), 3)
     ('290.865', '0.000', '400.000')
     """
     x, y, z = (_write_fixed(MILLIMETRE.from_si(at), decimals) for at in point)
     return x, y, z
 
 
-def write_direction(vector: Point) -> tuple[str, str, str]:
+def direction(vector: Point) -> tuple[str, str, str]:
     """Write a unit vector.
 
-    >>> write_direction((0.0006, -0.99999982, 0.0))
+    >>> direction((0.0006, -0.99999982, 0.0))
     ('0.0006000', '-0.9999998', '0.0000000')
     """
     i, j, k = (_write_fixed(each, _DIRECTION_DIGITS) for each in vector)
     return i, j, k
 
 
-def write_plain(text: str) -> str:
+def plain(text: str) -> str:
     """Return a user's text as every language takes it: short, ASCII, without quotes.
 
-    >>> write_plain("CAL-2026's")
+    >>> plain("CAL-2026's")
     'CAL-2026_s'
     """
     return _NOT_PLAIN.sub("_", text)[:_LONGEST_NAME]
@@ -90,9 +90,9 @@ def write_command(move: Move) -> str:
     IJK, and what it reports is the centre of the tip.
     """
     if isinstance(move, Travel):
-        return f"GoTo({_write_at(write_coordinates(move.to, _DECIMALS))})"
-    normal = ", ".join(write_direction(move.normal))
-    return f"PtMeas({_write_at(write_coordinates(move.target, _DECIMALS))}, IJK({normal}))"
+        return f"GoTo({_write_at(coordinates(move.to, _DECIMALS))})"
+    normal = ", ".join(direction(move.normal))
+    return f"PtMeas({_write_at(coordinates(move.target, _DECIMALS))}, IJK({normal}))"
 
 
 def _write_at(texts: tuple[str, str, str]) -> str:
@@ -143,7 +143,7 @@ def _write_mv_ms(path: ProbingPath, options: MvMsOptions) -> Iterator[str]:
 
 
 def _write_mv_ms_line(word: str, point: Point, options: MvMsOptions) -> str:
-    return " ".join([word, *(f"{each:>11}" for each in write_coordinates(point, options.decimals)), ";"])
+    return " ".join([word, *(f"{each:>11}" for each in coordinates(point, options.decimals)), ";"])
 
 
 _SECONDS_A_MINUTE = 60.0
@@ -183,10 +183,10 @@ class Dmis:
 
 
 def _write_dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
-    name = write_plain(path.number)
+    name = plain(path.number)
     yield f"DMISMN/'{name}',4.0"
     yield f"FILNAM/'{name}'"
-    yield f"$$ {write_plain(path.gauge)}, {len(path.probings)} points"
+    yield f"$$ {plain(path.gauge)}, {len(path.probings)} points"
     yield "UNITS/MM,ANGDEC"
     yield f"DID(OUT)=DEVICE/STOR,'{name}.dmo'"
     yield "OPEN/DID(OUT),FDATA,DMIS,OUTPUT"
@@ -204,14 +204,14 @@ def _write_dmis(path: ProbingPath, options: DmisOptions) -> Iterator[str]:
         if isinstance(move, Probing):
             yield from _write_measured(move, options)
         else:
-            yield f"GOTO/{','.join(write_coordinates(move.to, options.decimals))}"
+            yield f"GOTO/{','.join(coordinates(move.to, options.decimals))}"
     yield "CLOSE/DID(OUT)"
     yield "ENDFIL"
 
 
 def _write_measured(probing: Probing, options: DmisOptions) -> Iterator[str]:
     label = f"F{probing.face:03d}_{probing.cycle}"
-    where = ",".join([*write_coordinates(probing.target, options.decimals), *write_direction(probing.normal)])
+    where = ",".join([*coordinates(probing.target, options.decimals), *direction(probing.normal)])
     yield f"F({label})=FEAT/POINT,CART,{where}"
     yield f"MEAS/POINT,F({label}),1"
     yield f"PTMEAS/CART,{where}"
