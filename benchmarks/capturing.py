@@ -79,7 +79,7 @@ def _decoding(sizes: Sizes) -> Iterator[Measured]:
     decoders["text-readout"] = lambda: TextDecoder(TextReadoutOptions(port="none"))
     for name, decoder in decoders.items():
         axis = MovingAxis((0.0, 0.1), dwell=1.0)
-        sent = registry.find_instrument(name).emulator(Scene(axis)).unasked(60.0)
+        sent = registry.instrument(name).emulator(Scene(axis)).unasked(60.0)
         lines = sent.count(b"\n")
         action = partial(_decoded, decoder, sent)
         costs = [timed(action)[0].cpu for _ in range(sizes.rounds)]
@@ -98,7 +98,7 @@ def _latency(runs: int) -> Iterator[Measured]:
     plan = Plan(np.linspace(0.0, 0.04, 5), runs=runs, overrun=4e-3, feed=0.1, dwell=0.4)
     machine = make_emulated_machine(Description(Axis("X", travel=(0.0, 0.04)), plan, seed=1), 2.0)
     settings = Settings(1e-3, 1e-6, 0.2, 0.04, 0.4)
-    instrument = find_plugins().find_instrument("umd1")
+    instrument = find_plugins().instrument("umd1")
     header = Header(
         "L",
         "",

@@ -118,13 +118,13 @@ def _captured(job: Path, machine: str) -> None:
     path = job.with_name("machine.yaml")
     path.write_text(machine, encoding="utf-8")
     registry = find_plugins()
-    description = read_description_of(load_simulation(path, registry), registry.find_effect)
+    description = read_description_of(load_simulation(path, registry), registry.effect)
     _capture(job, make_emulated_machine(description, _LEAD))
 
 
 def _capture(job: Path, moving: EmulatedMachine | on_linuxcnc.ScrewDriven) -> None:
     """Capture a test before what moves."""
-    emulator = find_plugins().find_instrument("umd2").emulator(Scene(moving))
+    emulator = find_plugins().instrument("umd2").emulator(Scene(moving))
     with inhabited(World(emulator, moving.duration + 2 * _LEAD)):
         _run("capture", job)
 

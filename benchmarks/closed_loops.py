@@ -74,10 +74,10 @@ def drawn_axis(random: np.random.Generator, registry: Registry) -> Description:
     }
     terms = []
     for name, given in values.items():
-        effect = registry.find_effect(name)
+        effect = registry.effect(name)
         terms.append(Term(effect, {effect.linear[0].name: next(iter(given.values()))}))
     if random.random() < 0.5:
-        bow = registry.find_effect("polynomial")
+        bow = registry.effect("polynomial")
         names = [each.name for each in bow.linear]
         terms.append(Term(bow, {name: random.normal(0, 6) * _UM for name in names[1:]} | {names[0]: 0.0}))
         terms = [each for each in terms if each.effect.identifier not in bow.contains]
@@ -92,7 +92,7 @@ def drawn_axis(random: np.random.Generator, registry: Registry) -> Description:
 
 def table_from(source: str, before: MeasurementSet, terms: tuple[Term, ...], registry: Registry) -> Made:
     """Return the table of a test, by its means or by its model."""
-    control = registry.find_controller("linuxcnc")
+    control = registry.controller("linuxcnc")
     curve = make_error_curve(before, _PLACE)
     if source == "means":
         basis = make_basis_of_means(curve, before)

@@ -180,7 +180,7 @@ def main(arguments: list[str] | None = None) -> None:
     registry = find_plugins()
     axis = simulated_test(11)
     for identifier in sizes.standards:
-        standard = registry.find_standard(identifier)
+        standard = registry.standard(identifier)
         symbols = [quantity.symbol for quantity in standard.quantities]
         for title, worlds, measured in (
             (

@@ -216,7 +216,7 @@ class Coverage:
 def measured(name: str, tests: int, simulated: int, registry: Registry) -> Coverage:
     """Draw tests of a world, and count."""
     world = WORLDS[name]
-    standard = registry.find_standard("iso230-2:2014")
+    standard = registry.standard("iso230-2:2014")
     with tempfile.TemporaryDirectory() as folder:
         job, frame = _frame(Path(folder), world, registry)
 

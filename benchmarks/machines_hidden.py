@@ -156,7 +156,7 @@ def run(case: Case) -> Case:
     seen, truth, hidden = _simulate(case)
     registry = find_plugins()
     known = (*BASE, case.cause) if case.plan == _BESIDE else BASE
-    study = study_circles(bare_machine(), [seen], [registry.find_circle_effect(name) for name in known])
+    study = study_circles(bare_machine(), [seen], [registry.circle_effect(name) for name in known])
     found = diagnose(study, registry.circle_effects)
     case.verdict, case.named = found.verdict.value, list(found.found)
     if found.candidates:
@@ -169,7 +169,7 @@ def run(case: Case) -> Case:
         case.misses = _misses(found.complete, truth)
     elif truth and case.plan != "one sense":
         names = (*BASE, *case.cause.split(" + "))
-        effects = [registry.find_circle_effect(name) for name in names]
+        effects = [registry.circle_effect(name) for name in names]
         case.misses = _misses(study_circles(bare_machine(), [seen], effects), truth)
     return case
 

@@ -36,7 +36,7 @@ _MEGABYTE = 1e6
 def measure(sizes: Sizes) -> list[Measured]:
     """Measure the evaluation of stacked tests."""
     registry = find_plugins()
-    standards = [registry.find_standard(identifier) for identifier in STANDARDS]
+    standards = [registry.standard(identifier) for identifier in STANDARDS]
     stack = np.random.default_rng(230).normal(0.0, 1e-6, (sizes.tests, len(Approach), TARGETS, RUNS))
     statistics = position_statistics(stack)
     costs = alternately(

@@ -59,7 +59,7 @@ RADIUS, TOUCH, POINT = 0.2e-6, 0.3e-6, 2e-6
 #: The gauge above its reference temperature, and the full range of the error of that, K.
 DIFFERENCE, RANGE = 0.4, 0.2
 
-_STANDARD = find_plugins().find_standard("step-gauge")
+_STANDARD = find_plugins().standard("step-gauge")
 _GAUGE = cut_section(read_calibration(GAUGE).gauge, 2, 13, HERE)
 
 

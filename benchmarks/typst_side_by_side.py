@@ -149,7 +149,7 @@ def _printing(identifier: str, job: Path, registry: Registry) -> Cost:
     certificate = compose(load(job, registry, (identifier,)), registry)
     gc.collect()
     gc.disable()  # as in a run
-    cost, _ = timed(lambda: render(certificate, [registry.find_renderer(identifier)], registry))
+    cost, _ = timed(lambda: render(certificate, [registry.renderer(identifier)], registry))
     gc.enable()
     return cost
 

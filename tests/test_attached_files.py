@@ -59,7 +59,7 @@ def carried(folder: Path, formats: tuple[str, ...], registry: Registry) -> dict[
     FOLDER.received = ()
     outcome = pipeline.run(load(folder / "job.yaml", registry, formats), registry)
     assert [document.path.suffix for document in outcome.documents] == [
-        registry.find_renderer(identifier).suffix for identifier in formats
+        registry.renderer(identifier).suffix for identifier in formats
     ]
     return {each.name: each.relationship for each in FOLDER.received}
 

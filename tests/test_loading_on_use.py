@@ -83,7 +83,7 @@ def test_what_an_entry_point_names_is_known_before_it_is_loaded(install: Any) ->
 def test_a_plugin_that_breaks_is_told_of_to_who_needs_it(install: Any) -> None:
     install(_BROKEN)
     with pytest.raises(InputError, match=r"no plugin provides effect 'my-effect'(.|\n)*ZeroDivisionError"):
-        find_plugins({}).find_effect("my-effect")
+        find_plugins({}).effect("my-effect")
 
 
 def test_an_entry_point_that_names_what_its_module_does_not_offer_is_told(install: Any) -> None:
@@ -99,13 +99,13 @@ def test_a_module_without_an_entry_point_for_each_object_is_loaded_to_know_what_
     install: Any,
 ) -> None:
     install(_EFFECT, "[zlmreport]\nmine = zlm_mine\n")
-    assert find_plugins({}).find_effect("my-effect").identifier == "my-effect"
+    assert find_plugins({}).effect("my-effect").identifier == "my-effect"
 
 
 def test_one_object_of_a_module_that_breaks_another_is_found_all_the_same(install: Any) -> None:
     broken = "    return [Mine(), 5]"
     install(_EFFECT.replace("    return [Mine()]", broken))
-    assert find_plugins({}).find_effect("my-effect").identifier == "my-effect"
+    assert find_plugins({}).effect("my-effect").identifier == "my-effect"
 
 
 def test_an_unknown_name_loads_no_plugin() -> None:

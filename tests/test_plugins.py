@@ -41,11 +41,11 @@ def _reason(module: object) -> str:
 
 def test_what_plugins_offer_is_found_by_name() -> None:
     registry = exemplary_registry()
-    assert registry.find_standard("exemplary:1").designation == "EX 1"
-    assert registry.find_source("exemplary-text").identifier == "exemplary-text"
-    assert registry.find_renderer("exemplary").suffix == ".json"
-    assert registry.find_effect("exemplary-wave").equation == "A·sin(2πP/Λ)"
-    assert registry.find_part_program("exemplary-steps").suffix == ".steps"
+    assert registry.standard("exemplary:1").designation == "EX 1"
+    assert registry.source("exemplary-text").identifier == "exemplary-text"
+    assert registry.renderer("exemplary").suffix == ".json"
+    assert registry.effect("exemplary-wave").equation == "A·sin(2πP/Λ)"
+    assert registry.part_program("exemplary-steps").suffix == ".steps"
     assert registry.failed == ()
 
 
@@ -71,7 +71,7 @@ def test_order_of_plugins_does_not_matter() -> None:
 
 def test_unknown_name_is_answered_with_the_nearest_at_its_place() -> None:
     with pytest.raises(InputError) as caught:
-        exemplary_registry().find_standard("exemplary:l", Place("job.yaml", 3, 5))
+        exemplary_registry().standard("exemplary:l", Place("job.yaml", 3, 5))
     assert str(caught.value) == (
         "job.yaml:3:5: no plugin provides standard 'exemplary:l'; "
         "did you mean 'exemplary:1'? (known: exemplary:1)"
@@ -81,7 +81,7 @@ def test_unknown_name_is_answered_with_the_nearest_at_its_place() -> None:
 def test_unknown_name_is_answered_with_the_plugins_that_might_have_had_it() -> None:
     registry = collect([(Plugin("broken"), offering([object()]))], disabled=["resting"])
     with pytest.raises(InputError) as caught:
-        registry.find_renderer("pdf")
+        registry.renderer("pdf")
     message = caught.value.problems[0].message
     assert "no plugin provides format 'pdf'; there is none to choose from" in message
     assert "\n  plugin broken was not loaded: standard 'object' lacks identifier" in message
@@ -224,9 +224,9 @@ def test_module_that_imports_the_package_of_the_built_in_plugins_is_no_misspelt_
 
 def test_what_two_plugins_provide_is_refused_to_who_names_it() -> None:
     registry = _collected(offering([ExemplaryStandard()], [ExemplarySource()]))
-    assert registry.find_source("exemplary-text").identifier == "exemplary-text"
+    assert registry.source("exemplary-text").identifier == "exemplary-text"
     with pytest.raises(InputError) as caught:
-        registry.find_standard("exemplary:1", Place("job.yaml", 3, 5))
+        registry.standard("exemplary:1", Place("job.yaml", 3, 5))
     assert str(caught.value) == (
         "job.yaml:3:5: two plugins provide standard 'exemplary:1': other_module and sound_module; "
         "switch one off: ZLMREPORT_DISABLE_PLUGINS=sound"
@@ -237,7 +237,7 @@ def test_standard_and_source_may_share_a_name() -> None:
     class Namesake(ExemplarySource):
         identifier = "exemplary:1"
 
-    assert _collected(offering(sources=[Namesake()])).find_source("exemplary:1").identifier == "exemplary:1"
+    assert _collected(offering(sources=[Namesake()])).source("exemplary:1").identifier == "exemplary:1"
 
 
 @pytest.fixture
@@ -268,7 +268,7 @@ def test_installed_plugin_is_found(install: Any) -> None:
         "def zlmreport_sources():\n"
         "    return [ExemplarySource()]\n")  # fmt: skip
     registry = find_plugins({})
-    assert registry.find_source("exemplary-text").identifier == "exemplary-text"
+    assert registry.source("exemplary-text").identifier == "exemplary-text"
     assert registry.find_origin(SOURCE, "exemplary-text") == Plugin(
         "mine", "zlm_test_mine", "zlm_test_mine", "3.0"
     )
@@ -334,18 +334,18 @@ def zlmreport_effects():
 def test_file_that_the_command_line_names_is_a_plugin(file: Any) -> None:
     path = file(EFFECT_FILE)
     registry = find_plugins({}, [path])
-    assert registry.find_effect("my-effect").identifier == "my-effect"
+    assert registry.effect("my-effect").identifier == "my-effect"
     assert registry.find_origin(EFFECT, "my-effect") == Plugin("mine", str(path))
 
 
 def test_file_that_the_environment_names_is_a_plugin(file: Any) -> None:
     path = file(EFFECT_FILE)
-    assert find_plugins({FILES: f":{path}"}).find_effect("my-effect").identifier == "my-effect"
+    assert find_plugins({FILES: f":{path}"}).effect("my-effect").identifier == "my-effect"
 
 
 def test_file_that_is_named_twice_is_loaded_once(file: Any) -> None:
     path = file(EFFECT_FILE)
-    assert find_plugins({FILES: str(path)}, [path, path]).find_effect("my-effect").identifier == "my-effect"
+    assert find_plugins({FILES: str(path)}, [path, path]).effect("my-effect").identifier == "my-effect"
 
 
 def test_file_may_use_options_of_its_own(file: Any) -> None:
@@ -399,4 +399,4 @@ def test_file_that_offers_what_is_there_already_is_refused(file: Any, install: A
     install("installed", EFFECT_FILE)
     path = file(EFFECT_FILE)
     with pytest.raises(InputError, match="two plugins provide effect 'my-effect': zlm_test_installed and"):
-        find_plugins({}, [path]).find_effect("my-effect")
+        find_plugins({}, [path]).effect("my-effect")

@@ -79,7 +79,7 @@ def _parameters_of_drift(planned: PlannedTest) -> dict[str, float]:
         run=design.run,
         deviation=read_only_floats(_DRIFT * design.time / design.duration),
     )
-    standard = find_plugins().find_standard("iso230-2:2014")
+    standard = find_plugins().standard("iso230-2:2014")
     evaluation = evaluate(standard, drifting, standard.options(), {})
     return {parameter.quantity.symbol: parameter.value for parameter in evaluation.parameters}
 

@@ -101,7 +101,7 @@ def read_whole(job: Job, registry: Registry) -> MeasurementSet:
     """Read the measurements that the job names and correct them; none is set aside."""
     if job.tests:
         return join_lines(job.axis, {name: read_whole(each, registry) for name, each in job.tests.items()})
-    source = registry.find_source(job.source.identifier)
+    source = registry.source(job.source.identifier)
     set_ups = {
         choice.identifier: extension.set_up(job, choice.options)
         for extension, choice in registry.list_extensions_of(job)
@@ -391,7 +391,7 @@ def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]
     """Return the standards that a job names, as they evaluate what was measured, each with its own keys."""
     stated = job.axis.error or job.axis.measurand.identifier
     return [
-        (evaluate_for_error(registry.find_standard(choice.identifier), stated), choice.options)
+        (evaluate_for_error(registry.standard(choice.identifier), stated), choice.options)
         for choice in job.standards
     ]
 
@@ -399,7 +399,7 @@ def choose_standards(job: Job, registry: Registry) -> list[tuple[Standard, Any]]
 def run(job: Job, registry: Registry, signer: Signer | None = None, showing: Showing = _unseen) -> Outcome:
     """Make every file of a job, in memory: a failure at any step leaves nothing behind."""
     demand_days_past(job)
-    renderers = [registry.find_renderer(identifier) for identifier in job.formats]
+    renderers = [registry.renderer(identifier) for identifier in job.formats]
     with _collect_garbage_once():
         is_laid_out = any(map(needs_layout, renderers))
         certificate = compose(job, registry, showing=showing, is_laid_out=is_laid_out)
@@ -429,7 +429,7 @@ def render(certificate: Certificate, renderers: Sequence[Renderer], registry: Re
     others = [each for each in renderers if each not in carriers]
     is_asked_for = any(each.identifier == RESULTS for each in others)
     if carriers and not is_asked_for and RESULTS in registry.list_identifiers(RENDERER):
-        others.append(registry.find_renderer(RESULTS))
+        others.append(registry.renderer(RESULTS))
     contents = {each.identifier: each.render(certificate) for each in others}
     if carriers:
         attached = [

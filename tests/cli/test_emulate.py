@@ -61,7 +61,7 @@ def test_an_instrument_is_read_until_it_is_ended(tmp_path: Path) -> None:
     command = (*ZLMREPORT, "emulate", "umd1", "--link", link, "--course", "25")
     with started(*command) as emulation:
         printed = emulation.lines(3)
-        umd = find_plugins().find_instrument("umd1")
+        umd = find_plugins().instrument("umd1")
         with umd.open(umd.options.model_validate({"port": str(link)})) as connection:
             readings = list(islice(connection.readings(), 10))
         emulation.ended()

@@ -73,7 +73,7 @@ def test_plan_machine_instrument_capture_and_certificate_go_together(specificati
 
 def _true_means(table: Path) -> list[list[float]]:
     """Return the means of what the axis did, upwards and downwards, µm."""
-    source = find_plugins().find_source("laser-csv")
+    source = find_plugins().source("laser-csv")
     context = SourceContext(Axis("X"), Place("job.yaml"))
     read = source.read(source.options.model_validate({"file": table}), context)
     means: list[list[float]] = (read.deviations().mean(axis=-1) * 1e6).tolist()

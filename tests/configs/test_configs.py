@@ -112,7 +112,7 @@ def test_a_job_gives_each_of_its_formats_and_each_of_its_standards(made: Made) -
 
 @pytest.mark.long
 def test_no_page_of_any_layout_embarrasses(made: Made, registry: Registry) -> None:
-    press = registry.find_renderer("pdf-typst")
+    press = registry.renderer("pdf-typst")
     found = {layout: embarrassments(each, press.render(each)) for layout, each in made.laid_out.items()}
     of_files = [each for each in made.written if each.suffix == ".pdf"]
     asked_for = made.laid_out[made.job.keys.certificate.layout]
@@ -140,7 +140,7 @@ def test_no_page_with_long_german_names_embarrasses(
     monkeypatch.setattr(pipeline, "build", whole)
     pipeline.run(replace(job, formats=("json",)), registry)
     certificate = build(*whole.call_args.args)
-    assert not embarrassments(certificate, registry.find_renderer(press).render(certificate))
+    assert not embarrassments(certificate, registry.renderer(press).render(certificate))
 
 
 @pytest.mark.long
@@ -153,7 +153,7 @@ def test_an_embarrassing_page_is_found() -> None:
     lone = Section("lone", "Lone", (Notice("Only a note", ("of one item",)),), new_page=True)
     last = Section("last", "Last", (Paragraph("The end."),), new_page=True)
     certificate = samples.certificate(standards=1, sections=(lone, last))
-    pdf = find_plugins().find_renderer("pdf-typst").render(certificate)
+    pdf = find_plugins().renderer("pdf-typst").render(certificate)
     pages = len(pypdfium2.PdfDocument(pdf))
     assert embarrassments(certificate, pdf) == [
         f"page {pages - 1} is filled to 0.10",

@@ -152,7 +152,7 @@ def test_conforms(
     axis: Axis | SourceContext,
     holds: FileContents,
 ) -> None:
-    check(REGISTRY.find_source(identifier), keys, axis, holds)
+    check(REGISTRY.source(identifier), keys, axis, holds)
 
 
 def test_every_source_has_a_sample() -> None:

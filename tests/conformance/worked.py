@@ -158,7 +158,7 @@ def _plate() -> list[WorkedExample]:
 def _installed(identifier: str) -> Any:
     from zlmreport.plugin.registry import find_plugins
 
-    return find_plugins().find_standard(identifier)
+    return find_plugins().standard(identifier)
 
 
 _OF_LINES = {

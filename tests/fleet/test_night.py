@@ -336,7 +336,7 @@ def with_another_page(monkeypatch: pytest.MonkeyPatch, factor: float = 1.0) -> N
     newer = VERSIONS | {"exemplary-plugins": "1.3 code"}
     monkeypatch.setattr(nights, "find_program_versions", lambda **_: newer)
     monkeypatch.setattr(making, "find_versions_once", lambda _: newer)
-    page = REGISTRY.find_renderer("exemplary")
+    page = REGISTRY.renderer("exemplary")
     monkeypatch.setattr(page, "render", lambda certificate: f"1.3: {certificate.title}".encode())
     states = making.list_parameters_of
     monkeypatch.setattr(

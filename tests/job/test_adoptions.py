@@ -24,7 +24,7 @@ def of(*standards: Any) -> dict[str, Any]:
     ],
 )
 def test_an_identical_adoption_is_its_standard(adoption: str, standard: str) -> None:
-    assert registry().find_standard(adoption).identifier == standard
+    assert registry().standard(adoption).identifier == standard
 
 
 @pytest.mark.parametrize("layout", ["sheet", "standard", "full"])

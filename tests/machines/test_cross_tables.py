@@ -58,7 +58,7 @@ def out_of_square():
 def test_what_siemens_reads_back_leaves_nothing_of_straightness_and_squareness(
     out_of_square, controls, moves
 ):
-    control = controls.find_controller("siemens-840d-cec")
+    control = controls.controller("siemens-840d-cec")
     plan = plan_tables(out_of_square, PLACE)
     assert len(plan.tables) == 6
     files = control.cross_files(plan.tables, moves)
@@ -68,7 +68,7 @@ def test_what_siemens_reads_back_leaves_nothing_of_straightness_and_squareness(
 
 
 def test_a_wrong_sign_doubles_the_error(out_of_square, controls):
-    control = controls.find_controller("siemens-840d-cec")
+    control = controls.controller("siemens-840d-cec")
     plan = plan_tables(out_of_square, PLACE)
     decoded = control.read_cross(control.cross_files(plan.tables, 1), plan.tables, -1)
     before = displacements(out_of_square)
@@ -77,14 +77,14 @@ def test_a_wrong_sign_doubles_the_error(out_of_square, controls):
 
 def test_a_positive_value_that_moves_back_is_the_deviation_itself(controls):
     table = plan_tables(bare_machine([curve("EYX", BOW)]), PLACE).tables[0]
-    (text,) = controls.find_controller("siemens-840d-cec").cross_files([table], -1).values()
+    (text,) = controls.controller("siemens-840d-cec").cross_files([table], -1).values()
     assert "$AN_CEC[0,8]=-0.00800\n" in text  # the middle lies 8 µm below the first row
     assert "$AN_CEC_INPUT_AXIS[0]=(X1)\n$AN_CEC_OUTPUT_AXIS[0]=(Y1)\n" in text
     assert "$AN_CEC_DIRECTION[0]=0\n" in text
 
 
 def test_linuxcnc_takes_squareness_by_its_kinematics_and_leaves_straightness(out_of_square, controls):
-    control = controls.find_controller("linuxcnc")
+    control = controls.controller("linuxcnc")
     plan = plan_tables(out_of_square, PLACE)
     files = control.cross_files(plan.tables, 1)
     # joint X = x + C_xy·y: C0Y > 0 leans Y towards −X, so X goes to +.

@@ -31,7 +31,7 @@ BASE = ("centre-offset", "radius")
 
 
 def diagnosed(*circles, effects=BASE, machine=None):
-    chosen = [REGISTRY.find_circle_effect(name) for name in effects]
+    chosen = [REGISTRY.circle_effect(name) for name in effects]
     return diagnose(study_circles(machine or bare_machine(), circles, chosen), CATALOGUE)
 
 
@@ -125,11 +125,9 @@ def test_the_uncertainty_of_what_is_in_the_model_holds_a_curve_that_has_no_name(
     """A bump stands beside a squareness in the model."""
     seen = circle(out_of_square(12 * MICRO), seed=4)
     bump = np.exp(-0.5 * ((seen.angle % (2 * np.pi) - 0.8) / 0.35) ** 2)
-    effects = [REGISTRY.find_circle_effect(name) for name in (*BASE, "squareness")]
+    effects = [REGISTRY.circle_effect(name) for name in (*BASE, "squareness")]
     study = study_circles(bare_machine(), [with_deviation(seen, 3 * MICRO * bump)], effects)
-    found = diagnose(
-        study, [REGISTRY.find_circle_effect(name) for name in ("scale-mismatch", "servo-mismatch")]
-    )
+    found = diagnose(study, [REGISTRY.circle_effect(name) for name in ("scale-mismatch", "servo-mismatch")])
     assert (found.verdict, found.found) == (Verdict.UNEXPLAINED, ())
     bare, held = (each.list_estimates_of("squareness")[0] for each in (study, found.complete))
     assert held.expanded_uncertainty > 1.3 * bare.expanded_uncertainty
@@ -140,7 +138,7 @@ def test_the_uncertainty_of_what_is_in_the_model_holds_a_curve_that_has_no_name(
 def test_beside_curves_without_a_name_parameters_lie_within_their_uncertainty():
     """The curves are drawn as they are taken to be: of 40 values some 38 lie within."""
     random = np.random.default_rng(5)
-    effects = [REGISTRY.find_circle_effect(name) for name in (*BASE, "squareness")]
+    effects = [REGISTRY.circle_effect(name) for name in (*BASE, "squareness")]
     plain = study_circles(bare_machine(), [circle(nothing, seed=4, count=90, noise=0.3 * MICRO)], effects)
     curve = 2.0 * make_nameless_curves(plain.design)[0].columns
     misses = {False: [], True: []}
@@ -158,7 +156,7 @@ def test_beside_curves_without_a_name_parameters_lie_within_their_uncertainty():
 def test_the_correlation_length_of_irregular_geometry_is_found(length):
     sizes = Scatter(0.76, 0.0, 0.65, geometry_length=length)
     seen = circle(nothing, seed=2, repeats=2, scatter=sizes)
-    effects = [REGISTRY.find_circle_effect(name) for name in BASE]
+    effects = [REGISTRY.circle_effect(name) for name in BASE]
     found = study_circles(bare_machine(), [seen], effects).noise
     assert np.degrees(found.likeliest.length) == pytest.approx(length)
 

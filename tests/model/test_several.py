@@ -55,9 +55,9 @@ def test_effect_that_may_stand_there_once_stays_what_it_is() -> None:
 
 def test_registry_knows_the_second_by_its_number() -> None:
     registry = find_plugins()
-    assert registry.find_effect("scale-joint-2").identifier == "scale-joint-2"
+    assert registry.effect("scale-joint-2").identifier == "scale-joint-2"
     with pytest.raises(InputError, match="backlash-2"):
-        registry.find_effect("backlash-2")
+        registry.effect("backlash-2")
 
 
 _JOB = """schema: zlmreport/job/1

@@ -22,7 +22,7 @@ DATA = Path(__file__).parents[1] / "data"
 
 def written(identifier: str, keys: dict[str, Any] | None = None, **changes: Any) -> str:
     """Return the program of a path; `changes` are those of its settings."""
-    program = REGISTRY.find_part_program(identifier, takes=ProbingPath)
+    program = REGISTRY.part_program(identifier, takes=ProbingPath)
     return program.write(planned(**changes).path, program.options.model_validate(keys or {}))
 
 
@@ -70,7 +70,7 @@ def test_dmis_names_each_point_by_face_and_cycle() -> None:
 
 
 def test_dmis_continues_a_line_of_more_than_80_characters() -> None:
-    program = REGISTRY.find_part_program("dmis", takes=ProbingPath)
+    program = REGISTRY.part_program("dmis", takes=ProbingPath)
     lines = program.write(sample_path(), program.options()).splitlines()
     assert max(map(len, lines)) <= 80
     first = next(index for index, line in enumerate(lines) if line.startswith("F("))
@@ -101,7 +101,7 @@ def test_ippdme_refuses_a_machine_that_corrects_the_radius() -> None:
 
 
 def test_ippdme_numbers_a_long_path_one_by_one_and_refuses_one_that_is_too_long() -> None:
-    program = REGISTRY.find_part_program("ippdme", takes=ProbingPath)
+    program = REGISTRY.part_program("ippdme", takes=ProbingPath)
     path = planned(blocks=3).path  # 30 moves
     text = program.write(replace(path, moves=path.moves * 400), program.options())
     assert text.startswith("00001 StartSession()")
@@ -117,5 +117,5 @@ def test_mv_ms_has_the_digits_that_are_asked_for() -> None:
 @pytest.mark.parametrize("identifier", sorted(LANGUAGES))
 def test_horizontal_paths_are_written_too(identifier: str) -> None:
     path = planned(kind=PathKind.HORIZONTAL).path
-    program = REGISTRY.find_part_program(identifier, takes=ProbingPath)
+    program = REGISTRY.part_program(identifier, takes=ProbingPath)
     assert len(LANGUAGES[identifier](program.write(path, program.options()))) == len(path.moves)

@@ -20,7 +20,7 @@ from zlmreport_step_gauge.set_up import GaugeSetUp, StatedRadius
 
 GAUGE = gauge()
 STATED = StatedRadius(RADIUS, 0.2e-6)
-ISO = find_plugins().find_standard("iso230-2:2014")
+ISO = find_plugins().standard("iso230-2:2014")
 
 
 def lost(_: float, side: Side) -> float:
@@ -130,7 +130,7 @@ def test_what_is_not_compensated_is_said() -> None:
 
 
 def test_the_evaluation_of_pahk_and_kim_has_the_reversal_with_their_sign() -> None:
-    own = find_plugins().find_standard("step-gauge")
+    own = find_plugins().standard("step-gauge")
     found = evaluate(own, measured(), Options(), {})
     assert found.value("XR_mean") == pytest.approx(4e-6, rel=1e-6)
     assert found.value("B_mean") == pytest.approx(-4e-6, rel=1e-6)

@@ -74,7 +74,7 @@ def path(slope: float, beside: float = BESIDE) -> ProbingPath:
 
 def written(planned: ProbingPath) -> list[list[str]]:
     """Return the words of the program, statement by statement: the figure's blanks follow no rule."""
-    program = find_plugins().find_part_program("mv-ms", takes=ProbingPath)
+    program = find_plugins().part_program("mv-ms", takes=ProbingPath)
     return [line.split() for line in program.write(planned, program.options()).splitlines()]
 
 

@@ -25,7 +25,7 @@ from zlmreport_step_gauge.set_up import GaugeSetUp
 
 DATA = ROOT / "tests" / "data" / "step_gauge"
 RAW, LOG, CALYPSO = DATA / "stepgauge_raw.csv", DATA / "stepgauge.res", DATA / "STEPGAUGE_1_chr.txt"
-SOURCE = find_plugins().find_source("step-gauge")
+SOURCE = find_plugins().source("step-gauge")
 CALIBRATED = read_calibration(DATA / "stepgauge_cal.csv")
 HERE = Place("job.yaml", 12, 5)
 #: The line of the recorded run, and the centre of the front face of its first block: half a micrometre would

@@ -9,7 +9,7 @@ from zlmreport.evaluation.statistics import position_statistics
 from zlmreport.measurement.arrays import FloatArray
 from zlmreport.plugin.registry import find_plugins
 
-STANDARD = find_plugins().find_standard("step-gauge")
+STANDARD = find_plugins().standard("step-gauge")
 NAN = float("nan")
 FORWARD = [[0.0, 2.0], [NAN, NAN], [4.0, 6.0], [NAN, NAN]]
 BACKWARD = [[NAN, NAN], [1.0, 1.0], [NAN, NAN], [2.0, 6.0]]

@@ -41,10 +41,10 @@ def test_another_reading_is_found(by_typst: bytes, verified: Verify) -> None:
 
 
 def test_the_other_renderers_documents_are_not_taken_for_its_own() -> None:
-    typst = registry().find_renderer("pdf-typst")
+    typst = registry().renderer("pdf-typst")
     assert is_made_by(typst, "Typst 0.15.0")
     assert not is_made_by(typst, "zlmreport 0.1.0")
-    assert not is_made_by(registry().find_renderer("pdf"), "Typst 0.15.0")
+    assert not is_made_by(registry().renderer("pdf"), "Typst 0.15.0")
 
 
 def test_where_its_renderer_is_missing_nothing_of_its_drawing_is_said_to_hold(

@@ -50,7 +50,7 @@ def test_what_goes_out_again_has_a_minus_and_an_unknown_noise_no_mark(job: Path)
 
 
 def test_an_effect_is_named_with_its_unusual_keys_alone(job: Path) -> None:
-    usual = registry().find_effect("polynomial").settings.model_dump(mode="json")
+    usual = registry().effect("polynomial").settings.model_dump(mode="json")
     names = Naming.of(registry().effects, Language.ENGLISH)
 
     def of(settings: dict[str, Any]) -> str:

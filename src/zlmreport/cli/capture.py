@@ -217,7 +217,7 @@ def capture(  # noqa: PLR0913 - whom, what, with what, shown where, and how to g
     else:
         demand_nothing_captured(assignment.options.journal)
     choice = find_instrument_of(job)
-    with registry.find_instrument(choice.identifier).open(choice.options) as connection:
+    with registry.instrument(choice.identifier).open(choice.options) as connection:
         display.wait()
         readings = ReadAhead(connection.readings())
         first = next(readings)  # an instrument that is not there leaves no journal

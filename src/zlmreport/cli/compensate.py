@@ -65,7 +65,7 @@ def run(options: Namespace) -> int:
     uncertainties = _find_uncertainties(job, measurements, made, registry)
     written: Sequence[Path] = ()
     if options.output:
-        sheet = registry.find_renderer("pdf").render(
+        sheet = registry.renderer("pdf").render(
             make_compensation_sheet(job, measurements, made, uncertainties)
         )
         contents = {end: text.encode() for end, text in made.files.items()} | {_SHEET: sheet}
@@ -165,7 +165,7 @@ def _choose_controller(job: Job, registry: Registry, options: Namespace) -> tupl
     )
     if problems or choice is None:
         raise InputError(problems)
-    return registry.find_controller(name), choice.options
+    return registry.controller(name), choice.options
 
 
 def _confirm(options: Namespace, registry: Registry) -> int:

@@ -25,7 +25,7 @@ def run(options: Namespace) -> int:
     """Emulate an instrument until it is unplugged, or the user ends it."""
     refuse_two_lines(options, "zlmreport emulate")
     axis = make_axis_of(options)
-    instrument = find_plugins(files=options.plugin).find_instrument(options.instrument)
+    instrument = find_plugins(files=options.plugin).instrument(options.instrument)
     title = instrument.title.in_language(Language.ENGLISH)
     course = ", ".join(write_general_number(MILLIMETRE.from_si(position)) for position in axis.course)
     return put_on_line(

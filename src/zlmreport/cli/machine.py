@@ -112,7 +112,7 @@ def _write_certificate(
     output, certificate = machine.file.keys.output, document.certificate
     folder = options.output or output.directory or machine.path.parent
     stated = options.format.split(",") if options.format else output.formats
-    renderers = [registry.find_renderer(each.strip(), Place("--format")) for each in stated if each.strip()]
+    renderers = [registry.renderer(each.strip(), Place("--format")) for each in stated if each.strip()]
     documents = [
         Document(folder / name, document.results if each.identifier == "json" else each.render(certificate))
         for name, each in zip(name_files(certificate.number, renderers), renderers, strict=True)

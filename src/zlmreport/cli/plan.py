@@ -65,7 +65,7 @@ def run(options: Namespace) -> int:
         options.program,
         options.output,
         job.programs,
-        registry.find_part_program,
+        registry.part_program,
         registry.list_programs_for(),
     )
     demand_file(options, programs)
@@ -83,7 +83,7 @@ def run(options: Namespace) -> int:
                     number,
                     partial(write_program_of, motion),
                     programs,
-                    registry.find_part_program,
+                    registry.part_program,
                 ),
             )
         else:
@@ -94,7 +94,7 @@ def run(options: Namespace) -> int:
                 of_run,
                 partial(write_program_of, subject),
                 programs,
-                registry.find_part_program,
+                registry.part_program,
             )
     written = write_new(documents)
     if options.json:
@@ -174,7 +174,7 @@ def _show_plan(
 ) -> int:
     """Write and print a plan."""
     extension, choice, plan = found
-    find = partial(registry.find_part_program, takes=extension.takes)
+    find = partial(registry.part_program, takes=extension.takes)
     known = registry.list_programs_for(extension.takes) if extension.takes else ()
     programs = choose_programs(options.program, options.output, choice.programs, find, known)
     number = job.keys.certificate.number

@@ -30,7 +30,7 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
         options.program,
         options.output,
         job.programs,
-        registry.find_part_program,
+        registry.part_program,
         registry.list_programs_for(),
     )
     demand_file(options, programs)
@@ -51,7 +51,7 @@ def plan_circle(options: Namespace, job: Job, registry: Registry) -> int:
             "-".join(parts),
             partial(_write_program, registry, of_run),
             programs,
-            registry.find_part_program,
+            registry.part_program,
         )
     written = write_new(tuple(documents))
     if options.json:

@@ -99,7 +99,7 @@ def open_signer_of(options: Namespace) -> AbstractContextManager[Signer | None]:
 
 def demand_something_to_sign(job: Job, registry: Registry) -> None:
     """Refuse a job that writes no PDF, rather than leave its user to believe that it is signed."""
-    if not any(registry.find_renderer(identifier).suffix == PDF for identifier in job.formats):
+    if not any(registry.renderer(identifier).suffix == PDF for identifier in job.formats):
         raise InputError.at(
             job.place_of("output.formats"),
             f"there is nothing to sign: {', '.join(job.formats)} is no PDF; add pdf to the formats",

@@ -36,7 +36,7 @@ def run(options: Namespace) -> int:
         return run_live(options)
     registry = find_plugins(files=options.plugin)
     file = load_simulation(options.specification, registry)
-    measurements = simulate(read_description_of(file, registry.find_effect)).measurements
+    measurements = simulate(read_description_of(file, registry.effect)).measurements
     folder = options.output or options.specification.parent
     readings = folder / (file.keys.output.readings or f"{options.specification.stem}.csv")
     job = folder / file.keys.output.job
@@ -61,9 +61,9 @@ def run_live(options: Namespace) -> int:
     if options.start < 0:
         raise InputError.at(Place(_COMMAND), f"--start {options.start:g} has gone by; state 0 or more")
     registry = find_plugins(files=options.plugin)
-    instrument = registry.find_instrument(options.emulate)
+    instrument = registry.instrument(options.emulate)
     file = load_simulation(options.specification, registry)
-    description = read_description_of(file, registry.find_effect)
+    description = read_description_of(file, registry.effect)
     machine = make_emulated_machine(description, options.start)
     folder = options.output or options.specification.parent
     truth = folder / f"{options.specification.stem}-truth.csv"

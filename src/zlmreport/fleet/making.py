@@ -161,7 +161,7 @@ def _make(task: Task, job: Job, fleet: FleetFile, begun: float) -> MadeCertifica
     registry = find_plugins_once(task.plugins)
     programs = _find_programs(task, job, registry)
     named = digest_named_files(job)
-    renderers = [registry.find_renderer(identifier) for identifier in job.formats]
+    renderers = [registry.renderer(identifier) for identifier in job.formats]
     _demand_one_of_a_suffix(task.job, renderers)
     outcome = pipeline.run(job, registry)
     certificate = outcome.certificate

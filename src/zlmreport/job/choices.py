@@ -69,7 +69,7 @@ def choose_instrument(
     fields = list_keys_in(source).items()
     key = next((key for key, field in fields if find_model_in(field.annotation) is LiveInstrumentKeys), "")
     group = find_at(keys, (key,))
-    return choose_in(group, "plugin", registry.find_instrument, problems, within=f"{within}.{key}")
+    return choose_in(group, "plugin", registry.instrument, problems, within=f"{within}.{key}")
 
 
 _SHAPE = (
@@ -184,7 +184,7 @@ def _choose_effects(
             continue
         identifier, keys = named
         try:
-            effect: InstalledEffect = registry.find_effect(identifier, item.place)
+            effect: InstalledEffect = registry.effect(identifier, item.place)
         except InputError as error:
             problems.extend(error.problems)
             continue
@@ -360,7 +360,7 @@ def choose_controller_of(
     stated: Node | None, registry: Installed, problems: list[Problem]
 ) -> ControllerChoice | None:
     """Return the control that a group of keys names; None if it names none, or a wrong one."""
-    choice = choose_in(stated, "controller", registry.find_controller, problems, within="compensation")
+    choice = choose_in(stated, "controller", registry.controller, problems, within="compensation")
     if choice is None or not isinstance(stated, Keys):
         return None
     own = replace(stated.without("controller"), place=choice.place)
@@ -392,12 +392,12 @@ def choose_extensions(tree: Keys, registry: Installed, problems: list[Problem]) 
         entry = tree.entries.get(name)
         if entry is None:
             continue
-        extension = registry.find_extension(name, entry.place)
+        extension = registry.extension(name, entry.place)
         group = validate(group_model(extension), make_keys_of(tree.place, (entry,)), problems)
         path = (name, *extension.programs)
         programs = choose_programs_of(
             find_at(tree, path) if extension.programs else None,
-            partial(registry.find_part_program, takes=extension.takes),
+            partial(registry.part_program, takes=extension.takes),
             problems,
             within=".".join(path),
         )

@@ -59,7 +59,7 @@ def edit_parameter(path: Path, job: Job, registry: Installed, wanted: ParameterC
         raise InputError.at(
             place, f"{effect} is a formula; write the value of {parameter} among its parameters"
         )
-    installed = registry.find_effect(effect, job.place_of(str(EFFECTS)))
+    installed = registry.effect(effect, job.place_of(str(EFFECTS)))
     form = installed.with_settings(job.effects[found[0]].settings) if found else installed
     if not found or parameter not in {each.name for each in (*form.linear, *form.searched)}:
         raise InputError.at(

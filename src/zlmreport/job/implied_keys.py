@@ -66,7 +66,7 @@ def share_keys(tree: Keys, registry: Installed) -> Keys:
         named = group.entries.get("standard")
         if named and isinstance(named.value, Scalar):
             with suppress(InputError):  # a standard that there is not is refused later
-                options = registry.find_standard(named.value.text, named.value.place).options
+                options = registry.standard(named.value.text, named.value.place).options
                 shared = [key for key in options.of_the_measurement if key not in registry.extension_keys]
         entries = dict(group.entries)
         for key in shared:

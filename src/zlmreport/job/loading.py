@@ -164,7 +164,7 @@ def _check_job(
         found = [
             each
             for choice in chosen.extensions
-            for each in registry.find_extension(choice.identifier).contradictions(keys, choice.options)
+            for each in registry.extension(choice.identifier).contradictions(keys, choice.options)
         ]
         found += [
             *find_quantity_contradictions(keys, measurand),
@@ -179,7 +179,7 @@ def _check_job(
     if problems or keys is None or source is None:
         raise InputError(sorted(_drop_said_twice(problems)))
     for choice in chosen.extensions:
-        keys = registry.find_extension(choice.identifier).completed(keys, choice.options)
+        keys = registry.extension(choice.identifier).completed(keys, choice.options)
     axis = convert_axis_to_si(keys.axis, measurand, find_stated_error(keys), keys.measurement.at, keys.circle)
     job = Job(
         keys=keys,
@@ -190,7 +190,7 @@ def _check_job(
             replace(
                 choice,
                 tolerances=convert_tolerances_to_si(
-                    each.tolerances, evaluate_for_error(registry.find_standard(each.standard), error), axis
+                    each.tolerances, evaluate_for_error(registry.standard(each.standard), error), axis
                 ),
                 specification=each.specification or "",
             )
@@ -222,7 +222,7 @@ def _choose_where_stated(tree: Keys, registry: Installed, problems: list[Problem
         )
     if "plan" in tree.entries:
         listed, within = find_at(tree, _PROGRAMS), ".".join(_PROGRAMS)
-        programs = choose_programs_of(listed, registry.find_part_program, problems, within=within)
+        programs = choose_programs_of(listed, registry.part_program, problems, within=within)
         chosen = replace(chosen, programs=programs)
     if compensation := tree.entries.get("compensation"):
         controller = choose_controller_of(compensation.value, registry, problems)
@@ -306,7 +306,7 @@ def choose_formats_once(named: Iterable[tuple[str, Place]], registry: Installed)
     found: dict[str, None] = {}
     for identifier, place in named:
         try:
-            found[registry.find_renderer(identifier, place).identifier] = None
+            found[registry.renderer(identifier, place).identifier] = None
         except InputError as error:
             problems.extend(error.problems)
     if problems:

@@ -79,7 +79,7 @@ def make_job_of_test(job: Job, name: str, source: SourceChoice, registry: Instal
         standards=tuple(
             replace(each, tolerances={})
             for each in job.standards
-            if is_for(registry.find_standard(each.identifier), quantity or POSITIONING)
+            if is_for(registry.standard(each.identifier), quantity or POSITIONING)
         ),
         effects=(),
         candidates=(),

@@ -81,7 +81,7 @@ def _list_standards(
     """Yield the standards of a job that are installed; the others are refused elsewhere."""
     for index, each in enumerate(keys.evaluate):
         try:
-            yield index, registry.find_standard(each.standard, place_of(tree, ("evaluate", index)))
+            yield index, registry.standard(each.standard, place_of(tree, ("evaluate", index)))
         except InputError:
             continue
 
@@ -313,7 +313,7 @@ def find_effect_contradictions(
     for index, choice in enumerate(effects):
         if choice.is_formula:
             continue
-        effect = registry.find_effect(choice.identifier)
+        effect = registry.effect(choice.identifier)
         if not is_for(effect, measurand):
             yield (
                 ("model", "effects", index),

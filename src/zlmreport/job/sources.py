@@ -18,11 +18,11 @@ def choose_source(
     """Return the data source at a path, with its own keys; None where there is none, or a wrong one."""
     keys, within = find_at(tree, path), ".".join(path)
     plugin = find_at(tree, (*path, "plugin"))
-    choice = choose_in(keys, "plugin", registry.find_source, problems, within=within)
+    choice = choose_in(keys, "plugin", registry.source, problems, within=within)
     instrument = None
     with suppress(InputError):  # a source that there is not was refused above
         if isinstance(keys, Keys) and isinstance(plugin, Scalar):
-            known = registry.find_source(plugin.text).options
+            known = registry.source(plugin.text).options
             instrument = choose_instrument(known, keys, registry, problems, within=within)
     return SourceChoice(choice.identifier, choice.options, choice.place, instrument) if choice else None
 

@@ -45,7 +45,7 @@ def choose_standards(
             continue
         identifier, place = named.value.text, named.value.place
         try:
-            standard = evaluate_for_error(registry.find_standard(identifier, place), error)
+            standard = evaluate_for_error(registry.standard(identifier, place), error)
         except InputError as unknown:
             problems.extend(unknown.problems)
             continue

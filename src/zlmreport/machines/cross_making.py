@@ -127,7 +127,7 @@ def choose_cross_control(registry: Registry, wanted: CrossWanted) -> Any:
             wanted.place,
             f"which control? State {wanted.write_option('controller', 'NAME')}: {', '.join(known)}",
         )
-    found = registry.find_controller(wanted.controller, wanted.place)
+    found = registry.controller(wanted.controller, wanted.place)
     if found.identifier not in known:
         raise InputError.at(
             wanted.place,

@@ -34,7 +34,7 @@ def list_effects_with(
 
     Raises `InputError` at `place` if there is no such effect, or it stands in the model already.
     """
-    effect = registry.find_circle_effect(name, place)
+    effect = registry.circle_effect(name, place)
     if name in machine.effect_names:
         raise InputError.at(place, f"{name} stands in the model already")
     return (*machine.effects, effect)

@@ -170,7 +170,7 @@ def _choose_effects(
             problems.append(Problem(place, f"{name} stands in the model already; remove one of them"))
             continue
         try:
-            found[name] = registry.find_circle_effect(name, place)
+            found[name] = registry.circle_effect(name, place)
         except InputError as error:
             problems += error.problems
     return tuple(found.values())

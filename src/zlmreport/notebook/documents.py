@@ -85,7 +85,7 @@ class Certificate:
         return path
 
     def _render(self, identifiers: Iterable[str]) -> tuple[bytes, ...]:
-        renderers = [registry().find_renderer(each, Place("save")) for each in identifiers]
+        renderers = [registry().renderer(each, Place("save")) for each in identifiers]
         contents = pipeline.render(self._composed, renderers, registry())
         return tuple(contents[each.identifier] for each in renderers)
 
@@ -302,7 +302,7 @@ def compensate(  # noqa: PLR0913 - each by its name
     if (active == "none") != (axis.compensation_table is None):
         known = "no" if axis.compensation_table is None else "a"
         raise InputError.at(_PLACE, f"active is {active!r}, and the axis of these readings has {known} table")
-    writer = registry().find_controller(controller, _PLACE)
+    writer = registry().controller(controller, _PLACE)
     if writer.confidence != "verified" and not unconfirmed:
         raise InputError.at(
             _PLACE,

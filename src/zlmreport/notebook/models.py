@@ -247,7 +247,7 @@ class Model:
         self._choices = tuple(choices)
         self._assumptions = assumptions
         kind = data.measurements.axis.kind
-        self._model = AxisModel(choose_terms(self._choices, registry().find_effect, kind))
+        self._model = AxisModel(choose_terms(self._choices, registry().effect, kind))
         self.effects: tuple[str, ...] = tuple(self._model.identifiers)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -433,10 +433,10 @@ class Model:
             effect = {effect.effect: effect.settings}
         (choice,) = _choose_effects([effect])
         if choice.identifier in self.effects and not choice.is_formula:
-            installed = registry().find_effect(choice.installed)
+            installed = registry().effect(choice.installed)
             if installed.several:
                 choice = choice.renumber(find_next_number(choice.installed, self._choices))
-        contains = () if choice.is_formula else registry().find_effect(choice.identifier).contains
+        contains = () if choice.is_formula else registry().effect(choice.identifier).contains
         replaced = {choice.identifier, *contains}
         kept = [each for each in self._choices if each.identifier not in replaced]
         return _fit_model(self.data, [*kept, choice], self._assumptions)

@@ -246,7 +246,7 @@ def read(
         found = pipeline.read(job, registry())
         return Readings(found if axis is None else _replace_axis(found, job, axis))
     name = "read"
-    reader = registry().find_source(plugin, Place(name)) if plugin else _find_reader_of(path)
+    reader = registry().source(plugin, Place(name)) if plugin else _find_reader_of(path)
     options = checked(reader.options, {"file": str(path), **keys}, name)
     return Readings(reader.read(options, SourceContext(axis_of(axis), Place(name))))
 
@@ -432,4 +432,4 @@ def simulate(specification: str | Path | Mapping[str, Any] | None = None, **keys
         given = {"schema": "zlmreport/simulation/1", "seed": 1, **(specification or {}), **keys}
         content = json.dumps(given, default=plain_value).encode()
     file = load_simulation(Path(name), registry(), content)
-    return Readings(simulate_test(read_description_of(file, registry().find_effect)).measurements)
+    return Readings(simulate_test(read_description_of(file, registry().effect)).measurements)

@@ -93,7 +93,7 @@ class Result:
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         """Take over what another process has of it."""
         self.__dict__.update(state)
-        self._standard = registry().find_standard(state["_standard"])
+        self._standard = registry().standard(state["_standard"])
 
     @cached_property
     def evaluation(self) -> Evaluation:
@@ -322,7 +322,7 @@ def _find_known_standard(
     found = list(choose_standards(tree_of({"evaluate": [asked]}, _NAME), registry(), problems))
     if problems:
         raise InputError(Problem(Place(_NAME), each.message) for each in problems)
-    return registry().find_standard(identifier), found[0].options
+    return registry().standard(identifier), found[0].options
 
 
 def drawn(figure: Figure, ax: Axes | None) -> list[Axes]:

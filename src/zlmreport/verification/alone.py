@@ -135,7 +135,7 @@ def _make_again(pdf: Path, made_by: str, registry: Registry) -> bytes:
     stated = find_stated_by(carrier)
     if stated is None:
         raise InputError.at(carrier.place, "carries no results file")
-    renderer = registry.find_renderer(made_by)
+    renderer = registry.renderer(made_by)
     with lay_out(stated.results.provenance.sources, carrier.carried) as layout:
         job = load(layout.job, registry, formats=(made_by,))
         return renderer.render(pipeline.compose(job, registry))

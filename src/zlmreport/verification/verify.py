@@ -185,7 +185,7 @@ def make_certificate_again(job_path: Path, carrier: Carrier, stated: Results, re
     It is printed in the name of the releases that it states: where their names are all that differs, another
     release has repeated it.
     """
-    results, printer = registry.find_renderer(pipeline.RESULTS), _find_printer(carrier, registry)
+    results, printer = registry.renderer(pipeline.RESULTS), _find_printer(carrier, registry)
     job, has_own_look = _replace_look(load(job_path, registry, formats=(printer.identifier,)))
     here = pipeline.find_programs(job, registry)
     named = stated.provenance.generator, stated.provenance.plugins
@@ -267,7 +267,7 @@ def _are_releases_of(stated: pipeline.Programs, here: pipeline.Programs) -> bool
 def _find_printer(carrier: Carrier, registry: Registry) -> Renderer:
     """Return the renderer that made a document, as the document says."""
     own = (each for each in registry.renderers if is_made_by(each, carrier.creator))
-    return next(own, None) or registry.find_renderer(PRINTED)
+    return next(own, None) or registry.renderer(PRINTED)
 
 
 def _is_carried(renderer: Renderer, certificate: Certificate, carrier: Carrier) -> bool:

@@ -64,7 +64,7 @@ def _write_argument(effect: str, settings: Mapping[str, Any], job: Job, registry
     if effect in {each.identifier for each in job.candidates}:
         return effect
     try:
-        usual = registry.find_effect(effect).settings.model_dump(mode="json")
+        usual = registry.effect(effect).settings.model_dump(mode="json")
     except ZlmreportError:  # one that stands there several times has a number that no plugin knows
         usual = {}
     unusual = {key: value for key, value in settings.items() if key not in usual or usual[key] != value}

@@ -51,7 +51,7 @@ def test_the_first_page_and_the_digital_certificate_state_it(layout: str, tmp_pa
     said = repr(found.cover or found.sections[0].blocks)
     assert found.digest in said
     assert DIGEST.en in said
-    digital = registry().find_renderer("dcc").render(found).decode()
+    digital = registry().renderer("dcc").render(found).decode()
     assert f"<dcc:value>{found.digest}</dcc:value>" in digital
 
 

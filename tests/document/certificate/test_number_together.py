@@ -34,7 +34,7 @@ def stating(layout: str) -> Mapping[str, Any]:
 
 
 def text_of(document: Certificate, renderer: str) -> str:
-    reader = pypdf.PdfReader(io.BytesIO(registry().find_renderer(renderer).render(document)))
+    reader = pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(document)))
     return "\n".join(page.extract_text() for page in reader.pages)
 
 
@@ -61,10 +61,10 @@ def test_only_what_is_wider_than_its_column_is_smaller() -> None:
 
 def test_in_a_link_a_name_is_held_by_its_blanks_for_it_is_one_place_to_click(tmp_path: Path) -> None:
     document = certificate(tmp_path, having("evaluate", ["iso230-2:2014", "vdi-vde-2617"]))
-    page = registry().find_renderer("html").render(document).decode()
+    page = registry().renderer("html").render(document).decode()
     assert ">ISO\N{NO-BREAK SPACE}230-2:2014</a>" in page
     assert "\N{WORD JOINER}" not in page
-    printed = pypdf.PdfReader(io.BytesIO(registry().find_renderer("pdf").render(document)))
+    printed = pypdf.PdfReader(io.BytesIO(registry().renderer("pdf").render(document)))
     links = [
         each.get_object()["/Dest"]
         for sheet in printed.pages

@@ -34,12 +34,12 @@ def templates(folder: Path, **files: str) -> Path:
 
 
 def pdf(of: Certificate) -> pypdf.PdfReader:
-    return pypdf.PdfReader(io.BytesIO(registry().find_renderer("pdf").render(of)))
+    return pypdf.PdfReader(io.BytesIO(registry().renderer("pdf").render(of)))
 
 
 def refusal(of: Certificate, renderer: str = "html") -> str:
     with pytest.raises(InputError) as caught:
-        registry().find_renderer(renderer).render(of)
+        registry().renderer(renderer).render(of)
     return str(caught.value)
 
 
@@ -50,7 +50,7 @@ def test_text_is_set_in_the_typeface_and_graphs_in_the_bundled_one(tmp_path: Pat
     names = {str(font.get_object()["/BaseFont"]) for font in reader.pages[0]["/Resources"]["/Font"].values()}
     assert any("own-" in each for each in names)
     assert any("IBM-Plex-Sans-Italic" in each for each in names)
-    assert "data:font/sfnt" in registry().find_renderer("html").render(found).decode()
+    assert "data:font/sfnt" in registry().renderer("html").render(found).decode()
 
 
 @pytest.mark.long
@@ -96,7 +96,7 @@ def test_a_font_that_must_not_be_embedded_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("renderer", ["pdf", "html"])
 def test_a_template_takes_the_place_of_one_kind_of_block(tmp_path: Path, renderer: str) -> None:
     house = templates(tmp_path, notice_html=NOTICE, style_css=".house { background: #fbeef2 }")
-    content = registry().find_renderer(renderer).render(styled(tmp_path, templates=str(house)))
+    content = registry().renderer(renderer).render(styled(tmp_path, templates=str(house)))
     if renderer == "html":
         assert content.decode().count('<div class="house">') == content.decode().count('class="notice"') > 0
         assert ".house { background: #fbeef2 }" in content.decode()

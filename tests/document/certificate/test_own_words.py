@@ -77,7 +77,7 @@ def test_what_cannot_be_printed_is_refused(tmp_path: Path, keys: Mapping[str, An
 @pytest.mark.parametrize("renderer", ["pdf", "pdf-typst", "html"])
 def test_each_renderer_has_the_colour_and_the_lines(tmp_path: Path, renderer: str) -> None:
     style = {"accent": "#5c1a33", "logo": "left", "footer": "Order 4711"}
-    made = registry().find_renderer(renderer).render(certificate(tmp_path, having(style=style)))
+    made = registry().renderer(renderer).render(certificate(tmp_path, having(style=style)))
     if renderer == "html":
         assert b"#5c1a33" in made
         assert b"#0d4a63" not in made

@@ -46,7 +46,7 @@ OPINION = [{"statement": "The axis is worn.", "basis": "The reversal error grew.
 
 
 def pages(of: Certificate, renderer: str = "pdf-typst") -> list[str]:
-    reader = pypdf.PdfReader(io.BytesIO(registry().find_renderer(renderer).render(of)))
+    reader = pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of)))
     return [page.extract_text() for page in reader.pages]
 
 
@@ -434,7 +434,7 @@ def test_what_departs_from_the_standard_stands_on_the_page(tmp_path: Path) -> No
 
 def _lowest(of: Certificate, renderer: str) -> float:
     """Return how high the text of the first page stands, in points, from its top margin."""
-    reader = pypdf.PdfReader(io.BytesIO(registry().find_renderer(renderer).render(of)))
+    reader = pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of)))
     page = reader.pages[0]
     found: list[float] = []
 

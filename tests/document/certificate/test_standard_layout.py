@@ -65,7 +65,7 @@ def seven_in_full(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
 
 
 def pages(of: Certificate, renderer: str = "pdf-typst") -> list[pypdf.PageObject]:
-    return list(pypdf.PdfReader(io.BytesIO(registry().find_renderer(renderer).render(of))).pages)
+    return list(pypdf.PdfReader(io.BytesIO(registry().renderer(renderer).render(of))).pages)
 
 
 def blocks(of: Certificate) -> list[Block]:

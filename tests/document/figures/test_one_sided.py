@@ -15,7 +15,7 @@ from zlmreport.job.types import Options
 from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import bidirectional_test
 
-ISO = find_plugins().find_standard("iso230-2:2014")
+ISO = find_plugins().standard("iso230-2:2014")
 NAN = float("nan")
 
 

@@ -19,7 +19,7 @@ ALL = ["iso230-2:1988", "iso230-2:2014", "vdi-dgq-3441", "nmtba"]
 
 @cache
 def found() -> dict[str, StandardForecast]:
-    standards = [(registry().find_standard(name), registry().find_standard(name).options()) for name in ALL]
+    standards = [(registry().standard(name), registry().standard(name).options()) for name in ALL]
     return {each.standard: each for each in make_forecasts(standards, example(), example_history())}
 
 
@@ -38,7 +38,7 @@ def test_the_leading_parameter_of_each_group_is_forecast(standard: str, symbols:
 
 @pytest.mark.parametrize("standard", ALL)
 def test_the_first_step_is_what_was_measured(standard: str) -> None:
-    chosen = registry().find_standard(standard)
+    chosen = registry().standard(standard)
     evaluation = evaluate(chosen, example().measurements, chosen.options(), {})
     expected = [evaluation.value(quantity.symbol) for quantity in found()[standard].quantities]
     np.testing.assert_allclose(found()[standard].by_step[0], expected, rtol=1e-12)
@@ -46,7 +46,7 @@ def test_the_first_step_is_what_was_measured(standard: str) -> None:
 
 @pytest.mark.parametrize("standard", ALL)
 def test_each_step_is_what_the_standard_says_of_the_corrected_readings(standard: str) -> None:
-    chosen = registry().find_standard(standard)
+    chosen = registry().standard(standard)
     for step, each in enumerate(example_history()):
         left = correct_by_model(example().measurements, example().observed, each.fit)
         evaluation = evaluate(chosen, left, chosen.options(), {})

@@ -93,7 +93,7 @@ def test_u_reaches_to_the_flat_axis_of_which_the_readings_may_be_a_test() -> Non
     test = simulated_test(11)
     errors = 1e-6 * np.array([NormalDist().inv_cdf((each + 0.5) / 11) for each in range(11)])
     shown = replace(test, deviation=read_only_floats(errors[test.target]))
-    standard = find_plugins().find_standard("iso230-2:2014")
+    standard = find_plugins().standard("iso230-2:2014")
     evaluation = evaluate(standard, shown, Options(), {})
 
     (found,) = propagate(

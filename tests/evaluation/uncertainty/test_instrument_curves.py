@@ -30,7 +30,7 @@ def evaluate_straightness(
     """Return the straightness of a line and its U; `error`: u of the body it is held against, µm."""
     readings = deviation[:, np.newaxis]
     line = bidirectional_test(at, readings, readings, axis=Axis("X", quantity=STRAIGHTNESS, error="EYX"))
-    standard = evaluate_for_error(find_plugins().find_standard("iso230-1:2012"), "EYX")
+    standard = evaluate_for_error(find_plugins().standard("iso230-1:2012"), "EYX")
     options = standard.options()
     evaluation = evaluate(standard, line, options, {})
     mirror = replace(contribution(error, Acts.AT_EACH_POSITION), contributor="instrument")
@@ -86,7 +86,7 @@ def test_u_of_a_range_holds_an_instrument_that_errs_by_a_wave() -> None:
     curve = 4.0 * np.sin(2 * np.pi * at / 1000 + 0.3)
     readings = curve[:, np.newaxis]
     test = bidirectional_test(at, readings, readings)
-    standard = find_plugins().find_standard("iso230-2:2014")
+    standard = find_plugins().standard("iso230-2:2014")
     options = standard.options()
     laser = replace(contribution(0.5, Acts.AT_EACH_POSITION), contributor="instrument")
     (found,) = propagate(

@@ -20,7 +20,7 @@ from zlmreport.plugin.registry import find_plugins
 from zlmreport.testing import simulated_test
 
 LINE = simulated_test(11)
-STANDARD = find_plugins().find_standard("iso230-2:2014")
+STANDARD = find_plugins().standard("iso230-2:2014")
 
 
 def scaled(line: MeasurementSet, share: float = 0.01) -> Budget:

@@ -138,7 +138,7 @@ class Calibration:
 
     def true_parameters(self) -> dict[str, float]:
         """Return the parameters of the standard for what the axis really did, m."""
-        found = evaluate(registry().find_standard(STANDARD), self.machine.truth, Options(), {})
+        found = evaluate(registry().standard(STANDARD), self.machine.truth, Options(), {})
         return {each.quantity.symbol: each.value for each in found.parameters}
 
 
@@ -161,11 +161,11 @@ def calibration(
     effects = [_SCALE_ERROR] if method is Method.UNIDIRECTIONAL else [_SCALE_ERROR, _BACKLASH]
     keys = {"bench": bench, "method": method, "runs": runs}
     simulation.write_text(_SIMULATION.format(**keys, effects=", ".join(effects)), encoding="utf-8")
-    description = read_description_of(load_simulation(simulation, registry()), registry().find_effect)
+    description = read_description_of(load_simulation(simulation, registry()), registry().effect)
     machine = make_emulated_machine(description, _LEAD)
     positions = np.round(description.plan.targets * 1e3, 9).tolist()
     job.write_text(_JOB.format(**keys, positions=positions, port=PORT, standard=STANDARD), encoding="utf-8")
-    emulator = registry().find_instrument(bench.instrument).emulator(Scene(machine))
+    emulator = registry().instrument(bench.instrument).emulator(Scene(machine))
     with inhabited(World(emulator, machine.duration + _LEAD, line)):
         assert main(["capture", str(job)]) == 0
     assert main([str(job), "--quiet"]) == 0

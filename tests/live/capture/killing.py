@@ -111,9 +111,9 @@ def killed_capture(folder: Path, kills: int, runs: int, seed: int = 1) -> Killed
     simulation, job = folder / "simulation.yaml", folder / "job.yaml"
     simulation.write_text(_SIMULATION.format(runs=runs), encoding="utf-8")
     registry = find_plugins()
-    axis = OperatedAxis(read_description_of(load_simulation(simulation, registry), registry.find_effect))
+    axis = OperatedAxis(read_description_of(load_simulation(simulation, registry), registry.effect))
     done = Killed(axis, job, folder / "x.journal")
-    with _plugged_in(registry.find_instrument("umd1").emulator(Scene(axis))) as (port, now):
+    with _plugged_in(registry.instrument("umd1").emulator(Scene(axis))) as (port, now):
         job.write_text(_JOB.format(port=port, runs=runs), encoding="utf-8")
         while not (done.has_begun and done.history.progress.is_over):
             _sitting(done, now, random if done.kills < kills else None)

@@ -165,7 +165,7 @@ def test_expected_temperatures_rise_by_what_the_job_says() -> None:
 def test_only_conditions_that_an_effect_asks_for_are_its_logs() -> None:
     design = plan_of_test().design
     found = {
-        name: list_logs_of(REGISTRY.find_effect(name), design)
+        name: list_logs_of(REGISTRY.effect(name), design)
         for name in ("offset", "dead-path", "screw-expansion")
     }
     assert found == {

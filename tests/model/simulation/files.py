@@ -43,7 +43,7 @@ def loaded(text: str, folder: Path) -> SimulationFile:
 
 
 def described(text: str, folder: Path) -> Description:
-    return read_description_of(loaded(text, folder), REGISTRY.find_effect)
+    return read_description_of(loaded(text, folder), REGISTRY.effect)
 
 
 def mistakes(text: str, folder: Path) -> list[str]:

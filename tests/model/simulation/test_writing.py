@@ -22,7 +22,7 @@ def _there_and_back(text: str, folder: Path) -> tuple[MeasurementSet, Measuremen
     made = simulate(described(text, folder)).measurements
     path = folder / "readings.csv"
     path.write_text(write_readings_table(made, ["made up"]), encoding="utf-8")
-    source = REGISTRY.find_source("laser-csv")
+    source = REGISTRY.source("laser-csv")
     options = source.options.model_validate({"file": path})
     return made, source.read(options, SourceContext(made.axis, Place("job.yaml")))
 

@@ -210,7 +210,7 @@ def test_readings_are_handed_on_read_only(tmp_path: Any) -> None:
         def read(self, options: Any, context: SourceContext) -> MeasurementSet:
             return replace(super().read(options, context), deviation=np.zeros(6))
 
-    source = collect([(OTHER, offering(sources=[Open()]))]).find_source("exemplary-text")
+    source = collect([(OTHER, offering(sources=[Open()]))]).source("exemplary-text")
     (tmp_path / "six.txt").write_text("1 2 3 4 5 6", encoding="utf-8")
     job = loaded(SOUND, tmp_path)
     read = source.read(job.source.options, SourceContext(job.axis, Place("x")))

@@ -38,12 +38,12 @@ def curve() -> CompensationTable:
 
 
 def written(name: str, of: CompensationTable, **keys) -> dict[str, str]:
-    controller = find_plugins().find_controller(name)
+    controller = find_plugins().controller(name)
     return dict(controller.files(of, controller.options.model_validate(keys)))
 
 
 def decoded(name: str, files: dict[str, str], of: CompensationTable, **keys) -> CompensationTable:
-    controller = find_plugins().find_controller(name)
+    controller = find_plugins().controller(name)
     return controller.read(files, of, controller.options.model_validate(keys))
 
 

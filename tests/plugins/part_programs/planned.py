@@ -13,5 +13,5 @@ REGISTRY = find_plugins()
 
 def written(identifier: str, motion: Motion | None = None, **keys: Any) -> str:
     """Return the program of a motion, by default of the linear method with two runs."""
-    program = REGISTRY.find_part_program(identifier)
+    program = REGISTRY.part_program(identifier)
     return program.write(motion or sample_motion(), program.options(**keys))

@@ -23,7 +23,7 @@ controls = pytest.mark.parametrize("control", CONTROLS)
 
 
 def written(identifier: str, path: CirclePath | None = None, **keys: Any) -> str:
-    program = REGISTRY.find_part_program(identifier)
+    program = REGISTRY.part_program(identifier)
     write = find_circle_writer(program)
     assert write is not None
     return write(path or sample_circle_path(), program.options(**keys))
@@ -36,7 +36,7 @@ def done(identifier: str, path: CirclePath | None = None, **keys: Any) -> Tool:
 @controls
 @pytest.mark.parametrize("check", CIRCLE_PROGRAM_CHECKS, ids=lambda check: check.__name__)
 def test_it_passes_the_kit(control: str, check: Any) -> None:
-    check(REGISTRY.find_part_program(control), lambda text: CONTROLS[control](text).moves, {})
+    check(REGISTRY.part_program(control), lambda text: CONTROLS[control](text).moves, {})
 
 
 @controls

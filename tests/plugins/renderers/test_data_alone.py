@@ -22,7 +22,7 @@ def test_data_are_those_beside_a_document(name: str) -> None:
     whole = pipeline.compose(job, registry, trials=_TRIALS)
     assert (alone.cover, alone.sections, alone.linked) == ((), (), None)
     assert whole.figures
-    renderers = [registry.find_renderer(each) for each in _DATA]
+    renderers = [registry.renderer(each) for each in _DATA]
     assert pipeline.render(alone, renderers, registry) == pipeline.render(whole, renderers, registry)
 
 

@@ -29,7 +29,7 @@ def plate(tmp_path_factory: pytest.TempPathFactory) -> Certificate:
 
 
 def rendered(of: Certificate, identifier: str) -> bytes:
-    return pipeline.render(of, [registry().find_renderer(identifier)], registry())[identifier]
+    return pipeline.render(of, [registry().renderer(identifier)], registry())[identifier]
 
 
 def test_a_workbook_has_the_parameters_and_the_readings_and_no_empty_sheet(plate: Certificate) -> None:

@@ -95,7 +95,7 @@ def test_every_number_and_every_sentence_of_a_real_certificate_stands_in_both(jo
     sentences = list(_sentences(certificate))
     assert len(sentences) > 20
     for identifier in ("pdf", "pdf-typst"):
-        reader = PdfReader(BytesIO(registry.find_renderer(identifier).render(certificate)))
+        reader = PdfReader(BytesIO(registry.renderer(identifier).render(certificate)))
         body = _body(reader, _running(certificate))
         assert [sentence for sentence in sentences if _unspaced(sentence) not in body] == []
         assert not numbers_of(certificate) - printed_numbers("\n".join(texts(reader)))

@@ -32,7 +32,7 @@ def table(folder: Path, name: str, values: np.ndarray, order: int = 1) -> Path:
 
 
 def read(folder: Path, axis: Axis = STRAIGHTNESS, order: int = 1, **keys: Any) -> MeasurementSet:
-    source = find_plugins().find_source("laser-csv-reversal")
+    source = find_plugins().source("laser-csv-reversal")
     first = table(folder, "first.csv", AXIS + MIRROR)
     second = table(folder, "second.csv", AXIS - MIRROR + 0.001 * POSITIONS, order)
     options = source.options.model_validate({"file": first, "reversed": second, **keys})

@@ -246,7 +246,7 @@ def read_addition(
     identifier = named.choice.identifier
     if any(each.identifier == identifier for each in job.effects) and not named.choice.is_formula:
         again = find_next_number(named.choice.installed, job.effects)
-        if registry.find_effect(named.choice.installed).several and text.strip().startswith(identifier):
+        if registry.effect(named.choice.installed).several and text.strip().startswith(identifier):
             text = text.replace(identifier, number_effect(named.choice.installed, again), 1)
             named = read_named_effect(text, registry, place)
             identifier = named.choice.identifier

@@ -235,7 +235,7 @@ class Registry:
         """All live instruments."""
         return self.list_all(kinds.INSTRUMENT)
 
-    def find_standard(self, identifier: str, named_at: Place | None = None) -> Standard:
+    def standard(self, identifier: str, named_at: Place | None = None) -> Standard:
         """Return a standard, as `find` does; by the name of an identical adoption, too."""
         if identifier not in self.list_identifiers(kinds.STANDARD):
             from zlmreport.job.installed import list_adoptions_of  # noqa: PLC0415 - a listing of names needs no jobs
@@ -245,15 +245,15 @@ class Registry:
                     return each
         return self.find(kinds.STANDARD, identifier, named_at)
 
-    def find_source(self, identifier: str, named_at: Place | None = None) -> DataSource:
+    def source(self, identifier: str, named_at: Place | None = None) -> DataSource:
         """Return a data source, as `find` does."""
         return self.find(kinds.SOURCE, identifier, named_at)
 
-    def find_renderer(self, identifier: str, named_at: Place | None = None) -> Renderer:
+    def renderer(self, identifier: str, named_at: Place | None = None) -> Renderer:
         """Return a renderer, as `find` does."""
         return self.find(kinds.RENDERER, identifier, named_at)
 
-    def find_effect(self, identifier: str, named_at: Place | None = None) -> Effect:
+    def effect(self, identifier: str, named_at: Place | None = None) -> Effect:
         """Return an effect, as `find` does; ``scale-joint-2`` is the second of those that may be several."""
         from zlmreport.job.choices import part_number  # noqa: PLC0415 - a listing of names needs no jobs
 
@@ -264,11 +264,11 @@ class Registry:
                 return first.repeated(number)
         return self.find(kinds.EFFECT, identifier, named_at)
 
-    def find_circle_effect(self, identifier: str, named_at: Place | None = None) -> CircleEffect:
+    def circle_effect(self, identifier: str, named_at: Place | None = None) -> CircleEffect:
         """Return an effect of circles, as `find` does."""
         return self.find(kinds.CIRCLE_EFFECT, identifier, named_at)
 
-    def find_part_program(
+    def part_program(
         self, identifier: str, named_at: Place | None = None, takes: type | None = None
     ) -> PartProgram:
         """Return a writer of part programs, as `find` does, among those that `programs_for` returns."""
@@ -283,20 +283,20 @@ class Registry:
         """Return the part programs that are written of this; without it, of the motion of a planned test."""
         return tuple(each for each in self.part_programs if _is_for(each, takes))
 
-    def find_controller(self, identifier: str, named_at: Place | None = None) -> Controller:
+    def controller(self, identifier: str, named_at: Place | None = None) -> Controller:
         """Return a control for which compensation tables are written, as `find` does."""
         return self.find(kinds.CONTROLLER, identifier, named_at)
 
-    def find_extension(self, identifier: str, named_at: Place | None = None) -> Extension:
+    def extension(self, identifier: str, named_at: Place | None = None) -> Extension:
         """Return a group of job keys that a plugin adds, as `find` does."""
         return self.find(kinds.EXTENSION, identifier, named_at)
 
     def list_extensions_of(self, job: Job) -> Iterator[tuple[Extension, ExtensionChoice]]:
         """Yield the extensions whose groups of keys a job has."""
         for choice in job.extensions:
-            yield self.find_extension(choice.identifier), choice
+            yield self.extension(choice.identifier), choice
 
-    def find_instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
+    def instrument(self, identifier: str, named_at: Place | None = None) -> Instrument:
         """Return a live instrument, as `find` does."""
         return self.find(kinds.INSTRUMENT, identifier, named_at)
 
