@@ -54,7 +54,7 @@ def evaluate(
     options: Any,
     tolerances: Mapping[str, float],
 ) -> Evaluation:
-    """Evaluate one test by one standard; nothing is decided on its limits yet (`decision.with_decisions`).
+    """Evaluate one test by one standard; nothing is decided on its limits yet.
 
     Parameters
     ----------

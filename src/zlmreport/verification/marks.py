@@ -43,14 +43,15 @@ class DrawnMark:
         return (
             self.what == other.what
             and _are_close(self.scale, other.scale, _TOLERANCE_OF_SCALE)
-            and _are_close(self._make_shape(), other._make_shape(), TOLERANCE)
+            and _are_close(self._shape, other._shape, TOLERANCE)
         )
 
     def is_where(self, other: DrawnMark) -> bool:
         """Whether both stand at the same place."""
         return _are_close(self.place, other.place, TOLERANCE)
 
-    def _make_shape(self) -> tuple[float, ...]:
+    @property
+    def _shape(self) -> tuple[float, ...]:
         return tuple(each - self.place[index % 2] for index, each in enumerate(self.place))
 
 
