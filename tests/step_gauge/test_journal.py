@@ -17,7 +17,7 @@ FIRST, SECOND, *_ = PATH.probings
 def taken(result: Path) -> Path:
     """Return a journal that holds the first point."""
     with PointJournal(result, PATH) as journal:
-        journal.take(FIRST, FIRST.place_away(2e-3), {})
+        journal.take(FIRST, FIRST.away(2e-3), {})
     return journal.part
 
 
@@ -30,7 +30,7 @@ def test_a_point_is_on_the_disk_as_soon_as_it_is_taken(tmp_path: Path) -> None:
 
 def test_what_else_the_machine_reports_stands_in_a_remark(tmp_path: Path) -> None:
     with PointJournal(tmp_path / "raw.csv", PATH) as journal:
-        journal.take(FIRST, FIRST.place_away(2e-3), {"Temperature": 20.125})
+        journal.take(FIRST, FIRST.away(2e-3), {"Temperature": 20.125})
     assert journal.part.read_text("ascii").endswith("\n# face 1, cycle 1: Temperature 20.125\n")
     with PointJournal(tmp_path / "raw.csv", PATH) as again:
         assert again.done == {(1, 1)}
@@ -42,7 +42,7 @@ def test_a_row_that_was_torn_off_is_cut_away(tmp_path: Path) -> None:
     part.write_bytes(sound + b"3,1,300.0")
     with PointJournal(tmp_path / "raw.csv", PATH) as journal:
         assert journal.done == {(1, 1)}
-        journal.take(SECOND, SECOND.place_away(2e-3), {})
+        journal.take(SECOND, SECOND.away(2e-3), {})
     assert part.read_bytes().startswith(sound + b"3,1,300.00000,")
 
 

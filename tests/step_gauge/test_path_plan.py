@@ -149,5 +149,5 @@ def test_of_a_path_that_is_done_nothing_is_left() -> None:
 
 def test_a_point_away_from_a_face_lies_in_front_of_it() -> None:
     probing = Probing(1, 1, (1.0, 2.0, 3.0), (0.0, -1.0, 0.0))
-    assert probing.place_away(0.5) == (1.0, 1.5, 3.0)
-    assert math.dist(probing.place_away(0.5), probing.target) == 0.5
+    assert probing.away(0.5) == (1.0, 1.5, 3.0)
+    assert math.dist(probing.away(0.5), probing.target) == 0.5

@@ -48,7 +48,7 @@ def test_every_point_is_the_tips_centre_an_effective_radius_before_its_face(run:
     for row in rows(tmp_path / "raw.csv"):
         probing = targets[int(row["face"]), int(row["cycle"])]
         centre = np.array([float(row[axis]) for axis in "xyz"]) * 1e-3
-        assert centre == pytest.approx(np.array(probing.place_away(RADIUS)), abs=5.1e-9)  # five digits of mm
+        assert centre == pytest.approx(np.array(probing.away(RADIUS)), abs=5.1e-9)  # five digits of mm
         assert [float(row[axis]) for axis in "ijk"] == pytest.approx(probing.normal, abs=5.1e-8)
 
 

@@ -55,7 +55,7 @@ class Probing:
     target: Point
     normal: Point
 
-    def place_away(self, distance: float) -> Point:
+    def away(self, distance: float) -> Point:
         """Return the point in front of the face at a distance from it, m."""
         return shift(self.target, self.normal, distance)
 
@@ -109,7 +109,7 @@ class ProbingPath:
     def stops(self) -> tuple[Point, ...]:
         """Where the tip's centre is at the end of each move, m; at a face it has touched it."""
         return tuple(
-            move.to if isinstance(move, Travel) else move.place_away(self.tip_radius) for move in self.moves
+            move.to if isinstance(move, Travel) else move.away(self.tip_radius) for move in self.moves
         )
 
     @property

@@ -176,7 +176,7 @@ def _order_sides(planned: PlannedPath, eye: _Eye, which: slice) -> FloatArray:
 def _draw_touches(planned: PlannedPath, eye: _Eye) -> Iterator[Touch]:
     path = planned.path
     for probing in _list_probings(planned):
-        ends = [probing.place_away(path.approach + path.tip_radius), probing.place_away(path.tip_radius)]
+        ends = [probing.away(path.approach + path.tip_radius), probing.away(path.tip_radius)]
         start, end = eye.see(np.array(ends))
         yield Touch(_find_side(probing), start, end, MILLIMETRE.from_si(path.tip_radius))
 
