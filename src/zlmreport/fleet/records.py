@@ -127,7 +127,7 @@ class PastNight:
     notices: tuple[NightNotice, ...] = ()  #: What concerned all of it.
     came_to: Mapping[State, int] = field(default_factory=dict)  #: How many jobs became what in it.
     beat: datetime | None = None  #: When it gave its last sign of life.
-    is_at_work: bool = False  #: Whether it still goes on; as somebody with a clock says, `seen_at`.
+    is_at_work: bool = False  #: Whether it still goes on; as somebody with a clock says, `see_at`.
 
     @property
     def seconds(self) -> float | None:

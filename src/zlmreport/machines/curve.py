@@ -1,9 +1,9 @@
 """A component error over its axis, as it was measured, with its covariance.
 
 A curve is known at its nodes and linear between them; where both directions of travel were measured, each
-has its own. Nothing is extrapolated: beyond the nodes the end value stands and `outside` says so. All that is
-read from a curve is a linear function of its nodes, so that the covariance of these is carried through
-exactly.
+has its own. Nothing is extrapolated: beyond the nodes the end value stands and `find_outside` says so. All
+that is read from a curve is a linear function of its nodes, so that the covariance of these is carried
+through exactly.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ class Values:
         )
 
     def list_columns(self, parameter: Words = _PARAMETER) -> tuple[Column, ...]:
-        """Return the headings of a row's symbol, of its parameter, and of what `cells` are."""
+        """Return the headings of a row's symbol, of its parameter, and of what `list_cells` are."""
         return tuple(self._make_columns(parameter))
 
     def list_cells(self, parameter: EvaluatedParameter) -> tuple[Cell, ...]:

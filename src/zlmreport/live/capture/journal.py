@@ -219,7 +219,7 @@ def _sum(body: bytes, before: str) -> str:
 class Journal(Closable):
     """A journal that is open for records; only one capture can have it.
 
-    Make one by `begun` or `continued`, and leave it as a context manager.
+    Make one by `begin` or `resume`, and leave it as a context manager.
     """
 
     def __init__(self, file: JournalFile, header: Header, last_sum: str) -> None:

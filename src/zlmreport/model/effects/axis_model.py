@@ -148,7 +148,7 @@ class AxisModel:
     def add_linked(
         self, design: Design, thetas: Sequence[FloatArray], own: Sequence[tuple[FloatArray, FloatArray]]
     ) -> list[tuple[FloatArray, FloatArray]]:
-        """Return what `columns` does, from the columns of each term by itself."""
+        """Return what `compute_columns` does, from the columns of each term by itself."""
         found = list(own)
         for index, column, other, place in self._list_links(lambda effect: effect.linear):
             linked = self.terms[index].effect.columns(design, thetas[index])[:, column]

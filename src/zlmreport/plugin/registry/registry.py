@@ -271,7 +271,7 @@ class Registry:
     def part_program(
         self, identifier: str, named_at: Place | None = None, takes: type | None = None
     ) -> PartProgram:
-        """Return a writer of part programs, as `find` does, among those that `programs_for` returns."""
+        """Return a writer of part programs, as `find` does, among those that `list_programs_for` returns."""
         if identifier in self.list_identifiers(kinds.PART_PROGRAM):
             program = self.find(kinds.PART_PROGRAM, identifier, named_at)
             if _is_for(program, takes):
